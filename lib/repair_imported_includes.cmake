@@ -1,0 +1,16 @@
+# Debian bookworm's OpenImageIO exports the include folder of an OpenCV that it does not depend on, and CMake refuses
+# imported targets whose folders are missing. Drop the folders that do not exist.
+function(vmlight_repair_imported_includes)
+  foreach(imported IN LISTS ARGN)
+    if(TARGET ${imported})
+      get_target_property(folders ${imported} INTERFACE_INCLUDE_DIRECTORIES)
+      set(existing)
+      foreach(folder IN LISTS folders)
+        if(folder MATCHES "^\\$<" OR EXISTS "${folder}")
+          list(APPEND existing "${folder}")
+        endif()
+      endforeach()
+      set_target_properties(${imported} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing}")
+    endif()
+  endforeach()
+endfunction()

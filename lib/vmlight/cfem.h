@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Cosine-filtered environment maps (CFEM): for each direction n, the light of the whole hemisphere around it,
+///     C(n) = (1/pi) Int L(w) max(0, n.w) dw,
+/// which is irradiance / pi: a constant environment L gives C = L.
+/// Source: I. Neulander, "Image-Based Diffuse Lighting Using Visibility Maps", section 3.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/params.h>
+#include <vmlight/progress.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <string>
+
+namespace vmlight {
+
+struct CfemParams {
+    /// `exact` filters by row prefix sums; `sh` projects to spherical harmonics, for comparison.
+    std::string filter = "exact";
+    /// Bands of the `sh` filter: order N keeps l = 0 .. N-1, N*N coefficients a channel.
+    int order = 3;
+    int width = 256;
+    int height = 128;
+
+    template<class Visit>
+    void visit(Visit&& field)
+    {
+        field("filter", filter, Choices { { "exact", "sh" } }, "How to filter: exactly, or by spherical harmonics");
+        field("order", order, Range { 1, 64 }, "Bands of the sh filter; 3 is the usual nine coefficients");
+        field("width", width, Range { 1, 16384 }, "Width of the result, in pixels");
+        field("height", height, Range { 1, 8192 }, "Height of the result, in pixels");
+    }
+};
+
+/// Filter an environment with a cosine.
+///
+/// @param dst      set to a `width` x `height` float image of R, G, B: a lat-long map in the frame of latlong.h
+/// @param env      a lat-long map of any size from 1x1, with channels R, G, B or one channel, in linear light. Its
+///                 pixels are taken as constant over their area, or, if the file says `oiio:sampleborder`, as
+///                 samples that lie on the seam and the poles. May be backed by an ImageCache: it is read row by row.
+/// @param params   `exact` (the default) integrates each row of the environment in closed form along longitude and
+///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy kept; its cost grows with
+///                 the height of `env` and not with its width. `sh` rings, below 0 too, under small bright lights.
+/// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
+/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, or a pixel
+///          is NaN, infinite or negative (how many, where the first is, and the flag that mends them); `dst` then has
+///          no pixels. Not checked: that `env` is scene-linear, or a lat-long map at all.
+VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params = {},
+                           int nthreads = 0, const Progress& progress = {});
+
+} // namespace vmlight

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/channels.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight {
+
+using OIIO::Strutil::fmt::format;
+
+bool
+find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
+{
+    const std::string stage = spec.get_string_attribute("vmlight:stage");
+    if (!stage.empty() && stage != kVismapStage) {
+        error = format("not a visibility map: its vmlight:stage is \"{}\", not \"{}\"", stage, kVismapStage);
+        return false;
+    }
+    for (size_t c = 0; c < kVismapChannels.size(); ++c) {
+        index[c] = spec.channelindex(kVismapChannels[c]);
+        if (index[c] < 0) {
+            error = format("not a visibility map: no channel \"{}\" among {}", kVismapChannels[c],
+                           OIIO::Strutil::join(spec.channelnames, ", "));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool
+find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error)
+{
+    if (spec.get_string_attribute("vmlight:stage") == kVismapStage) {
+        error = "a visibility map, not light: its vmlight:stage is \"vismap\"";
+        return false;
+    }
+    index = { spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B") };
+    if (index[0] >= 0 && index[1] >= 0 && index[2] >= 0)
+        return true;
+    const int gray = spec.nchannels == 1 ? 0 : spec.channelindex("Y");
+    if (gray >= 0) {
+        index = { gray, gray, gray };
+        return true;
+    }
+    error = format("no channels R, G, B among {}", OIIO::Strutil::join(spec.channelnames, ", "));
+    return false;
+}
+
+} // namespace vmlight

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The image contract of the stages: channel names and the metadata that says what an image is.
+/// Channels are found by name and never by index: EXR sorts them when it writes.
+#pragma once
+
+#include <vmlight/export.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <string>
+
+namespace vmlight {
+
+/// `vmlight:stage` of a visibility map, a cosine-filtered environment map and a shaded texture.
+constexpr const char* kVismapStage = "vismap";
+constexpr const char* kCfemStage = "cfem";
+constexpr const char* kLightmapStage = "lightmap";
+
+/// Channels of a visibility map, in the order it is made: `visibility`, `direction.x`, `direction.y`, `direction.z`.
+constexpr std::array<const char*, 4> kVismapChannels { "visibility", "direction.x", "direction.y", "direction.z" };
+/// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
+constexpr const char* kCoverageChannel = "coverage";
+
+/// Find the four channels of a visibility map.
+///
+/// @param index    set to the channels' places in the order of kVismapChannels
+/// @param error    set to what is missing and what was found, if any is missing or `vmlight:stage` says another stage
+/// @returns false if the image is not a visibility map. An image without `vmlight:stage` passes on its channels alone.
+VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
+
+/// Find the colour channels R, G, B; a map of one channel, or of one named Y, serves as all three.
+///
+/// @param index    set to the channels' places
+/// @param error    set to what is missing and what was found, if there is no colour or `vmlight:stage` is `vismap`
+/// @returns false if the image has no colour to be used as light.
+VMLIGHT_API bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error);
+
+} // namespace vmlight

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Environments and albedo into the scene-linear working space, by OIIO's ColorConfig (OpenColorIO).
+#pragma once
+
+#include <vmlight/export.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <string>
+
+namespace vmlight {
+
+struct ColorSettings {
+    /// OCIO config file; "" means $OCIO, and if that is not set, no config.
+    std::string config;
+    /// Colour space of the image; "" means: ask the config's file rules, then the file's own metadata.
+    std::string from;
+};
+
+/// Convert `image` in place into the config's role `scene_linear`, and tag it with its space.
+///
+/// The space it comes from is the first of: `settings.from`; the config's file rules for `path`, when a rule other than
+/// the default one matches; the file's `colorInteropID`; sRGB for images of 8 or 16 bits whole numbers; else the
+/// working space itself. Without a config the working space is linear with the primaries of Rec.709 and only sRGB is
+/// converted.
+///
+/// @param note     set to one line that says what was done: "Linear Rec.709 (sRGB) -> ACEScg"
+/// @param error    set if the config cannot be read, or a space is not in it (the nearest name is told)
+/// @returns false on error; `image` is then as it was. Not checked: that the named space is true.
+VMLIGHT_API bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings,
+                                 std::string& note, std::string& error);
+
+/// Tag `spec` as scene-linear colour of the working space: `colorInteropID` and `chromaticities`, so far as known.
+VMLIGHT_API void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id);
+/// Tag `spec` as data that no tool may convert.
+VMLIGHT_API void tag_data(OIIO::ImageSpec& spec);
+
+} // namespace vmlight

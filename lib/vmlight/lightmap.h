@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Shaded textures: a visibility map lit by a cosine-filtered environment, for any rotation of the object.
+/// Source: I. Neulander, "Image-Based Diffuse Lighting Using Visibility Maps", section 4.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/params.h>
+#include <vmlight/progress.h>
+#include <vmlight/rotation.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+struct LightmapParams {
+    /// How V and B become light; `paper` is V C(R B / |B|).
+    std::string model = "paper";
+    /// The rotation of the object into the environment: one of these three, or none.
+    std::vector<double> rotate, matrix, quaternion;
+    /// Turns the environment instead, by the same angles; applied after the object's own rotation.
+    std::vector<double> env_rotate;
+    /// Stops: the result is multiplied by 2^exposure.
+    double exposure = 0;
+
+    template<class Visit>
+    void visit(Visit&& field)
+    {
+        field("model", model, Choices { { "paper" } }, "Shading model: visibility times the CFEM along the mean direction");
+        field("rotate", rotate, Numbers { 3 }, "Turn the object: x,y,z degrees about fixed x, then y, then z");
+        field("matrix", matrix, Numbers { 9 }, "Turn the object: a rotation matrix, row major, for column vectors");
+        field("quaternion", quaternion, Numbers { 4 }, "Turn the object: w,x,y,z");
+        field("env_rotate", env_rotate, Numbers { 3 }, "Turn the environment: x,y,z degrees, as for rotate");
+        field("exposure", exposure, Range { -64, 64 }, "Stops to brighten the result by");
+    }
+};
+
+/// The rotation from object space to environment space that `params` asks for: with the object turned by R and the
+/// environment by E, light arrives along object direction w from environment direction E^-1 R w.
+/// False, with the reason in `error`, if more than one of rotate, matrix, quaternion is given, or one is not a rotation.
+VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, std::string& error);
+
+/// Light a visibility map.
+///
+/// @param dst      set to a float image of R, G, B with the size of `vismap`: albedo x estimate of
+///                 (1/pi) Int L(R w) vis(w) max(0, n.w) dw, the radiance that leaves a Lambertian surface. 0 where
+///                 visibility is 0
+/// @param vismap   channels `visibility`, `direction.x`, `direction.y`, `direction.z`, found by name, in any order
+/// @param cfem     a lat-long map of R, G, B as make_cfem() makes it, of any size from 1x1. Looked up bilinearly,
+///                 continuous over seam and poles
+/// @param albedo   nullptr, or an initialised colour image in linear light, resized to `vismap` if its size differs
+/// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
+/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, an image is not what it should
+///          be, or a pixel of one is not finite; `dst` then has no pixels.
+///          Not checked: that `cfem` was filtered with a cosine, unless its `vmlight:stage` says otherwise.
+VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& vismap, const OIIO::ImageBuf& cfem,
+                               const LightmapParams& params = {}, const OIIO::ImageBuf* albedo = nullptr,
+                               int nthreads = 0, const Progress& progress = {});
+
+} // namespace vmlight

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Work handed to threads one item at a time, on OIIO's thread pool.
+#pragma once
+
+#include <vmlight/export.h>
+
+#include <vmlight/progress.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace vmlight {
+
+/// Call `work(item, worker)` once for each item in [0, items), with worker in [0, workers), where workers =
+/// worker_count(nthreads). A worker does one item at a time, so that `worker` may index scratch memory; which worker
+/// gets which item is not determined, so results must not depend on it.
+///
+/// @param nthreads 0 means OIIO's default ("threads" attribute); 1 runs on the calling thread
+/// @param progress called between items, from one thread at a time; false from it stops the hand-out of items
+/// @returns false if `progress` stopped the work.
+VMLIGHT_API bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t item, int worker)>& work,
+                                const Progress& progress = {});
+
+/// How many workers parallel_items() uses for this `nthreads`.
+VMLIGHT_API int worker_count(int nthreads);
+
+} // namespace vmlight

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/params.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+namespace {
+
+using OIIO::string_view;
+using OIIO::Strutil::fmt::format;
+
+// OIIO's stof/stoi read a leading number and drop the rest; here the whole text must be one finite number.
+bool
+whole_number_text(string_view text, double& value)
+{
+    const std::string trimmed(OIIO::Strutil::strip(text));
+    char* end = nullptr;
+    if (trimmed.empty() || OIIO::Strutil::icontains(trimmed, "x")) // no hexadecimal
+        return false;
+    value = OIIO::Strutil::strtod(trimmed.c_str(), &end);
+    return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
+}
+
+std::string
+number_text(double value)
+{
+    // The shortest of the two precisions that reads back to the same value.
+    std::string brief = format("{:.6g}", value);
+    return OIIO::Strutil::strtod(brief.c_str()) == value ? brief : format("{:.17g}", value);
+}
+
+std::string
+range_text(const Range& range)
+{
+    std::string text = format("[{}, {}]", number_text(range.min), number_text(range.max));
+    return range.word ? text + format(" or \"{}\"", range.word) : text;
+}
+
+bool
+parse_number(double& dst, string_view text, const Range& allowed, bool integral, std::string& error)
+{
+    double value = 0;
+    if (allowed.word && OIIO::Strutil::strip(text) == allowed.word) {
+        dst = allowed.word_value;
+        return true;
+    }
+    if (!whole_number_text(text, value) || (integral && value != std::floor(value))) {
+        error = format("\"{}\" is not a {}", text, integral ? "whole number" : "number");
+        if (allowed.word)
+            error += format(" or \"{}\"", allowed.word);
+        return false;
+    }
+    if (!(value >= allowed.min && value <= allowed.max)) {
+        error = format("{} is not in {}", OIIO::Strutil::strip(text), range_text(allowed));
+        return false;
+    }
+    dst = value;
+    return true;
+}
+
+} // namespace
+
+bool
+parse_value(int& dst, string_view text, const Range& allowed, std::string& error)
+{
+    double value = 0;
+    if (!parse_number(value, text, allowed, true, error))
+        return false;
+    dst = int(value);
+    return true;
+}
+
+bool
+parse_value(double& dst, string_view text, const Range& allowed, std::string& error)
+{
+    return parse_number(dst, text, allowed, false, error);
+}
+
+bool
+parse_value(std::string& dst, string_view text, const Choices& allowed, std::string& error)
+{
+    for (const char* word : allowed.words)
+        if (text == word) {
+            dst = word;
+            return true;
+        }
+    error = format("\"{}\" is not one of {}", text, OIIO::Strutil::join(allowed.words, ", "));
+    return false;
+}
+
+bool
+parse_value(std::string& dst, string_view text, const Text&, std::string&)
+{
+    dst = std::string(text);
+    return true;
+}
+
+bool
+parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
+{
+    std::string spaced(text);
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    std::vector<double> numbers;
+    for (const std::string& word : OIIO::Strutil::splits(OIIO::Strutil::strip(spaced))) {
+        double value = 0;
+        if (!whole_number_text(word, value)) {
+            error = format("\"{}\" in \"{}\" is not a number", word, text);
+            return false;
+        }
+        numbers.push_back(value);
+    }
+    if (!numbers.empty() && numbers.size() != allowed.count) {
+        error = format("\"{}\" has {} numbers, {} are needed", text, numbers.size(), allowed.count);
+        return false;
+    }
+    dst = numbers;
+    return true;
+}
+
+bool
+parse_value(bool& dst, string_view text, const Flag&, std::string& error)
+{
+    if (text == "true" || text == "1" || text == "false" || text == "0") {
+        dst = text == "true" || text == "1";
+        return true;
+    }
+    error = format("\"{}\" is not true or false", text);
+    return false;
+}
+
+std::string
+value_text(int value, const Range& allowed)
+{
+    return allowed.word && value == allowed.word_value ? allowed.word : format("{}", value);
+}
+
+std::string
+value_text(double value, const Range& allowed)
+{
+    return allowed.word && value == allowed.word_value ? allowed.word : number_text(value);
+}
+
+std::string
+value_text(const std::string& value, const Choices&)
+{
+    return value;
+}
+
+std::string
+value_text(const std::string& value, const Text&)
+{
+    return value;
+}
+
+std::string
+value_text(const std::vector<double>& value, const Numbers&)
+{
+    std::string text;
+    for (double number : value)
+        text += (text.empty() ? "" : ",") + number_text(number);
+    return text;
+}
+
+std::string
+value_text(bool value, const Flag&)
+{
+    return value ? "true" : "false";
+}
+
+std::string
+allowed_text(const Range& allowed)
+{
+    std::string text = format("{}..{}", number_text(allowed.min), number_text(allowed.max));
+    return allowed.word ? text + format(" or {}", allowed.word) : text;
+}
+
+std::string
+allowed_text(const Choices& allowed)
+{
+    return OIIO::Strutil::join(allowed.words, "|");
+}
+
+std::string
+allowed_text(const Text&)
+{
+    return "";
+}
+
+std::string
+allowed_text(const Numbers& allowed)
+{
+    return format("{} numbers", allowed.count);
+}
+
+std::string
+allowed_text(const Flag&)
+{
+    return "";
+}
+
+std::string
+nearest_name(string_view name, const std::vector<std::string>& names)
+{
+    std::string best;
+    size_t fewest = std::max<size_t>(2, name.size() / 3) + 1;
+    for (const std::string& candidate : names) {
+        const size_t edits = OIIO::Strutil::edit_distance(name, candidate);
+        if (edits < fewest) {
+            fewest = edits;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+} // namespace vmlight
