@@ -15,21 +15,25 @@
 
 namespace vmlight {
 
-struct CfemParams {
+struct CfemParams
+{
     /// `exact` filters by row prefix sums; `sh` projects to spherical harmonics, for comparison.
     std::string filter = "exact";
     /// Bands of the `sh` filter: order N keeps l = 0 .. N-1, N*N coefficients a channel.
     int order = 3;
     int width = 256;
     int height = 128;
+    /// Mend bad pixels rather than refuse them: NaN and infinity become the mean of the sound pixels among the eight
+    /// around them (0 if none is), negative values become 0. Never done unasked.
+    bool sanitize = false;
 
-    template<class Visit>
-    void visit(Visit&& field)
+    template <class Visit> void visit(Visit&& field)
     {
         field("filter", filter, Choices { { "exact", "sh" } }, "How to filter: exactly, or by spherical harmonics");
         field("order", order, Range { 1, 64 }, "Bands of the sh filter; 3 is the usual nine coefficients");
         field("width", width, Range { 1, 16384 }, "Width of the result, in pixels");
         field("height", height, Range { 1, 8192 }, "Height of the result, in pixels");
+        field("sanitize", sanitize, Flag {}, "Mend NaN, infinite and negative pixels of the environment");
     }
 };
 

@@ -7,8 +7,7 @@ namespace vmlight {
 
 using OIIO::Strutil::fmt::format;
 
-bool
-find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
+bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
 {
     const std::string stage = spec.get_string_attribute("vmlight:stage");
     if (!stage.empty() && stage != kVismapStage) {
@@ -26,8 +25,7 @@ find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std
     return true;
 }
 
-bool
-find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error)
+bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error)
 {
     if (spec.get_string_attribute("vmlight:stage") == kVismapStage) {
         error = "a visibility map, not light: its vmlight:stage is \"vismap\"";

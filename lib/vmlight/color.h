@@ -10,7 +10,8 @@
 
 namespace vmlight {
 
-struct ColorSettings {
+struct ColorSettings
+{
     /// OCIO config file; "" means $OCIO, and if that is not set, no config.
     std::string config;
     /// Colour space of the image; "" means: ask the config's file rules, then the file's own metadata.

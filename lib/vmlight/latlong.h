@@ -13,9 +13,7 @@ namespace vmlight::latlong {
 constexpr double pi = 3.14159265358979323846;
 
 /// Unit direction at (s, t), for any s (periodic) and t in [0, 1]; t = 0 is +y, t = 1 is -y.
-template<class T>
-inline Imath::Vec3<T>
-direction(T s, T t)
+template <class T> inline Imath::Vec3<T> direction(T s, T t)
 {
     const T theta = T(pi) * t;
     const T phi = T(2 * pi) * (s - T(0.5));
@@ -26,9 +24,7 @@ direction(T s, T t)
 /// (s, t) of a direction of any length: s in [0, 1), t in [0, 1]. The inverse of direction().
 /// The zero vector gives (0.5, 0.5). Uses atan2 for both angles: acos(y) loses half the digits near the poles, and
 /// yields NaN when rounding pushes y past 1.
-template<class T>
-inline Imath::Vec2<T>
-position(const Imath::Vec3<T>& d)
+template <class T> inline Imath::Vec2<T> position(const Imath::Vec3<T>& d)
 {
     const T s = std::atan2(-d.x, d.z) / T(2 * pi) + T(0.5);
     const T t = T(0.5) - std::atan2(d.y, std::hypot(d.x, d.z)) / T(pi);
@@ -36,8 +32,7 @@ position(const Imath::Vec3<T>& d)
 }
 
 /// Solid angle in steradians of one whole row of a map of `height` rows; the rows of a map sum to 4 pi.
-inline double
-row_solid_angle(int row, int height)
+inline double row_solid_angle(int row, int height)
 {
     // cos a - cos b as a product: exact near the poles, where the difference of cosines cancels.
     const double half = 0.5 * pi / height;

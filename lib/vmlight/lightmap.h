@@ -15,7 +15,8 @@
 
 namespace vmlight {
 
-struct LightmapParams {
+struct LightmapParams
+{
     /// How V and B become light; `paper` is V C(R B / |B|).
     std::string model = "paper";
     /// The rotation of the object into the environment: one of these three, or none.
@@ -25,10 +26,10 @@ struct LightmapParams {
     /// Stops: the result is multiplied by 2^exposure.
     double exposure = 0;
 
-    template<class Visit>
-    void visit(Visit&& field)
+    template <class Visit> void visit(Visit&& field)
     {
-        field("model", model, Choices { { "paper" } }, "Shading model: visibility times the CFEM along the mean direction");
+        field("model", model, Choices { { "paper" } },
+              "Shading model: visibility times the CFEM along the mean direction");
         field("rotate", rotate, Numbers { 3 }, "Turn the object: x,y,z degrees about fixed x, then y, then z");
         field("matrix", matrix, Numbers { 9 }, "Turn the object: a rotation matrix, row major, for column vectors");
         field("quaternion", quaternion, Numbers { 4 }, "Turn the object: w,x,y,z");
@@ -39,7 +40,8 @@ struct LightmapParams {
 
 /// The rotation from object space to environment space that `params` asks for: with the object turned by R and the
 /// environment by E, light arrives along object direction w from environment direction E^-1 R w.
-/// False, with the reason in `error`, if more than one of rotate, matrix, quaternion is given, or one is not a rotation.
+/// False, with the reason in `error`, if more than one of rotate, matrix, quaternion is given, or one is not a
+/// rotation.
 VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, std::string& error);
 
 /// Light a visibility map.

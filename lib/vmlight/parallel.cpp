@@ -10,14 +10,13 @@
 
 namespace vmlight {
 
-int
-worker_count(int nthreads)
+int worker_count(int nthreads)
 {
     return nthreads > 0 ? nthreads : std::max(1, OIIO::get_int_attribute("threads"));
 }
 
-bool
-parallel_items(int64_t items, int nthreads, const std::function<void(int64_t, int)>& work, const Progress& progress)
+bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t, int)>& work,
+                    const Progress& progress)
 {
     std::atomic<int64_t> next { 0 }, finished { 0 };
     std::atomic<bool> stopped { false };

@@ -13,8 +13,7 @@ using OIIO::string_view;
 using OIIO::Strutil::fmt::format;
 
 // OIIO's stof/stoi read a leading number and drop the rest; here the whole text must be one finite number.
-bool
-whole_number_text(string_view text, double& value)
+bool whole_number_text(string_view text, double& value)
 {
     const std::string trimmed(OIIO::Strutil::strip(text));
     char* end = nullptr;
@@ -24,23 +23,20 @@ whole_number_text(string_view text, double& value)
     return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
 }
 
-std::string
-number_text(double value)
+std::string number_text(double value)
 {
     // The shortest of the two precisions that reads back to the same value.
     std::string brief = format("{:.6g}", value);
     return OIIO::Strutil::strtod(brief.c_str()) == value ? brief : format("{:.17g}", value);
 }
 
-std::string
-range_text(const Range& range)
+std::string range_text(const Range& range)
 {
     std::string text = format("[{}, {}]", number_text(range.min), number_text(range.max));
     return range.word ? text + format(" or \"{}\"", range.word) : text;
 }
 
-bool
-parse_number(double& dst, string_view text, const Range& allowed, bool integral, std::string& error)
+bool parse_number(double& dst, string_view text, const Range& allowed, bool integral, std::string& error)
 {
     double value = 0;
     if (allowed.word && OIIO::Strutil::strip(text) == allowed.word) {
@@ -63,8 +59,7 @@ parse_number(double& dst, string_view text, const Range& allowed, bool integral,
 
 } // namespace
 
-bool
-parse_value(int& dst, string_view text, const Range& allowed, std::string& error)
+bool parse_value(int& dst, string_view text, const Range& allowed, std::string& error)
 {
     double value = 0;
     if (!parse_number(value, text, allowed, true, error))
@@ -73,14 +68,12 @@ parse_value(int& dst, string_view text, const Range& allowed, std::string& error
     return true;
 }
 
-bool
-parse_value(double& dst, string_view text, const Range& allowed, std::string& error)
+bool parse_value(double& dst, string_view text, const Range& allowed, std::string& error)
 {
     return parse_number(dst, text, allowed, false, error);
 }
 
-bool
-parse_value(std::string& dst, string_view text, const Choices& allowed, std::string& error)
+bool parse_value(std::string& dst, string_view text, const Choices& allowed, std::string& error)
 {
     for (const char* word : allowed.words)
         if (text == word) {
@@ -91,15 +84,13 @@ parse_value(std::string& dst, string_view text, const Choices& allowed, std::str
     return false;
 }
 
-bool
-parse_value(std::string& dst, string_view text, const Text&, std::string&)
+bool parse_value(std::string& dst, string_view text, const Text&, std::string&)
 {
     dst = std::string(text);
     return true;
 }
 
-bool
-parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
+bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
 {
     std::string spaced(text);
     std::replace(spaced.begin(), spaced.end(), ',', ' ');
@@ -120,8 +111,7 @@ parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, 
     return true;
 }
 
-bool
-parse_value(bool& dst, string_view text, const Flag&, std::string& error)
+bool parse_value(bool& dst, string_view text, const Flag&, std::string& error)
 {
     if (text == "true" || text == "1" || text == "false" || text == "0") {
         dst = text == "true" || text == "1";
@@ -131,32 +121,27 @@ parse_value(bool& dst, string_view text, const Flag&, std::string& error)
     return false;
 }
 
-std::string
-value_text(int value, const Range& allowed)
+std::string value_text(int value, const Range& allowed)
 {
     return allowed.word && value == allowed.word_value ? allowed.word : format("{}", value);
 }
 
-std::string
-value_text(double value, const Range& allowed)
+std::string value_text(double value, const Range& allowed)
 {
     return allowed.word && value == allowed.word_value ? allowed.word : number_text(value);
 }
 
-std::string
-value_text(const std::string& value, const Choices&)
+std::string value_text(const std::string& value, const Choices&)
 {
     return value;
 }
 
-std::string
-value_text(const std::string& value, const Text&)
+std::string value_text(const std::string& value, const Text&)
 {
     return value;
 }
 
-std::string
-value_text(const std::vector<double>& value, const Numbers&)
+std::string value_text(const std::vector<double>& value, const Numbers&)
 {
     std::string text;
     for (double number : value)
@@ -164,45 +149,38 @@ value_text(const std::vector<double>& value, const Numbers&)
     return text;
 }
 
-std::string
-value_text(bool value, const Flag&)
+std::string value_text(bool value, const Flag&)
 {
     return value ? "true" : "false";
 }
 
-std::string
-allowed_text(const Range& allowed)
+std::string allowed_text(const Range& allowed)
 {
     std::string text = format("{}..{}", number_text(allowed.min), number_text(allowed.max));
     return allowed.word ? text + format(" or {}", allowed.word) : text;
 }
 
-std::string
-allowed_text(const Choices& allowed)
+std::string allowed_text(const Choices& allowed)
 {
     return OIIO::Strutil::join(allowed.words, "|");
 }
 
-std::string
-allowed_text(const Text&)
+std::string allowed_text(const Text&)
 {
     return "";
 }
 
-std::string
-allowed_text(const Numbers& allowed)
+std::string allowed_text(const Numbers& allowed)
 {
     return format("{} numbers", allowed.count);
 }
 
-std::string
-allowed_text(const Flag&)
+std::string allowed_text(const Flag&)
 {
     return "";
 }
 
-std::string
-nearest_name(string_view name, const std::vector<std::string>& names)
+std::string nearest_name(string_view name, const std::vector<std::string>& names)
 {
     std::string best;
     size_t fewest = std::max<size_t>(2, name.size() / 3) + 1;

@@ -14,25 +14,28 @@
 namespace vmlight {
 
 /// Numbers from `min` to `max`, both allowed. If `word` is given, that word stands for `word_value`.
-struct Range {
+struct Range
+{
     double min, max;
     const char* word = nullptr;
     double word_value = 0;
 };
 /// One of some words.
-struct Choices {
+struct Choices
+{
     std::vector<const char*> words;
 };
 /// Any text.
-struct Text {
-};
+struct Text
+{ };
 /// Either nothing or exactly `count` finite numbers, separated by commas or blanks.
-struct Numbers {
+struct Numbers
+{
     size_t count;
 };
 /// A bool: a flag without a value; true, false, 1 or 0 elsewhere.
-struct Flag {
-};
+struct Flag
+{ };
 
 // Strict parsing: the whole text must be the value. On failure `dst` keeps its value and `error` says
 // what is wrong, the value and what is allowed, without the parameter's name.
@@ -63,9 +66,7 @@ VMLIGHT_API std::string allowed_text(const Flag& allowed);
 VMLIGHT_API std::string nearest_name(OIIO::string_view name, const std::vector<std::string>& names);
 
 /// Names of all parameters of `params`, in order.
-template<class Params>
-std::vector<std::string>
-param_names(Params params)
+template <class Params> std::vector<std::string> param_names(Params params)
 {
     std::vector<std::string> names;
     params.visit([&](const char* name, auto&, const auto&, const char*) { names.push_back(name); });
@@ -74,9 +75,8 @@ param_names(Params params)
 
 /// Set one parameter from text. False, with the reason in `error`, if there is no such parameter (the nearest name is
 /// told) or the text is not a value that it takes.
-template<class Params>
-bool
-set_param(Params& params, OIIO::string_view name, OIIO::string_view text, std::string& error)
+template <class Params>
+bool set_param(Params& params, OIIO::string_view name, OIIO::string_view text, std::string& error)
 {
     bool found = false, good = false;
     params.visit([&](const char* field, auto& value, const auto& allowed, const char*) {
@@ -98,9 +98,7 @@ set_param(Params& params, OIIO::string_view name, OIIO::string_view text, std::s
 }
 
 /// False, with the reason in `error`, if a value that was set in code is not allowed.
-template<class Params>
-bool
-check_params(Params params, std::string& error)
+template <class Params> bool check_params(Params params, std::string& error)
 {
     bool good = true;
     params.visit([&](const char* field, auto& value, const auto& allowed, const char*) {
@@ -115,10 +113,8 @@ check_params(Params params, std::string& error)
     return good;
 }
 
-/// Add every parameter to `spec` as `vmlight:<parameter>`: whole numbers as int, all else as text that reads back.
-template<class Params>
-void
-append_params(OIIO::ImageSpec& spec, Params params)
+/// Add every parameter to `spec` as `vmlight:<parameter>`: as text that set_param() reads back.
+template <class Params> void append_params(OIIO::ImageSpec& spec, Params params)
 {
     params.visit([&](const char* field, auto& value, const auto& allowed, const char*) {
         spec.attribute(std::string("vmlight:") + field, value_text(value, allowed));

@@ -13,28 +13,31 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-struct SinCos {
+struct SinCos
+{
     double sin, cos;
 };
 
 // Quarter turns are exact: a turntable that passes 90 degrees must land on the same pixels as a swap of axes.
-SinCos
-sin_cos_degrees(double degrees)
+SinCos sin_cos_degrees(double degrees)
 {
     const double turn = std::remainder(degrees, 360.0);
     const double quarters = std::nearbyint(turn / 90.0);
     const double rest = (turn - 90.0 * quarters) * latlong::pi / 180.0;
     const double s = std::sin(rest), c = std::cos(rest);
     switch ((int(quarters) + 4) % 4) {
-    case 0: return { s, c };
-    case 1: return { c, -s };
-    case 2: return { -s, -c };
-    default: return { -c, s };
+    case 0:
+        return { s, c };
+    case 1:
+        return { c, -s };
+    case 2:
+        return { -s, -c };
+    default:
+        return { -c, s };
     }
 }
 
-double
-distance_from_orthonormal(const Rotation& r)
+double distance_from_orthonormal(const Rotation& r)
 {
     double worst = 0;
     for (int i = 0; i < 3; ++i)
@@ -47,17 +50,15 @@ distance_from_orthonormal(const Rotation& r)
 
 } // namespace
 
-Rotation
-rotation_from_angles(double x, double y, double z)
+Rotation rotation_from_angles(double x, double y, double z)
 {
     const SinCos a = sin_cos_degrees(x), b = sin_cos_degrees(y), c = sin_cos_degrees(z);
     return Rotation(c.cos * b.cos, c.cos * b.sin * a.sin - c.sin * a.cos, c.cos * b.sin * a.cos + c.sin * a.sin,
-                    c.sin * b.cos, c.sin * b.sin * a.sin + c.cos * a.cos, c.sin * b.sin * a.cos - c.cos * a.sin,
-                    -b.sin, b.cos * a.sin, b.cos * a.cos);
+                    c.sin * b.cos, c.sin * b.sin * a.sin + c.cos * a.cos, c.sin * b.sin * a.cos - c.cos * a.sin, -b.sin,
+                    b.cos * a.sin, b.cos * a.cos);
 }
 
-bool
-rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std::string& error)
+bool rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std::string& error)
 {
     if (numbers.size() != 9) {
         error = format("matrix: {} numbers, 9 are needed", numbers.size());
@@ -82,8 +83,7 @@ rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std::str
     return true;
 }
 
-bool
-rotation_from_quaternion(Rotation& dst, const std::vector<double>& wxyz, std::string& error)
+bool rotation_from_quaternion(Rotation& dst, const std::vector<double>& wxyz, std::string& error)
 {
     if (wxyz.size() != 4) {
         error = format("quaternion: {} numbers, 4 are needed (w,x,y,z)", wxyz.size());

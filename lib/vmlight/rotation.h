@@ -17,9 +17,7 @@ namespace vmlight {
 using Rotation = Imath::M33d;
 
 /// R v.
-template<class T>
-inline Imath::Vec3<T>
-rotate(const Rotation& r, const Imath::Vec3<T>& v)
+template <class T> inline Imath::Vec3<T> rotate(const Rotation& r, const Imath::Vec3<T>& v)
 {
     return Imath::Vec3<T>(T(r[0][0] * v.x + r[0][1] * v.y + r[0][2] * v.z),
                           T(r[1][0] * v.x + r[1][1] * v.y + r[1][2] * v.z),

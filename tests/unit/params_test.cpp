@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/cfem.h>
+#include <vmlight/lightmap.h>
+
+#include <gtest/gtest.h>
+
+using namespace vmlight;
+
+namespace {
+
+std::string refusal(const char* name, const char* text)
+{
+    CfemParams params;
+    std::string error;
+    EXPECT_FALSE(set_param(params, name, text, error)) << name << " = " << text;
+    return error;
+}
+
+} // namespace
+
+TEST(Params, AWholeTextMustBeTheValue)
+{
+    EXPECT_EQ(refusal("order", "3x"), "order: \"3x\" is not a whole number");
+    EXPECT_EQ(refusal("order", ""), "order: \"\" is not a whole number");
+    EXPECT_EQ(refusal("order", "2.5"), "order: \"2.5\" is not a whole number");
+    EXPECT_EQ(refusal("order", "nan"), "order: \"nan\" is not a whole number");
+    EXPECT_EQ(refusal("order", "0x10"), "order: \"0x10\" is not a whole number");
+    EXPECT_EQ(refusal("order", "0"), "order: 0 is not in [1, 64]");
+    EXPECT_EQ(refusal("width", "1e30"), "width: 1e30 is not in [1, 16384]");
+    EXPECT_EQ(refusal("filter", "Exact"), "filter: \"Exact\" is not one of exact, sh");
+}
+
+TEST(Params, AnUnknownNameIsRefusedWithTheNearest)
+{
+    EXPECT_EQ(refusal("filtre", "sh"), "unknown parameter \"filtre\"; did you mean \"filter\"?");
+    EXPECT_EQ(refusal("quaternionic", "1"), "unknown parameter \"quaternionic\"");
+}
+
+TEST(Params, ListsTakeTheirCountOrNothing)
+{
+    LightmapParams params;
+    std::string error;
+    ASSERT_TRUE(set_param(params, "rotate", "0, 90,-1.5e1", error)) << error;
+    EXPECT_EQ(params.rotate, (std::vector<double> { 0, 90, -15 }));
+    EXPECT_FALSE(set_param(params, "rotate", "1,2", error));
+    EXPECT_EQ(error, "rotate: \"1,2\" has 2 numbers, 3 are needed");
+    EXPECT_FALSE(set_param(params, "rotate", "1,b,3", error));
+    EXPECT_EQ(error, "rotate: \"b\" in \"1,b,3\" is not a number");
+    EXPECT_EQ(params.rotate, (std::vector<double> { 0, 90, -15 }));
+    ASSERT_TRUE(set_param(params, "rotate", "", error));
+    EXPECT_TRUE(params.rotate.empty());
+}
+
+TEST(Params, MetadataReadsBackToTheSameParams)
+{
+    LightmapParams params;
+    params.exposure = 1.0 / 3;
+    params.rotate = { 0.1, 90, -7e-9 };
+    OIIO::ImageSpec spec;
+    append_params(spec, params);
+    LightmapParams back;
+    std::string error;
+    for (const std::string& name : param_names(params))
+        ASSERT_TRUE(set_param(back, name, spec.get_string_attribute("vmlight:" + name), error)) << error;
+    EXPECT_EQ(back.exposure, params.exposure);
+    EXPECT_EQ(back.rotate, params.rotate);
+}
+
+TEST(Params, ValuesSetInCodeAreCheckedToo)
+{
+    CfemParams params;
+    std::string error;
+    EXPECT_TRUE(check_params(params, error)) << error;
+    params.width = 0;
+    EXPECT_FALSE(check_params(params, error));
+    EXPECT_EQ(error, "width: 0 is not in [1, 16384]");
+}
