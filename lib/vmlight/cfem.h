@@ -21,8 +21,8 @@ struct CfemParams
     std::string filter = "exact";
     /// Bands of the `sh` filter: order N keeps l = 0 .. N-1, N*N coefficients a channel.
     int order = 3;
-    int width = 256;
-    int height = 128;
+    /// A lat-long map is twice as wide as high; other shapes are allowed.
+    Size resolution { 256, 128 };
     /// Mend bad pixels rather than refuse them: NaN and infinity become the mean of the sound pixels among the eight
     /// around them (0 if none is), negative values become 0. Never done unasked.
     bool sanitize = false;
@@ -31,15 +31,14 @@ struct CfemParams
     {
         field("filter", filter, Choices { { "exact", "sh" } }, "How to filter: exactly, or by spherical harmonics");
         field("order", order, Range { 1, 64 }, "Bands of the sh filter; 3 is the usual nine coefficients");
-        field("width", width, Range { 1, 16384 }, "Width of the result, in pixels");
-        field("height", height, Range { 1, 8192 }, "Height of the result, in pixels");
+        field("resolution", resolution, SizeRange { 16384, 0.5 }, "Size of the result, in pixels");
         field("sanitize", sanitize, Flag {}, "Mend NaN, infinite and negative pixels of the environment");
     }
 };
 
 /// Filter an environment with a cosine.
 ///
-/// @param dst      set to a `width` x `height` float image of R, G, B: a lat-long map in the frame of latlong.h
+/// @param dst      set to a float image of size `resolution` of R, G, B: a lat-long map in the frame of latlong.h
 /// @param env      a lat-long map of any size from 1x1, with channels R, G, B or one channel, in linear light. Its
 ///                 pixels are taken as constant over their area, or, if the file says `oiio:sampleborder`, as
 ///                 samples that lie on the seam and the poles. May be backed by an ImageCache: it is read row by row.

@@ -73,6 +73,26 @@ bool parse_value(double& dst, string_view text, const Range& allowed, std::strin
     return parse_number(dst, text, allowed, false, error);
 }
 
+bool parse_value(Size& dst, string_view text, const SizeRange& allowed, std::string& error)
+{
+    const std::string trimmed(OIIO::Strutil::strip(text));
+    const size_t cross = trimmed.find('x');
+    const Range range { 1, double(allowed.max) };
+    int width = 0, height = 0;
+    std::string reason;
+    bool good = parse_value(width, trimmed.substr(0, cross), range, reason);
+    if (good && cross != std::string::npos)
+        good = parse_value(height, trimmed.substr(cross + 1), range, reason);
+    else
+        height = std::max(1, int(width * allowed.height_share));
+    if (!good) {
+        error = format("\"{}\" is not WIDTHxHEIGHT from 1x1 to {}x{}", text, allowed.max, allowed.max);
+        return false;
+    }
+    dst = { width, height };
+    return true;
+}
+
 bool parse_value(std::string& dst, string_view text, const Choices& allowed, std::string& error)
 {
     for (const char* word : allowed.words)
@@ -131,6 +151,11 @@ std::string value_text(double value, const Range& allowed)
     return allowed.word && value == allowed.word_value ? allowed.word : number_text(value);
 }
 
+std::string value_text(const Size& value, const SizeRange&)
+{
+    return format("{}x{}", value.width, value.height);
+}
+
 std::string value_text(const std::string& value, const Choices&)
 {
     return value;
@@ -158,6 +183,11 @@ std::string allowed_text(const Range& allowed)
 {
     std::string text = format("{}..{}", number_text(allowed.min), number_text(allowed.max));
     return allowed.word ? text + format(" or {}", allowed.word) : text;
+}
+
+std::string allowed_text(const SizeRange& allowed)
+{
+    return format("1x1..{}x{}", allowed.max, allowed.max);
 }
 
 std::string allowed_text(const Choices& allowed)

@@ -20,6 +20,17 @@ struct Range
     const char* word = nullptr;
     double word_value = 0;
 };
+/// Width and height of an image, in pixels.
+struct Size
+{
+    int width, height;
+};
+/// "256x128", or one number: the width, the height following by `height_share`. From 1x1 to `max` x `max`.
+struct SizeRange
+{
+    int max;
+    double height_share;
+};
 /// One of some words.
 struct Choices
 {
@@ -41,6 +52,7 @@ struct Flag
 // what is wrong, the value and what is allowed, without the parameter's name.
 VMLIGHT_API bool parse_value(int& dst, OIIO::string_view text, const Range& allowed, std::string& error);
 VMLIGHT_API bool parse_value(double& dst, OIIO::string_view text, const Range& allowed, std::string& error);
+VMLIGHT_API bool parse_value(Size& dst, OIIO::string_view text, const SizeRange& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Choices& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Text& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::vector<double>& dst, OIIO::string_view text, const Numbers& allowed,
@@ -50,6 +62,7 @@ VMLIGHT_API bool parse_value(bool& dst, OIIO::string_view text, const Flag& allo
 // The text that parse_value() reads back to the same value.
 VMLIGHT_API std::string value_text(int value, const Range& allowed);
 VMLIGHT_API std::string value_text(double value, const Range& allowed);
+VMLIGHT_API std::string value_text(const Size& value, const SizeRange& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Choices& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Text& allowed);
 VMLIGHT_API std::string value_text(const std::vector<double>& value, const Numbers& allowed);
@@ -57,6 +70,7 @@ VMLIGHT_API std::string value_text(bool value, const Flag& allowed);
 
 // What is allowed, in a few characters, for a help text: "1..65536", "cosine|uniform", "x,y,z".
 VMLIGHT_API std::string allowed_text(const Range& allowed);
+VMLIGHT_API std::string allowed_text(const SizeRange& allowed);
 VMLIGHT_API std::string allowed_text(const Choices& allowed);
 VMLIGHT_API std::string allowed_text(const Text& allowed);
 VMLIGHT_API std::string allowed_text(const Numbers& allowed);

@@ -26,7 +26,7 @@ TEST(Params, AWholeTextMustBeTheValue)
     EXPECT_EQ(refusal("order", "nan"), "order: \"nan\" is not a whole number");
     EXPECT_EQ(refusal("order", "0x10"), "order: \"0x10\" is not a whole number");
     EXPECT_EQ(refusal("order", "0"), "order: 0 is not in [1, 64]");
-    EXPECT_EQ(refusal("width", "1e30"), "width: 1e30 is not in [1, 16384]");
+    EXPECT_EQ(refusal("order", "1e30"), "order: 1e30 is not in [1, 64]");
     EXPECT_EQ(refusal("filter", "Exact"), "filter: \"Exact\" is not one of exact, sh");
 }
 
@@ -51,6 +51,21 @@ TEST(Params, ListsTakeTheirCountOrNothing)
     EXPECT_TRUE(params.rotate.empty());
 }
 
+TEST(Params, ASizeIsTwoNumbersOrTheWidthAlone)
+{
+    CfemParams params;
+    std::string error;
+    ASSERT_TRUE(set_param(params, "resolution", "64", error)) << error;
+    EXPECT_EQ(params.resolution.height, 32);
+    ASSERT_TRUE(set_param(params, "resolution", "1", error)) << error;
+    EXPECT_EQ(params.resolution.height, 1);
+    ASSERT_TRUE(set_param(params, "resolution", "7x9", error)) << error;
+    EXPECT_EQ(params.resolution.width, 7);
+    EXPECT_EQ(params.resolution.height, 9);
+    for (const char* text : { "", "x", "7x", "x9", "7x9x2", "-7x9", "7 by 9", "1e9x1" })
+        refusal("resolution", text);
+}
+
 TEST(Params, MetadataReadsBackToTheSameParams)
 {
     LightmapParams params;
@@ -71,7 +86,7 @@ TEST(Params, ValuesSetInCodeAreCheckedToo)
     CfemParams params;
     std::string error;
     EXPECT_TRUE(check_params(params, error)) << error;
-    params.width = 0;
+    params.resolution.width = 0;
     EXPECT_FALSE(check_params(params, error));
-    EXPECT_EQ(error, "width: 0 is not in [1, 16384]");
+    EXPECT_EQ(error, "resolution: \"0x128\" is not WIDTHxHEIGHT from 1x1 to 16384x16384");
 }
