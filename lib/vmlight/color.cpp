@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/channels.h>
+#include <vmlight/color.h>
+#include <vmlight/params.h>
+
+#include <OpenImageIO/color.h>
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagebufalgo_util.h>
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace vmlight {
+
+using OIIO::ColorConfig;
+using OIIO::Strutil::iequals;
+using OIIO::Strutil::fmt::format;
+
+namespace {
+
+// What to do with an image, decided before a pixel is touched. `convert` works on rows of RGB triples in place, from
+// several threads; none means that the pixels stay.
+struct Decision
+{
+    std::function<void(float* rgb, int count)> convert;
+    std::string space; // to tag the image with
+    std::string note;
+};
+
+constexpr const char* kLinearRec709 = "lin_rec709_scene";
+constexpr const char* kSrgb = "srgb_rec709_scene";
+
+// Scene-linear interop ids, the names by which configs old and new know those spaces, and the xy of red, green, blue
+// and white.
+struct KnownSpace
+{
+    const char* interop_id;
+    std::vector<const char*> names;
+    float chromaticities[8];
+};
+
+const std::vector<KnownSpace>& known_spaces()
+{
+    static const std::vector<KnownSpace> spaces {
+        { "lin_ap1_scene",
+          { "lin_ap1_scene", "lin_ap1", "ACEScg", "ACES - ACEScg" },
+          { 0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f } },
+        { "lin_ap0_scene",
+          { "lin_ap0_scene", "lin_ap0", "ACES2065-1", "ACES - ACES2065-1" },
+          { 0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.32168f, 0.33767f } },
+        { kLinearRec709,
+          { kLinearRec709, "lin_rec709", "lin_srgb", "Linear Rec.709 (sRGB)", "Utility - Linear - sRGB" },
+          { 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f } },
+    };
+    return spaces;
+}
+
+bool is_any_of(const std::string& name, const std::vector<std::string>& names)
+{
+    return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return iequals(n, name); });
+}
+
+// Every name that a user may give: spaces, their aliases, roles.
+std::vector<std::string> all_names(const ColorConfig& config)
+{
+    std::vector<std::string> names = config.getColorSpaceNames();
+    const size_t spaces = names.size();
+    for (size_t i = 0; i < spaces; ++i)
+        for (auto& alias : config.getAliases(names[i]))
+            names.push_back(alias);
+    for (auto& role : config.getRoles())
+        names.push_back(role);
+    return names;
+}
+
+// The space that `name` (a space, alias or role) stands for, or "". OIIO makes up some names that the config does not
+// have ("linear" for the role scene_linear, whatever the light's primaries): those do not count.
+std::string space_named(const ColorConfig& config, const std::string& name)
+{
+    const char* space = name.empty() ? nullptr : config.getColorSpaceNameByRole(name);
+    if (!space)
+        return "";
+    static const std::vector<std::string> made_up { "linear", "rgb", "default", "srgb", "scene_linear" };
+    return !is_any_of(name, made_up) || is_any_of(name, all_names(config)) ? space : "";
+}
+
+std::string first_space_named(const ColorConfig& config, const std::vector<const char*>& names)
+{
+    for (const char* name : names) {
+        std::string space = space_named(config, name);
+        if (!space.empty())
+            return space;
+    }
+    return "";
+}
+
+// Does `text` hold `word`, in any case, with no letter or digit on either side?
+bool holds_word(const std::string& text, const std::string& word)
+{
+    const auto is_free
+        = [&](size_t i) { return i >= text.size() || !std::isalnum(static_cast<unsigned char>(text[i])); };
+    for (size_t at = 0; !word.empty() && at + word.size() <= text.size(); ++at)
+        if (iequals(text.substr(at, word.size()), word) && (at == 0 || is_free(at - 1)) && is_free(at + word.size()))
+            return true;
+    return false;
+}
+
+// Where OIIO 2 and 3 differ. From 3.1 on a config tells whether only its default rule matched, and what is data. In 2.4
+// getColorSpaceFromFilepath() takes the default rule for no match, and then looks for any space's name anywhere
+// in the path, so that "drawing.tif" is Raw: such an answer counts only if the file's own name or extension gives it.
+template <class Config>
+auto rule_space(const Config& config, const std::string& path, const std::string&, int)
+    -> decltype(config.filepathOnlyMatchesDefaultRule(path), std::string())
+{
+    return config.filepathOnlyMatchesDefaultRule(path) ? std::string()
+                                                       : std::string(config.getColorSpaceFromFilepath(path));
+}
+template <class Config>
+std::string rule_space(const Config& config, const std::string& path, const std::string& named, long)
+{
+    const std::string space(config.getColorSpaceFromFilepath(path));
+    const bool by_rule = space != config.parseColorSpaceFromString(path) || space == named
+        || space == config.getColorSpaceFromFilepath("_" + OIIO::Filesystem::extension(path));
+    return by_rule ? space : "";
+}
+template <class Config>
+auto is_data_space(const Config& config, const std::string& space, int) -> decltype(config.isData(space))
+{
+    return config.isData(space);
+}
+template <class Config> bool is_data_space(const Config& config, const std::string& space, long)
+{
+    return space == space_named(config, "data");
+}
+
+std::string space_of_path(const ColorConfig& config, const std::string& path)
+{
+    if (path.empty())
+        return "";
+    const std::string file = OIIO::Filesystem::filename(path);
+    std::string named(config.parseColorSpaceFromString(file));
+    if (!holds_word(file, named))
+        named.clear();
+    const std::string ruled = rule_space(config, path, named, 0);
+    return space_named(config, ruled.empty() ? named : ruled);
+}
+
+// PNG and its like: whole numbers of 8 or 16 bits, in the file, whatever they were turned into in memory.
+bool has_whole_numbers(const OIIO::ImageBuf& image)
+{
+    const OIIO::TypeDesc::BASETYPE type = static_cast<OIIO::TypeDesc::BASETYPE>(image.nativespec().format.basetype);
+    return type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::INT8 || type == OIIO::TypeDesc::UINT16
+        || type == OIIO::TypeDesc::INT16;
+}
+
+std::string interop_id_of(const ColorConfig& config, const std::string& space)
+{
+    for (auto& known : known_spaces())
+        if (first_space_named(config, known.names) == space)
+            return known.interop_id;
+    return space;
+}
+
+bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std::string& path,
+                      const std::string& config_name, const std::string& asked, std::string& error)
+{
+    ColorConfig config(config_name);
+    if (config.has_error()) {
+        error = format("cannot read the OCIO config \"{}\": {}", config_name, config.geterror());
+        return false;
+    }
+    if (!is_any_of("scene_linear", config.getRoles())) {
+        error = format("the OCIO config \"{}\" has no role scene_linear", config_name);
+        return false;
+    }
+    const std::string working = config.getColorSpaceNameByRole("scene_linear");
+
+    std::string from;
+    const std::string id = image.spec().get_string_attribute("colorInteropID");
+    if (!asked.empty()) {
+        from = space_named(config, asked);
+        if (from.empty()) {
+            const std::string near = nearest_name(asked, all_names(config));
+            error = format("the OCIO config \"{}\" has no colour space \"{}\"", config_name, asked);
+            error += near.empty() ? "; it has " + OIIO::Strutil::join(config.getColorSpaceNames(), ", ")
+                                  : "; did you mean \"" + near + "\"?";
+            return false;
+        }
+    }
+    if (from.empty())
+        from = space_of_path(config, path);
+    if (from.empty())
+        from = space_named(config, id);
+    if (from.empty() && has_whole_numbers(image)) {
+        from = first_space_named(
+            config, { kSrgb, "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture", "sRGB" });
+        if (from.empty()) {
+            error = format("\"{}\": whole-number pixels are sRGB, and the OCIO config \"{}\" has no space {}; "
+                           "name the image's colour space",
+                           path, config_name, kSrgb);
+            return false;
+        }
+    }
+    if (from.empty())
+        from = working;
+
+    decision.space = interop_id_of(config, working);
+    if (from == working) {
+        decision.note = working + ", unchanged";
+        return true;
+    }
+    if (is_data_space(config, from, 0)) {
+        decision.note = format("{} is data, used as {} unchanged", from, working);
+        return true;
+    }
+    // A processor outlives its config.
+    OIIO::ColorProcessorHandle processor = config.createColorProcessor(from, working);
+    if (!processor) {
+        error = format("the OCIO config \"{}\" cannot convert {} to {}: {}", config_name, from, working,
+                       config.geterror());
+        return false;
+    }
+    decision.note = from + " -> " + working;
+    if (!processor->isNoOp())
+        decision.convert = [processor](float* rgb, int count) {
+            const OIIO::stride_t channel = sizeof(float), pixel = 3 * channel;
+            processor->apply(rgb, count, 1, 3, channel, pixel, pixel * count);
+        };
+    return true;
+}
+
+bool decide_without_config(Decision& decision, const OIIO::ImageBuf& image, const std::string& asked,
+                           std::string& error)
+{
+    // OIIO's own idea of no config differs from version to version, and so is not asked.
+    const std::vector<std::string> srgb { kSrgb, "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx" };
+    const std::vector<std::string> linear { kLinearRec709, "lin_rec709", "lin_srgb", "linear",
+                                            "Linear Rec.709 (sRGB)" };
+    const std::vector<std::string> data { "data", "raw" };
+    const std::string id = image.spec().get_string_attribute("colorInteropID");
+    const auto is_known
+        = [&](const std::string& n) { return is_any_of(n, srgb) || is_any_of(n, linear) || is_any_of(n, data); };
+
+    std::string from = asked;
+    if (!asked.empty() && !is_known(asked)) {
+        error
+            = format("colour space \"{}\" needs an OCIO config, and none is set; without one there are {}, {} and data",
+                     asked, kSrgb, kLinearRec709);
+        return false;
+    }
+    if (from.empty() && !id.empty() && !has_whole_numbers(image))
+        from = id;
+    if (from.empty())
+        from = is_any_of(id, data) || is_any_of(id, linear) ? id : has_whole_numbers(image) ? kSrgb : kLinearRec709;
+
+    decision.space = kLinearRec709;
+    if (is_any_of(from, srgb)) {
+        decision.convert = [](float* rgb, int count) {
+            std::transform(rgb, rgb + 3 * size_t(count), rgb, [](float x) { return OIIO::sRGB_to_linear(x); });
+        };
+        decision.note = format("{} -> {} (no OCIO config)", kSrgb, kLinearRec709);
+    } else if (is_any_of(from, data)) {
+        decision.note = format("data, used as {} unchanged (no OCIO config)", kLinearRec709);
+    } else if (is_any_of(from, linear)) {
+        decision.note = format("{}, unchanged (no OCIO config)", kLinearRec709);
+    } else {
+        // The file says another space. Its pixels stay, and so does the truth about them.
+        decision.space = from;
+        decision.note = format("{}, unchanged (no OCIO config)", from);
+    }
+    return true;
+}
+
+// Pixels of `image` as floats in its own memory.
+bool make_float(OIIO::ImageBuf& image, std::string& error)
+{
+    const bool stored = image.storage() == OIIO::ImageBuf::LOCALBUFFER || image.storage() == OIIO::ImageBuf::APPBUFFER;
+    if (!stored && !image.read(image.subimage(), image.miplevel(), true, OIIO::TypeFloat)) {
+        error = image.geterror();
+        return false;
+    }
+    if (image.spec().format != OIIO::TypeFloat) {
+        OIIO::ImageBuf floats;
+        if (!floats.copy(image, OIIO::TypeFloat)) {
+            error = floats.geterror();
+            return false;
+        }
+        image = std::move(floats);
+    }
+    return true;
+}
+
+// Only the colour channels, wherever they are: neither alpha nor data channels are colour. A pixel that is not finite
+// stays as it is: a matrix would spread it to the other channels, and a curve might hide it.
+void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, const Decision& decision)
+{
+    OIIO::ImageBufAlgo::parallel_image(image.roi(), [&](OIIO::ROI roi) {
+        const int width = roi.width();
+        std::vector<float> row(3 * size_t(width));
+        std::vector<char> finite(width);
+        for (int z = roi.zbegin; z < roi.zend; ++z) {
+            for (int y = roi.ybegin; y < roi.yend; ++y) {
+                const OIIO::ROI line(roi.xbegin, roi.xend, y, y + 1, z, z + 1);
+                int i = 0;
+                for (OIIO::ImageBuf::ConstIterator<float> p(image, line); !p.done(); ++p, ++i) {
+                    finite[i] = std::isfinite(p[index[0]]) && std::isfinite(p[index[1]]) && std::isfinite(p[index[2]]);
+                    for (int c = 0; c < 3; ++c)
+                        row[3 * size_t(i) + c] = finite[i] ? p[index[c]] : 0.0f;
+                }
+                decision.convert(row.data(), width);
+                i = 0;
+                for (OIIO::ImageBuf::Iterator<float> p(image, line); !p.done(); ++p, ++i)
+                    for (int c = 0; c < 3 && finite[i]; ++c)
+                        p[index[c]] = row[3 * size_t(i) + c];
+            }
+        }
+    });
+}
+
+// What an earlier space said of itself is no longer true.
+void forget_space(OIIO::ImageSpec& spec)
+{
+    for (const char* name : { "oiio:ColorSpace", "oiio:Gamma", "colorInteropID", "chromaticities", "ICCProfile",
+                              "acesImageContainerFlag" })
+        spec.erase_attribute(name);
+    spec.erase_attribute("ICCProfile:.*");
+}
+
+} // namespace
+
+bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings, std::string& note,
+                     std::string& error)
+{
+    std::array<int, 3> index;
+    image.spec(); // opens a file that was only named
+    if (!image.initialized()) {
+        error = image.has_error() ? image.geterror() : format("\"{}\": no image", path);
+        return false;
+    }
+    if (image.deep()) {
+        error = format("\"{}\": a deep image has no one colour a pixel", path);
+        return false;
+    }
+    if (!find_color_channels(image.spec(), index, error)) {
+        error = format("\"{}\": {}", path, error);
+        return false;
+    }
+    const std::string config = settings.config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : settings.config;
+    Decision decision;
+    if (!(config.empty() ? decide_without_config(decision, image, settings.from, error)
+                         : decide_by_config(decision, image, path, config, settings.from, error)))
+        return false;
+    if (decision.convert) {
+        if (!make_float(image, error))
+            return false;
+        convert_pixels(image, index, decision);
+    }
+    tag_scene_linear(image.specmod(), decision.space);
+    note = decision.note;
+    return true;
+}
+
+void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id)
+{
+    forget_space(spec);
+    spec.attribute("colorInteropID", interop_id);
+    for (auto& known : known_spaces())
+        if (known.interop_id == interop_id)
+            spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), known.chromaticities);
+}
+
+void tag_data(OIIO::ImageSpec& spec)
+{
+    forget_space(spec);
+    spec.attribute("colorInteropID", "data");
+}
+
+} // namespace vmlight

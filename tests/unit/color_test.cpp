@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/color.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+using namespace vmlight;
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+
+namespace {
+
+const std::string kConfig = VMLIGHT_TEST_OCIO;
+
+// The caller's $OCIO is put back after each test.
+class Color : public testing::Test
+{
+protected:
+    Color()
+        : m_had(std::getenv("OCIO") != nullptr)
+        , m_old(m_had ? std::getenv("OCIO") : "")
+    {
+        unsetenv("OCIO");
+    }
+    ~Color() override
+    {
+        if (m_had)
+            setenv("OCIO", m_old.c_str(), 1);
+        else
+            unsetenv("OCIO");
+    }
+
+    // Converts, and keeps what was said.
+    bool convert(ImageBuf& image, const std::string& path, const ColorSettings& settings)
+    {
+        note.clear();
+        error.clear();
+        return to_scene_linear(image, path, settings, note, error);
+    }
+    // The note, or the error, for a small image of `path`.
+    std::string said(const std::string& path, const ColorSettings& settings, OIIO::TypeDesc format = OIIO::TypeFloat)
+    {
+        ImageBuf image = flat({ 0.8f, 0.2f, 0.1f }, format);
+        return convert(image, path, settings) ? note : "ERROR " + error;
+    }
+
+    static ImageBuf flat(const std::vector<float>& pixel, OIIO::TypeDesc format = OIIO::TypeFloat, int size = 3)
+    {
+        ImageBuf image(ImageSpec(size, size, int(pixel.size()), format));
+        OIIO::ImageBufAlgo::fill(image, pixel);
+        return image;
+    }
+    static void expect_pixel(const ImageBuf& image, const std::vector<float>& expected, float tolerance)
+    {
+        std::vector<float> pixel(image.nchannels());
+        image.getpixel(1, 1, pixel.data(), image.nchannels());
+        ASSERT_EQ(pixel.size(), expected.size());
+        for (size_t c = 0; c < expected.size(); ++c)
+            EXPECT_NEAR(pixel[c], expected[c], tolerance) << "channel " << c;
+    }
+    static std::string id_of(const ImageBuf& image) { return image.spec().get_string_attribute("colorInteropID"); }
+
+    std::string note, error;
+
+private:
+    bool m_had;
+    std::string m_old;
+};
+
+} // namespace
+
+// The columns of the matrix from Rec.709 (D65) to AP1 (D60) through Bradford's adaptation; each row sums to 1.
+TEST_F(Color, LinearRec709GoesToAcescgByTheKnownMatrix)
+{
+    const float columns[3][3] = { { 0.613097f, 0.070194f, 0.020616f },
+                                  { 0.339523f, 0.916354f, 0.109570f },
+                                  { 0.047379f, 0.013452f, 0.869815f } };
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float> primary(3, 0.0f);
+        primary[c] = 1.0f;
+        ImageBuf image = flat(primary);
+        ASSERT_TRUE(convert(image, "sky.exr", { kConfig, "lin_rec709_scene" })) << error;
+        EXPECT_EQ(note, "Linear Rec.709 (sRGB) -> ACEScg");
+        expect_pixel(image, { columns[c][0], columns[c][1], columns[c][2] }, 2e-5f);
+    }
+    ImageBuf sun = flat({ 118272.0f, 118272.0f, 118272.0f });
+    ASSERT_TRUE(convert(sun, "sky.hdr", { kConfig, "" })) << error;
+    expect_pixel(sun, { 118272.0f, 118272.0f, 118272.0f }, 118272.0f * 1e-5f);
+}
+
+TEST_F(Color, ATexturesSrgbGoesToAcescg)
+{
+    ImageBuf image = flat({ 0.8f, 0.2f, 0.1f });
+    ASSERT_TRUE(convert(image, "albedo.png", { kConfig, "" })) << error;
+    EXPECT_EQ(note, "sRGB - Texture -> ACEScg");
+    expect_pixel(image, { 0.381920f, 0.072856f, 0.024794f }, 1e-5f); // by hand: the curve, then the matrix above
+
+    // Whole numbers do not stay whole: dark colours would be lost.
+    ImageBuf bytes = flat({ 204 / 255.0f, 51 / 255.0f, 26 / 255.0f }, OIIO::TypeUInt8);
+    ASSERT_TRUE(convert(bytes, "albedo.png", { kConfig, "" })) << error;
+    EXPECT_EQ(bytes.spec().format, OIIO::TypeFloat);
+    expect_pixel(bytes, { 0.381934f, 0.072860f, 0.025061f }, 1e-5f);
+}
+
+TEST_F(Color, TheSameLightInTwoSpacesIsTheSameAfterwards)
+{
+    ImageBuf rec709(ImageSpec(64, 32, 3, OIIO::TypeFloat));
+    OIIO::ImageBufAlgo::noise(rec709, "uniform", 0.0f, 20.0f, false, 1);
+    ImageBuf acescg = rec709.copy(OIIO::TypeFloat);
+    ASSERT_TRUE(convert(acescg, "", { kConfig, "Linear Rec.709 (sRGB)" })) << error;
+
+    ImageBuf again = acescg.copy(OIIO::TypeFloat);
+    ASSERT_TRUE(convert(again, "light.exr", { kConfig, "lin_ap1_scene" })) << error;
+    EXPECT_EQ(note, "ACEScg, unchanged");
+    ASSERT_TRUE(convert(rec709, "light.hdr", { kConfig, "" })) << error;
+    const auto difference = OIIO::ImageBufAlgo::compare(rec709, again, 1e-4f, 1e-4f);
+    EXPECT_LE(difference.maxerror, 1e-4);
+    EXPECT_EQ(id_of(rec709), id_of(again));
+}
+
+TEST_F(Color, FileRulesNameTheSpace)
+{
+    const ColorSettings settings { kConfig, "" };
+    const char *data = "Raw is data, used as ACEScg unchanged", *rec709 = "Linear Rec.709 (sRGB) -> ACEScg",
+               *srgb = "sRGB - Texture -> ACEScg", *acescg = "ACEScg, unchanged";
+    const std::vector<std::pair<const char*, const char*>> rules {
+        { "spot_vismap.exr", data },
+        { "/show/spot.vismap", data },
+        { "spot.vismap?samples=64", data },
+        { "hero_vm.exr", data },
+        { "/a/b/hero_vm.1001.exr", data },
+        { "hero_vm.<UDIM>.exr", data },
+        { "hero_vm_u1_v1.tx", data },
+        { "hero_vm.####.tif", data },
+        { "hero_vm.%04d.exr", data },
+        { "hero_vmlit.1001.exr", acescg },
+        { "sky.cfem", acescg },
+        { "hero.lightmap?vismap=hero_vm.exr", acescg },
+        { "/show/vismap/sky.exr", acescg },
+        { "/show/raw/sky.exr", acescg },
+        { "SKY.EXR", acescg },
+        { "sky.hdr", rec709 },
+        { "sky.HDR", rec709 },
+        { "sky_lin_rec709.exr", rec709 },
+        { "sky_ACEScg.hdr", acescg },
+        { "sky_lin_ap0_scene.exr", "ACES2065-1 -> ACEScg" },
+        { "paint.png", srgb },
+        { "paint.jpg", srgb },
+        { "paint.JPEG", srgb },
+        { "paint.tga", srgb },
+        { "paint.bmp", srgb },
+        { "paint_srgb.tif", srgb },
+        { "paint_acescg.tif", acescg },
+    };
+    for (auto& [path, expected] : rules)
+        EXPECT_EQ(said(path, settings), expected) << path;
+}
+
+// OIIO 2.4 finds the space Raw in "drawing.tif", and in every file of a folder of that name.
+TEST_F(Color, ANameInsideAWordOrAFolderSaysNothing)
+{
+    for (const char* path : { "drawing.tif", "/show/raw/paint.tif", "/show/acescg.old/paint.tif", "strawberry.tif" }) {
+        EXPECT_EQ(said(path, { kConfig, "" }, OIIO::TypeUInt8), "sRGB - Texture -> ACEScg") << path;
+        EXPECT_EQ(said(path, { kConfig, "" }), "ACEScg, unchanged") << path;
+    }
+}
+
+TEST_F(Color, WithoutARuleTheTagDecidesAndThenTheType)
+{
+    ImageBuf image = flat({ 0.5f, 0.5f, 0.5f });
+    image.specmod().attribute("colorInteropID", "lin_ap0_scene");
+    ASSERT_TRUE(convert(image, "sky.tif", { kConfig, "" })) << error;
+    EXPECT_EQ(note, "ACES2065-1 -> ACEScg");
+
+    // What OIIO 2.4 stamps on every EXR means nothing.
+    ImageBuf stamped = flat({ 0.5f, 0.25f, 0.125f });
+    stamped.specmod().attribute("oiio:ColorSpace", "Linear");
+    ASSERT_TRUE(convert(stamped, "sky.tif", { kConfig, "" })) << error;
+    EXPECT_EQ(note, "ACEScg, unchanged");
+    EXPECT_EQ(stamped.spec().get_string_attribute("oiio:ColorSpace"), "");
+
+    EXPECT_EQ(said("paint.tif", { kConfig, "" }, OIIO::TypeUInt16), "sRGB - Texture -> ACEScg");
+    EXPECT_EQ(said("paint.tif", { kConfig, "" }, OIIO::TypeHalf), "ACEScg, unchanged");
+    // A rule comes before the tag, and what is asked for before both.
+    ImageBuf asked = flat({ 0.5f, 0.5f, 0.5f });
+    asked.specmod().attribute("colorInteropID", "lin_ap0_scene");
+    ASSERT_TRUE(convert(asked, "sky.hdr", { kConfig, "texture_paint" })) << error;
+    EXPECT_EQ(note, "sRGB - Texture -> ACEScg");
+}
+
+TEST_F(Color, AFileKeepsItsWholeNumbersInMind)
+{
+    const std::string path = testing::TempDir() + "vmlight_color_test.tif";
+    ASSERT_TRUE(flat({ 0.8f, 0.2f, 0.1f }, OIIO::TypeUInt8).write(path));
+    ImageBuf image(path);
+    ASSERT_TRUE(image.read(0, 0, true, OIIO::TypeFloat));
+    EXPECT_TRUE(convert(image, path, { kConfig, "" })) << error;
+    EXPECT_EQ(note, "sRGB - Texture -> ACEScg");
+    expect_pixel(image, { 0.3819f, 0.0729f, 0.0251f }, 1e-4f);
+
+    ImageBuf unread(path);
+    EXPECT_TRUE(convert(unread, path, { kConfig, "" })) << error;
+    expect_pixel(unread, { 0.3819f, 0.0729f, 0.0251f }, 1e-4f);
+    OIIO::Filesystem::remove(path);
+}
+
+TEST_F(Color, WithoutAConfigOnlySrgbIsConverted)
+{
+    EXPECT_EQ(said("sky.hdr", {}), "lin_rec709_scene, unchanged (no OCIO config)");
+    EXPECT_EQ(said("sky.exr", {}, OIIO::TypeHalf), "lin_rec709_scene, unchanged (no OCIO config)");
+    EXPECT_EQ(said("paint.exr", { "", "sRGB" }), "srgb_rec709_scene -> lin_rec709_scene (no OCIO config)");
+    EXPECT_EQ(said("paint.png", { "", "linear" }, OIIO::TypeUInt8), "lin_rec709_scene, unchanged (no OCIO config)");
+    EXPECT_EQ(said("map.exr", { "", "raw" }), "data, used as lin_rec709_scene unchanged (no OCIO config)");
+    EXPECT_EQ(said("map.exr", { "", "ACEScg" }),
+              "ERROR colour space \"ACEScg\" needs an OCIO config, and none is set; without one there are "
+              "srgb_rec709_scene, lin_rec709_scene and data");
+
+    ImageBuf image = flat({ 0.8f, 0.2f, 0.02f, 0.5f }, OIIO::TypeUInt16);
+    ASSERT_TRUE(convert(image, "paint.png", {})) << error;
+    expect_pixel(image, { 0.603827f, 0.033105f, 0.001548f, 0.5f }, 2e-5f);
+    EXPECT_EQ(id_of(image), "lin_rec709_scene");
+
+    // A file that says more than we can convert keeps its word.
+    ImageBuf tagged = flat({ 0.8f, 0.2f, 0.1f });
+    tagged.specmod().attribute("colorInteropID", "lin_ap1_scene");
+    ASSERT_TRUE(convert(tagged, "sky.exr", {})) << error;
+    EXPECT_EQ(note, "lin_ap1_scene, unchanged (no OCIO config)");
+    EXPECT_EQ(id_of(tagged), "lin_ap1_scene");
+}
+
+TEST_F(Color, TheEnvironmentsConfigIsTheDefault)
+{
+    setenv("OCIO", kConfig.c_str(), 1);
+    EXPECT_EQ(said("sky.hdr", {}), "Linear Rec.709 (sRGB) -> ACEScg");
+    setenv("OCIO", "", 1);
+    EXPECT_EQ(said("sky.hdr", {}), "lin_rec709_scene, unchanged (no OCIO config)");
+    setenv("OCIO", "/nowhere/config.ocio", 1);
+    EXPECT_EQ(said("sky.hdr", {}).rfind("ERROR cannot read the OCIO config \"/nowhere/config.ocio\": ", 0), 0u);
+    EXPECT_EQ(said("sky.hdr", { kConfig, "" }), "Linear Rec.709 (sRGB) -> ACEScg");
+}
+
+TEST_F(Color, RefusalsNameTheNearest)
+{
+    const std::string start = "ERROR the OCIO config \"" + kConfig + "\" has no colour space ";
+    EXPECT_EQ(said("sky.exr", { kConfig, "ACEScgg" }), start + "\"ACEScgg\"; did you mean \"ACEScg\"?");
+    EXPECT_EQ(said("sky.exr", { kConfig, "lin_rec708" }), start + "\"lin_rec708\"; did you mean \"lin_rec709\"?");
+    // OIIO would take "linear" for the role scene_linear; most who say it mean Rec.709.
+    EXPECT_EQ(said("sky.exr", { kConfig, "linear" }).rfind(start + "\"linear\"; ", 0), 0u);
+    EXPECT_EQ(said("sky.exr", { kConfig, "scene_linear" }), "ACEScg, unchanged");
+    EXPECT_EQ(said("sky.exr", { kConfig, "aCeScG" }), "ACEScg, unchanged");
+    EXPECT_EQ(said("sky.exr", { kConfig, "data" }), "Raw is data, used as ACEScg unchanged");
+}
+
+TEST_F(Color, ARefusedImageIsAsItWas)
+{
+    ImageBuf image = flat({ 0.8f, 0.2f, 0.1f }, OIIO::TypeUInt8);
+    image.specmod().attribute("colorInteropID", "lin_ap0_scene");
+    EXPECT_FALSE(convert(image, "x.png", { kConfig, "nothing of the kind" }));
+    EXPECT_EQ(image.spec().format, OIIO::TypeUInt8);
+    EXPECT_EQ(id_of(image), "lin_ap0_scene");
+
+    ImageBuf vismap = flat({ 0.5f, 0.5f, 0.5f });
+    vismap.specmod().attribute("vmlight:stage", "vismap");
+    EXPECT_FALSE(convert(vismap, "x.exr", { kConfig, "" }));
+    EXPECT_EQ(error, "\"x.exr\": a visibility map, not light: its vmlight:stage is \"vismap\"");
+}
+
+TEST_F(Color, ConfigsWithoutWhatWeNeedAreRefused)
+{
+    const std::string path = testing::TempDir() + "vmlight_color_test.ocio";
+    const auto write = [&](const std::string& roles) {
+        OIIO::Filesystem::write_text_file(path,
+                                          "ocio_profile_version: 2\nroles:\n  default: Raw\n" + roles
+                                              + "file_rules:\n  - !<Rule> {name: Default, colorspace: Raw}\n"
+                                                "displays:\n  D:\n    - !<View> {name: V, colorspace: Raw}\n"
+                                                "colorspaces:\n  - !<ColorSpace> {name: Raw, isdata: true}\n"
+                                                "  - !<ColorSpace> {name: Studio Linear}\n");
+    };
+    write("");
+    EXPECT_EQ(said("sky.exr", { path, "" }), "ERROR the OCIO config \"" + path + "\" has no role scene_linear");
+    write("  scene_linear: Studio Linear\n");
+    EXPECT_EQ(said("sky.exr", { path, "" }), "Studio Linear, unchanged");
+    EXPECT_EQ(said("paint.png", { path, "" }, OIIO::TypeUInt8),
+              "ERROR \"paint.png\": whole-number pixels are sRGB, and the OCIO config \"" + path
+                  + "\" has no space srgb_rec709_scene; name the image's colour space");
+    ImageBuf image = flat({ 1, 1, 1 });
+    ASSERT_TRUE(convert(image, "sky.exr", { path, "" })) << error;
+    EXPECT_EQ(id_of(image), "Studio Linear");
+    EXPECT_EQ(image.spec().find_attribute("chromaticities"), nullptr);
+    OIIO::Filesystem::write_text_file(path, "this is no config");
+    EXPECT_EQ(said("sky.exr", { path, "" }).rfind("ERROR cannot read the OCIO config \"" + path + "\": ", 0), 0u);
+    OIIO::Filesystem::remove(path);
+}
+
+TEST_F(Color, OnlyColourIsConverted)
+{
+    ImageSpec spec(3, 3, 6, OIIO::TypeFloat);
+    spec.channelnames = { "A", "depth", "B", "R", "G", "id" };
+    spec.alpha_channel = 0;
+    ImageBuf image(spec);
+    OIIO::ImageBufAlgo::fill(image, { 0.25f, 7.0f, 0.0f, 1.0f, 0.0f, 3.0f });
+    ASSERT_TRUE(convert(image, "sky.hdr", { kConfig, "" })) << error;
+    expect_pixel(image, { 0.25f, 7.0f, 0.020616f, 0.613097f, 0.070194f, 3.0f }, 2e-5f);
+
+    ImageBuf gray = flat({ 0.5f });
+    ASSERT_TRUE(convert(gray, "mask.png", { kConfig, "" })) << error;
+    expect_pixel(gray, { 0.214041f }, 2e-5f);
+}
+
+TEST_F(Color, ABadPixelStaysAloneAndBad)
+{
+    ImageBuf image = flat({ 1, 0, 0 });
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    const float bad[3] = { nan, 1.0f, inf };
+    image.setpixel(0, 1, bad, 3);
+    ASSERT_TRUE(convert(image, "sky.hdr", { kConfig, "" })) << error;
+    float pixel[3];
+    image.getpixel(0, 1, pixel, 3);
+    EXPECT_TRUE(std::isnan(pixel[0]));
+    EXPECT_EQ(pixel[1], 1.0f);
+    EXPECT_EQ(pixel[2], inf);
+    expect_pixel(image, { 0.613097f, 0.070194f, 0.020616f }, 2e-5f);
+}
+
+TEST_F(Color, TagsSayTheSpaceAndNothingStale)
+{
+    ImageSpec spec;
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    tag_scene_linear(spec, "lin_ap1_scene");
+    EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "lin_ap1_scene");
+    EXPECT_EQ(spec.find_attribute("oiio:ColorSpace"), nullptr);
+    const OIIO::TypeDesc eight(OIIO::TypeDesc::FLOAT, 8);
+    const OIIO::ParamValue* xy = spec.find_attribute("chromaticities", eight);
+    ASSERT_NE(xy, nullptr);
+    EXPECT_EQ(static_cast<const float*>(xy->data())[0], 0.713f);
+    EXPECT_EQ(static_cast<const float*>(xy->data())[7], 0.33767f);
+
+    tag_scene_linear(spec, "lin_rec709_scene");
+    xy = spec.find_attribute("chromaticities", eight);
+    ASSERT_NE(xy, nullptr);
+    EXPECT_EQ(static_cast<const float*>(xy->data())[0], 0.64f);
+
+    tag_scene_linear(spec, "studio_linear");
+    EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "studio_linear");
+    EXPECT_EQ(spec.find_attribute("chromaticities"), nullptr);
+
+    tag_scene_linear(spec, "lin_ap0_scene");
+    tag_data(spec);
+    EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "data");
+    EXPECT_EQ(spec.find_attribute("chromaticities"), nullptr);
+}
+
+TEST_F(Color, TagsSurviveAnExr)
+{
+    const std::string path = testing::TempDir() + "vmlight_color_test.exr";
+    ImageBuf image = flat({ 1, 0, 0 });
+    ASSERT_TRUE(convert(image, "sky.hdr", { kConfig, "" })) << error;
+    ASSERT_TRUE(image.write(path)) << image.geterror();
+    ImageBuf back(path);
+    EXPECT_EQ(back.spec().get_string_attribute("colorInteropID"), "lin_ap1_scene");
+    const OIIO::ParamValue* xy = back.spec().find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
+    ASSERT_NE(xy, nullptr);
+    EXPECT_EQ(static_cast<const float*>(xy->data())[2], 0.165f);
+    OIIO::Filesystem::remove(path);
+}
