@@ -75,6 +75,7 @@ int main(int argc, const char** argv)
             error = vismap.geterror();
             return false;
         }
+        append_params(vismap.specmod(), mesh_params);
         if (!stage.write(vismap, error))
             return false;
         tell(stage, report, vismap.spec());
