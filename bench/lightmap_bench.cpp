@@ -25,7 +25,11 @@ namespace {
 constexpr int kSide = 1024;
 constexpr size_t kTexels = size_t(kSide) * kSide;
 
-enum Content { smooth, random_directions };
+enum Content
+{
+    smooth,
+    random_directions
+};
 
 ImageBuf visibility_map(Content content)
 {
@@ -144,8 +148,8 @@ void scalar_shading(benchmark::State& state)
                            kTexels, out.data());
         benchmark::ClobberMemory();
     }
-    state.counters["ns_per_texel"] = benchmark::Counter(
-        double(state.iterations()) * kTexels * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["ns_per_texel"] = benchmark::Counter(double(state.iterations()) * kTexels * 1e-9,
+                                                        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 const std::vector<int64_t> kContents { smooth, random_directions };

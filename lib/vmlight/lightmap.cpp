@@ -161,8 +161,15 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const Lig
         return false;
     }
 
-    Job job { kernel_of(params.model), { &lookup, {}, float(std::exp2(params.exposure)) }, vismap_reader,
-              albedo ? &albedo_reader : nullptr, {}, {}, {}, {}, {} };
+    Job job { kernel_of(params.model),
+              { &lookup, {}, float(std::exp2(params.exposure)) },
+              vismap_reader,
+              albedo ? &albedo_reader : nullptr,
+              {},
+              {},
+              {},
+              {},
+              {} };
     for (int i = 0; i < 9; ++i)
         job.setup.rotation[i] = float(rotation[i / 3][i % 3]);
     if (!shade(target, job, nthreads, progress, error))

@@ -49,7 +49,8 @@ template <class D, class V = hn::Vec<D>> HWY_INLINE V Dot(D d, const float* row,
 
 // Angles and weights of Lanes(d) texels at once, then each texel's four neighbours by 128-bit loads: faster than
 // gathers, which fetch a float at a time. Each store writes one float past its texel; the next one mends it.
-template <class D> HWY_INLINE bool PaperGroup(D d, const ShadeSetup& setup, VismapOrder order, const float* vm, float* rgb)
+template <class D>
+HWY_INLINE bool PaperGroup(D d, const ShadeSetup& setup, VismapOrder order, const float* vm, float* rgb)
 {
     using V = hn::Vec<D>;
     const CfemLookup& cfem = *setup.cfem;
