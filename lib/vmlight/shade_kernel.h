@@ -34,6 +34,12 @@ struct ShadeSetup
 /// A texel whose direction has no component of this many times its visibility has none: what it sees is symmetric.
 constexpr float kNoDirection = 1e-6f;
 
+/// The largest V gain for which no lookup can leave float's range.
+inline float largest_light(const CfemLookup& cfem)
+{
+    return 1.7e38f / (cfem.largest > 1 ? cfem.largest : 1.0f);
+}
+
 /// Shade `texels` texels by the model `paper`: gain V C(R B / |B|). 0 where V <= 0; where there is light but no
 /// direction (kNoDirection), C is the mean of the CFEM over the sphere.
 ///
