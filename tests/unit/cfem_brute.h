@@ -52,21 +52,18 @@ inline double solid_angle(int y, int width, int height)
     return vmlight::latlong::row_solid_angle(y, height) / width;
 }
 
-/// (1/pi) Int max(0, n.w) dw over a pixel: in closed form if the pixel is wholly in front of n or behind it, else by
-/// `parts` x `parts` points.
-inline double pixel_response(const V3d& n, int x, int y, int width, int height, int parts)
+/// No point of a pixel is farther from its centre than this angle.
+inline double pixel_radius(int y, int width, int height)
 {
-    const double up = n.dot(center(x, y, width, height));
-    // No point of the pixel is farther from its centre than this.
     const double theta = pi * (y + 0.5) / height, reach = pi / (2 * height);
-    const double widest = theta - reach < pi / 2 && theta + reach > pi / 2
-        ? 1
-        : std::max(std::sin(theta - reach), std::sin(theta + reach));
-    const double radius = reach + std::min(pi, pi / width * std::max(0.0, widest));
-    if (radius < pi / 2 && up > std::sin(radius))
-        return n.dot(moment(x, y, width, height)) / pi;
-    if (radius < pi / 2 && up < -std::sin(radius))
-        return 0;
+    const bool equator = theta - reach < pi / 2 && theta + reach > pi / 2;
+    const double widest = equator ? 1 : std::max(std::sin(theta - reach), std::sin(theta + reach));
+    return reach + std::min(pi, pi / width * std::max(0.0, widest));
+}
+
+/// (1/pi) Int max(0, n.w) dw over a pixel that the horizon of n may cut, by `parts` x `parts` points.
+inline double cut_response(const V3d& n, int x, int y, int width, int height, int parts)
+{
     double sum = 0, weight = 0;
     for (int j = 0; j < parts; ++j) {
         const double t = (y + (j + 0.5) / parts) / height, w = std::sin(pi * t);
@@ -79,18 +76,57 @@ inline double pixel_response(const V3d& n, int x, int y, int width, int height, 
     return sum / weight * solid_angle(y, width, height) / pi;
 }
 
-/// C(n).
-inline V3d filter(const Map& map, const V3d& n, int parts)
+/// (1/pi) Int max(0, n.w) dw over a pixel: in closed form if the pixel is wholly in front of n or behind it.
+inline double pixel_response(const V3d& n, int x, int y, int width, int height, int parts)
 {
-    V3d sum(0);
-    for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x) {
-            const float* pixel = map.at(x, y);
-            if (pixel[0] != 0 || pixel[1] != 0 || pixel[2] != 0)
-                sum += V3d(pixel[0], pixel[1], pixel[2]) * pixel_response(n, x, y, map.width, map.height, parts);
-        }
-    return sum;
+    const double up = n.dot(center(x, y, width, height)), radius = pixel_radius(y, width, height);
+    if (radius < pi / 2 && up > std::sin(radius))
+        return n.dot(moment(x, y, width, height)) / pi;
+    if (radius < pi / 2 && up < -std::sin(radius))
+        return 0;
+    return cut_response(n, x, y, width, height, parts);
 }
+
+/// C(n) of a map, for many n.
+class Filter
+{
+public:
+    /// `map` must outlive this.
+    Filter(const Map& map, int parts)
+        : m_map(map)
+        , m_parts(parts)
+    {
+        for (int y = 0; y < map.height; ++y) {
+            const double radius = pixel_radius(y, map.width, map.height);
+            m_sine.push_back(radius < pi / 2 ? std::sin(radius) : 2);
+            for (int x = 0; x < map.width; ++x) {
+                m_center.push_back(center(x, y, map.width, map.height));
+                m_moment.push_back(moment(x, y, map.width, map.height));
+            }
+        }
+    }
+    V3d operator()(const V3d& n) const
+    {
+        V3d sum(0);
+        size_t i = 0;
+        for (int y = 0; y < m_map.height; ++y)
+            for (int x = 0; x < m_map.width; ++x, ++i) {
+                const double up = n.dot(m_center[i]);
+                if (up < -m_sine[y])
+                    continue;
+                const double response = up > m_sine[y] ? n.dot(m_moment[i]) / pi
+                                                       : cut_response(n, x, y, m_map.width, m_map.height, m_parts);
+                sum += V3d(m_map.rgb[3 * i], m_map.rgb[3 * i + 1], m_map.rgb[3 * i + 2]) * response;
+            }
+        return sum;
+    }
+
+private:
+    const Map& m_map;
+    int m_parts;
+    std::vector<V3d> m_center, m_moment;
+    std::vector<double> m_sine; // of the pixels' radius, by row
+};
 
 /// Mean over the sphere.
 inline V3d mean(const Map& map)
