@@ -39,9 +39,8 @@ struct CfemParams
 /// Filter an environment with a cosine.
 ///
 /// @param dst      set to a float image of size `resolution` of R, G, B: a lat-long map in the frame of latlong.h,
-/// sampled
-///                 at pixel centres, with the `colorInteropID` and `chromaticities` of `env`. If values were mended,
-///                 `vmlight:sanitized` says how many
+///                 sampled at pixel centres, with the `colorInteropID` and `chromaticities` of `env`. If values were
+///                 mended, `vmlight:sanitized` says how many
 /// @param env      a lat-long map of any size from 1x1, with channels R, G, B or one channel, in linear light. Its
 ///                 display window is the sphere. Its pixels are taken as constant over their area, or, if the file says
 ///                 `oiio:sampleborder`, as samples that lie on the seam and the poles. May be backed by an ImageCache:

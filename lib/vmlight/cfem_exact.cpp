@@ -2,6 +2,7 @@
 #include <vmlight/cfem_exact.h>
 
 #include <vmlight/cfem_kernel.h>
+#include <vmlight/cfem_prefix.h>
 #include <vmlight/latlong.h>
 #include <vmlight/parallel.h>
 
@@ -22,37 +23,9 @@ constexpr int kNodes = 2; // a band
 // and N bands in its stead N^2 times less.
 constexpr double kBandsPerRadian = 128 / pi;
 constexpr double kHorizonError = 0.077, kTolerance = 5e-5;
-// A place is two neighbours of this many segments of the circle.
-constexpr int kSegments = 64;
 // Bytes of prefix cells that are made, then used, before the next rows are read. More is slower, for the caches; less
 // is slower on threads, which meet twice a block.
 constexpr size_t kBlockBytes = size_t(4) << 20;
-
-// What a whole circle sends to direction n is n.y zero + sin theta_n (cos phi_n cosine + sin phi_n sine).
-struct Moments
-{
-    double zero[3] = {}, cosine[3] = {}, sine[3] = {};
-
-    void add(double upward, double sideward, const Moments& m)
-    {
-        for (int k = 0; k < 3; ++k) {
-            zero[k] += upward * m.zero[k];
-            cosine[k] += sideward * m.cosine[k];
-            sine[k] += sideward * m.sine[k];
-        }
-    }
-    double toward(const ColumnAngle& column, int k) const
-    {
-        return zero[k] + column.cosine * cosine[k] + column.sine * sine[k];
-    }
-};
-
-// What a row of the environment holds in sum, and the most in one place.
-struct RowLight
-{
-    Moments total;
-    double brightest[3] = {};
-};
 
 // A band of latitude within a row of the environment, and its usual nodes.
 struct Band
@@ -124,7 +97,9 @@ public:
             for (int r = 0; r < rows; ++r)
                 if (!read(row + r, &m_pixels[size_t(3) * m_grid.width * r]))
                     return false;
-            parallel_items(rows, m_nthreads, [&](int64_t r, int) { make_prefix(int(r)); });
+            parallel_items(rows, m_nthreads, [&](int64_t r, int) {
+                m_light[r] = make_prefix(&m_cells[m_stride * r], &m_pixels[size_t(3) * m_grid.width * r], m_edges);
+            });
             set_bands(row, rows);
             const auto report = [&](double share) { return progress((row + share * rows) / m_grid.height); };
             if (!parallel_items(
@@ -167,45 +142,6 @@ private:
                 share = std::max(share, weight * m_light[r].brightest[k] / m_light_so_far[k]);
         }
         return share;
-    }
-
-    void make_prefix(int r)
-    {
-        const float* pixel = &m_pixels[size_t(3) * m_grid.width * r];
-        PrefixCell* cell = &m_cells[m_stride * r + 1];
-        const int segments = std::min(kSegments, m_grid.width);
-        std::array<std::array<double, 3>, kSegments> segment_end;
-        int segment = 0;
-        Moments sum;
-        for (int i = 0; i < m_grid.width; ++i, pixel += 3, ++cell) {
-            const ColumnAngle &left = m_edges[i], &right = m_edges[i + 1];
-            for (int k = 0; k < 3; ++k) {
-                const double value = pixel[k];
-                cell->zero[k] = sum.zero[k] - value * left.phi;
-                cell->slope[k] = value;
-                cell->cosine[k] = sum.cosine[k] - value * left.sine;
-                cell->sine[k] = sum.sine[k] + value * left.cosine;
-                sum.zero[k] += value * (right.phi - left.phi);
-                sum.cosine[k] += value * (right.sine - left.sine);
-                sum.sine[k] -= value * (right.cosine - left.cosine);
-            }
-            if (i + 1 == int64_t(m_grid.width) * (segment + 1) / segments)
-                segment_end[segment++] = { sum.zero[0], sum.zero[1], sum.zero[2] };
-        }
-        m_light[r].total = sum;
-        for (int k = 0; k < 3; ++k) {
-            // From the end of segment i to that of segment i + 2, over the seam too.
-            double brightest = 0;
-            for (int i = 0; i < segments; ++i) {
-                const int end = (i + 2) % segments;
-                const double before = end <= i ? sum.zero[k] : 0;
-                brightest = std::max(brightest, before + segment_end[end][k] - segment_end[i][k]);
-            }
-            m_light[r].brightest[k] = segments > 2 ? brightest : sum.zero[k];
-        }
-        // Fixed-point positions may round to one cell outside.
-        m_cells[m_stride * r] = m_cells[m_stride * r + 1];
-        m_cells[m_stride * (r + 1) - 1] = m_cells[m_stride * (r + 1) - 2];
     }
 
     // Add the rows of the block to row `r` of the result.
