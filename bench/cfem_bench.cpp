@@ -51,14 +51,14 @@ OIIO::ImageBuf filtered(const OIIO::ImageBuf& env, const CfemParams& params, int
 }
 
 // The plain way: a float sum over all texels for each pixel of the result, texels in tiles that stay in the first
-// cache, eight pixels of the result at a time. Compiled for the instruction sets that the filter's own kernel is.
+// cache, sixteen pixels of the result at a time. Compiled for the instruction sets that the filter's own kernel is.
 #if defined(__x86_64__)
 __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512"), optimize("fp-contract=fast")))
 #endif
 void brute_float(float* result, const float* texels /* x y z r g b planes, weighted */, size_t count,
                  const float* normals /* planes of `pixels` */, size_t pixels)
 {
-    constexpr size_t tile = 1024, lanes = 32;
+    constexpr size_t tile = 1024, lanes = 16;
     for (size_t first = 0; first < count; first += tile) {
         const size_t n = std::min(tile, count - first);
         const float *x = texels + first, *y = x + count, *z = y + count;

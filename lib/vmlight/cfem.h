@@ -48,7 +48,7 @@ struct CfemParams
 /// @param params   `exact` (the default) integrates each row of the environment in closed form along longitude and
 ///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy kept. Measured error,
 ///                 relative to the map's mean: below 1e-5 on photographed maps, below 5e-5 with a sun of one pixel. Its
-///                 cost grows with the height of `env` and hardly with its width: 12 ms for 128x64 from 1024x512, one
+///                 cost grows with the height of `env` and little with its width: 12 ms for 128x64 from 1024x512, one
 ///                 thread. `sh` rings, below 0 too, under small bright lights.
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, or a pixel
