@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Shading of a 1024x1024 visibility map with a 256x128 CFEM, memory to memory, against the time it takes to stream
+/// the same bytes: 16 read and 12 written a texel.
+///
+/// Counters: ns a texel, and ratios to a run of the other kind taken in turn with it, so that both see the same
+/// machine. Times are medians. Two contents: `smooth`, where neighbours look along like directions, as in a baked
+/// chart; `random`, where each texel looks anywhere, the worst case for the cache that holds the CFEM.
+#include <vmlight/channels.h>
+#include <vmlight/latlong.h>
+#include <vmlight/lightmap.h>
+#include <vmlight/shade_kernel.h>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+using namespace vmlight;
+using OIIO::ImageBuf;
+using OIIO::ImageSpec;
+
+namespace {
+
+constexpr int kSide = 1024;
+constexpr size_t kTexels = size_t(kSide) * kSide;
+
+enum Content { smooth, random_directions };
+
+ImageBuf visibility_map(Content content)
+{
+    ImageSpec spec(kSide, kSide, 4, OIIO::TypeFloat);
+    spec.channelnames.assign(kVismapChannels.begin(), kVismapChannels.end());
+    ImageBuf image(spec);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> unit(0, 1);
+    float* texel = static_cast<float*>(image.localpixels());
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x, texel += 4) {
+            const float s = content == smooth ? (x + 0.5f) / kSide : unit(random);
+            const float t = content == smooth ? (y + 0.5f) / kSide : std::acos(1 - 2 * unit(random)) / 3.1415927f;
+            const float v = content == smooth ? 0.5f + 0.4f * std::sin(20 * s) * std::sin(20 * t) : unit(random);
+            const Imath::V3f b = latlong::direction(s, t) * (v * (1 - v / 3));
+            texel[0] = v, texel[1] = b.x, texel[2] = b.y, texel[3] = b.z;
+        }
+    return image;
+}
+
+ImageBuf environment()
+{
+    ImageBuf image(ImageSpec(256, 128, 3, OIIO::TypeFloat));
+    float* pixel = static_cast<float*>(image.localpixels());
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 256; ++x, pixel += 3) {
+            const Imath::V3f d = latlong::direction((x + 0.5f) / 256, (y + 0.5f) / 128);
+            pixel[0] = 1 + 0.5f * d.x, pixel[1] = 1 + 0.5f * d.y, pixel[2] = 1 + 0.5f * d.z * d.x;
+        }
+    return image;
+}
+
+// Three loops that the compiler makes vectors of; the last quarter of a block's input is in the first-level cache
+// when it is read again, so that memory is read once.
+void stream(const float* __restrict in, float* __restrict out)
+{
+    constexpr size_t block = 256;
+    for (size_t i = 0; i < kTexels; i += block, in += 4 * block, out += 3 * block)
+        for (size_t c = 0; c < 3; ++c)
+            for (size_t k = 0; k < block; ++k)
+                out[c * block + k] = in[c * block + k] + in[3 * block + k];
+    benchmark::ClobberMemory();
+}
+
+template <class Work> double seconds(Work&& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> times)
+{
+    std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+    return times[times.size() / 2];
+}
+
+// The kernel alone, one thread, in turn with streaming.
+void shading_against_streaming(benchmark::State& state)
+{
+    const ImageBuf vismap = visibility_map(Content(state.range(0)));
+    const float* in = static_cast<const float*>(vismap.localpixels());
+    std::vector<float> out(3 * kTexels);
+    CfemLookup cfem;
+    std::string error;
+    if (!prepare_cfem(cfem, environment(), error))
+        state.SkipWithError(error.c_str());
+    const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
+
+    std::vector<double> shading, streaming;
+    for (auto _ : state) {
+        streaming.push_back(seconds([&] { stream(in, out.data()); }));
+        shading.push_back(seconds([&] {
+            shade_paper(setup, VismapOrder::visibility_first, in, kTexels, out.data());
+            benchmark::ClobberMemory();
+        }));
+        state.SetIterationTime(shading.back());
+    }
+    state.counters["ns_per_texel"] = median(shading) / kTexels * 1e9;
+    state.counters["stream_ns"] = median(streaming) / kTexels * 1e9;
+    state.counters["times_stream"] = median(shading) / median(streaming);
+}
+
+// make_lightmap() as a turntable calls it, on one thread and two in turn.
+void one_thread_against_two(benchmark::State& state)
+{
+    const ImageBuf vismap = visibility_map(Content(state.range(0))), cfem = environment();
+    ImageBuf dst;
+    LightmapParams params;
+    params.rotate = { 20, 35, -50 };
+    std::vector<double> one, two;
+    for (auto _ : state) {
+        one.push_back(seconds([&] { make_lightmap(dst, vismap, cfem, params, nullptr, 1); }));
+        two.push_back(seconds([&] { make_lightmap(dst, vismap, cfem, params, nullptr, 2); }));
+        state.SetIterationTime(two.back());
+    }
+    if (dst.has_error())
+        state.SkipWithError(dst.geterror().c_str());
+    state.counters["ns_per_texel_1"] = median(one) / kTexels * 1e9;
+    state.counters["ns_per_texel_2"] = median(two) / kTexels * 1e9;
+    state.counters["speedup"] = median(one) / median(two);
+}
+
+// What the vector form gains over its definition.
+void scalar_shading(benchmark::State& state)
+{
+    const ImageBuf vismap = visibility_map(Content(state.range(0)));
+    std::vector<float> out(3 * kTexels);
+    CfemLookup cfem;
+    std::string error;
+    if (!prepare_cfem(cfem, environment(), error))
+        state.SkipWithError(error.c_str());
+    const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
+    for (auto _ : state) {
+        shade_paper_scalar(setup, VismapOrder::visibility_first, static_cast<const float*>(vismap.localpixels()),
+                           kTexels, out.data());
+        benchmark::ClobberMemory();
+    }
+    state.counters["ns_per_texel"] = benchmark::Counter(
+        double(state.iterations()) * kTexels * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+const std::vector<int64_t> kContents { smooth, random_directions };
+
+BENCHMARK(shading_against_streaming)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
+BENCHMARK(one_thread_against_two)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
+BENCHMARK(scalar_shading)->ArgName("random")->ArgsProduct({ kContents });
+
+} // namespace

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/cfem.h>
+
+#include <vmlight/cfem_exact.h>
+#include <vmlight/cfem_rows.h>
+#include <vmlight/cfem_sh.h>
+#include <vmlight/channels.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace vmlight {
+
+namespace {
+
+    OIIO::ImageSpec result_spec(const OIIO::ImageSpec& env, const CfemParams& params, int64_t mended)
+    {
+        OIIO::ImageSpec spec(params.resolution.width, params.resolution.height, 3, OIIO::TypeFloat);
+        spec.channelnames = { "R", "G", "B" };
+        spec.attribute("vmlight:stage", kCfemStage);
+        spec.attribute("vmlight:version", VMLIGHT_VERSION);
+        append_params(spec, params);
+        if (mended > 0)
+            spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
+        spec.attribute("oiio:updirection", "y");
+        for (const char* name : { "colorInteropID", "chromaticities" })
+            if (const OIIO::ParamValue* value = env.find_attribute(name))
+                spec.extra_attribs.add_or_replace(*value);
+        return spec;
+    }
+
+    bool fail(OIIO::ImageBuf& dst, const std::string& reason)
+    {
+        dst.reset();
+        dst.errorfmt("{}", reason);
+        return false;
+    }
+
+} // namespace
+
+bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, int nthreads,
+               const Progress& progress)
+{
+    std::string error;
+    if (!check_params(params, error))
+        return fail(dst, error);
+    EnvironmentRows rows(env, params.sanitize);
+    if (!rows.open())
+        return fail(dst, rows.error());
+
+    std::vector<double> rgb;
+    const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
+    const bool exact = params.filter == "exact";
+    const bool done = exact ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
+                            : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads,
+                                               progress);
+    if (!done)
+        return fail(dst, rows.error().empty() ? "interrupted" : rows.error());
+
+    std::vector<float> pixels(rgb.size());
+    for (size_t i = 0; i < rgb.size(); ++i) {
+        // Only rounding is below 0 in an exact sum; the harmonics' ringing is theirs to show.
+        pixels[i] = float(exact ? std::max(0.0, rgb[i]) : rgb[i]);
+        if (!std::isfinite(pixels[i]))
+            return fail(dst, OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]));
+    }
+    dst.reset(result_spec(env.spec(), params, rows.bad_values()));
+    return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
+}
+
+} // namespace vmlight

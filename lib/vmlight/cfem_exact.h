@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The exact cosine filter. For a pixel of the result and a circle of latitude of the environment,
+///     n.w = a + b cos(phi - phi_n),  a = cos theta cos theta_n,  b = sin theta sin theta_n >= 0,
+/// so what the pixel sees of the circle is one arc, |phi - phi_n| < acos(-a / b), and its light follows from the running
+/// integrals of L, L cos phi and L sin phi at the arc's two ends, whatever the width of the environment.
+/// Each row of the environment is sampled at a few latitudes, by Gauss quadrature.
+#pragma once
+
+#include <vmlight/cfem_grid.h>
+#include <vmlight/export.h>
+#include <vmlight/params.h>
+#include <vmlight/progress.h>
+
+#include <functional>
+#include <vector>
+
+namespace vmlight {
+
+/// Sets `rgb` to the 3 x width floats of a row. Called for rows 0, 1, 2, ... in order, from one thread; false ends the
+/// work.
+using ReadRow = std::function<bool(int row, float* rgb)>;
+
+/// Filter the rows that `read` gives.
+///
+/// @param rgb  set to 3 x width x height sums, before any clamp: nothing is below 0 but by rounding
+/// @returns false if `read` or `progress` ended the work.
+VMLIGHT_API bool filter_exact(std::vector<double>& rgb, const Size& resolution, const EnvironmentGrid& grid,
+                              const ReadRow& read, int nthreads, const Progress& progress);
+
+} // namespace vmlight

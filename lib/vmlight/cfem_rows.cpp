@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/cfem_rows.h>
+
+#include <vmlight/channels.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+
+using OIIO::Strutil::fmt::format;
+
+EnvironmentRows::EnvironmentRows(const OIIO::ImageBuf& env, bool sanitize)
+    : m_env(env)
+    , m_sanitize(sanitize)
+{ }
+
+bool EnvironmentRows::open()
+{
+    const OIIO::ImageSpec& spec = m_env.spec();
+    if (!m_env.initialized() || spec.width < 1 || spec.height < 1) {
+        m_error = m_env.has_error() ? m_env.geterror() : "environment has no pixels";
+        return false;
+    }
+    if (m_env.deep() || spec.depth > 1) {
+        m_error = "environment is a deep image or a volume, not a lat-long map";
+        return false;
+    }
+    std::array<int, 3> index;
+    if (!find_color_channels(spec, index, m_error)) {
+        m_error = "environment has " + m_error;
+        return false;
+    }
+    // The display window is the sphere: a cropped map is black outside its pixels.
+    m_roi = m_env.roi_full();
+    const auto range = std::minmax_element(index.begin(), index.end());
+    m_roi.chbegin = *range.first;
+    m_roi.chend = *range.second + 1;
+    for (int k = 0; k < 3; ++k)
+        m_channels[k] = index[k] - m_roi.chbegin;
+
+    const bool border = spec.get_int_attribute("oiio:sampleborder") != 0;
+    m_grid = { m_roi.width(), m_roi.height(), border };
+    m_row.resize(size_t(m_roi.nchannels()) * m_grid.width);
+    for (std::vector<float>& row : m_window)
+        row.resize(size_t(3) * m_grid.width);
+    return true;
+}
+
+bool EnvironmentRows::read(int row, float* rgb)
+{
+    // Mending needs the row below as well.
+    const int needed = std::min(m_grid.height, m_sanitize ? row + 2 : row + 1);
+    while (m_loaded < needed)
+        if (!load(m_loaded))
+            return false;
+    if (m_window_bad[row % 3] && !m_sanitize) {
+        while (m_loaded < m_grid.height)
+            if (!load(m_loaded))
+                return false;
+        std::string what;
+        if (m_nonfinite > 0)
+            what = format("{} NaN or infinite", m_nonfinite);
+        if (m_negative > 0)
+            what += format("{}{} negative", what.empty() ? "" : " and ", m_negative);
+        m_error = format("environment has {} value{}, the first at pixel ({}, {}); --sanitize mends them", what,
+                         bad_values() == 1 ? "" : "s", m_first_bad_x, m_first_bad_y);
+        return false;
+    }
+    std::copy(window(row).begin(), window(row).end(), rgb);
+    if (m_window_bad[row % 3])
+        mend(row, rgb);
+    return true;
+}
+
+bool EnvironmentRows::load(int row)
+{
+    OIIO::ROI roi = m_roi;
+    roi.ybegin = m_roi.ybegin + row;
+    roi.yend = roi.ybegin + 1;
+    const bool read = m_env.get_pixels(roi, OIIO::TypeFloat, m_row.data());
+    if (!read || m_env.has_error()) {
+        const std::string reason = m_env.geterror();
+        m_error = reason.empty() ? format("cannot read row {} of the environment", row) : reason;
+        return false;
+    }
+
+    const int stride = m_roi.nchannels();
+    std::vector<float>& rgb = window(row);
+    bool good = true;
+    for (int x = 0; x < m_grid.width; ++x)
+        for (int k = 0; k < 3; ++k) {
+            const float value = m_row[size_t(stride) * x + m_channels[k]];
+            rgb[size_t(3) * x + k] = value;
+            good &= value >= 0 && value <= std::numeric_limits<float>::max();
+        }
+    m_window_bad[row % 3] = !good;
+    m_loaded = row + 1;
+    if (good)
+        return true;
+
+    // A map of one channel counts once.
+    const int distinct = stride == 1 ? 1 : 3;
+    for (int x = 0; x < m_grid.width; ++x)
+        for (int k = 0; k < distinct; ++k) {
+            const float value = rgb[size_t(3) * x + k];
+            const bool nonfinite = !std::isfinite(value);
+            if (!nonfinite && value >= 0)
+                continue;
+            if (bad_values() == 0) {
+                m_first_bad_x = m_roi.xbegin + x;
+                m_first_bad_y = roi.ybegin;
+            }
+            ++(nonfinite ? m_nonfinite : m_negative);
+        }
+    return true;
+}
+
+void EnvironmentRows::mend(int row, float* rgb) const
+{
+    const int width = m_grid.width;
+    for (int x = 0; x < width; ++x)
+        for (int k = 0; k < 3; ++k) {
+            float& value = rgb[size_t(3) * x + k];
+            if (std::isfinite(value)) {
+                value = std::max(0.0f, value);
+                continue;
+            }
+            double sum = 0;
+            int count = 0;
+            for (int j = std::max(0, row - 1); j <= std::min(m_grid.height - 1, row + 1); ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const float near = window(j)[size_t(3) * ((x + i + width) % width) + k];
+                    if (std::isfinite(near) && near >= 0) {
+                        sum += near;
+                        ++count;
+                    }
+                }
+            value = count > 0 ? float(sum / count) : 0;
+        }
+}
+
+} // namespace vmlight

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/image_file.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// OIIO's callback carries a pointer and returns true to stop.
+bool report(void* progress, float done)
+{
+    const Progress& callback = *static_cast<const Progress*>(progress);
+    return callback && !callback(double(done));
+}
+
+std::string folder_of(const std::string& path)
+{
+    const std::string folder = OIIO::Filesystem::parent_path(path);
+    return folder.empty() ? "." : folder;
+}
+
+// The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
+bool flush_to_disk(const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_RDONLY);
+    const bool good = file >= 0 && ::fsync(file) == 0;
+    if (file >= 0)
+        ::close(file);
+    return good;
+}
+
+bool fits_half(const OIIO::ImageBuf& image, std::string& error)
+{
+    constexpr float kLargestHalf = 65504;
+    const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
+    for (size_t c = 0; c < stats.max.size(); ++c) {
+        const float worst = std::max(std::abs(stats.max[c]), std::abs(stats.min[c]));
+        if (!(worst <= kLargestHalf)) {
+            error = format("channel {} reaches {:g}, beyond the range of half (65504): write float",
+                           image.spec().channelnames[c], worst);
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error)
+{
+    if (!OIIO::Filesystem::is_regular(path) && path.find('?') == std::string::npos) {
+        error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
+        return false;
+    }
+    dst.reset(path);
+    if (!dst.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
+        error = format("\"{}\": {}", path, dst.geterror());
+        dst.clear();
+        return false;
+    }
+    return true;
+}
+
+std::string output_fault(const std::string& path)
+{
+    if (!OIIO::Strutil::iends_with(path, ".exr"))
+        return format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+    if (OIIO::Filesystem::is_directory(path))
+        return format("\"{}\": is a folder", path);
+    const std::string folder = folder_of(path);
+    if (!OIIO::Filesystem::is_directory(folder))
+        return format("\"{}\": no folder \"{}\"", path, folder);
+    if (::access(folder.c_str(), W_OK) != 0)
+        return format("\"{}\": the folder \"{}\" cannot be written", path, folder);
+    return "";
+}
+
+bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format_name,
+                 const Progress& progress, std::string& error)
+{
+    error = output_fault(path);
+    const bool half = format_name == "half";
+    if (error.empty() && half && !fits_half(image, error))
+        error = format("\"{}\": {}", path, error);
+    if (!error.empty())
+        return false;
+
+    const std::string name = OIIO::Filesystem::filename(path);
+    const std::string temporary = OIIO::Filesystem::unique_path(folder_of(path) + "/." + name + ".%%%%%%%%.part");
+    OIIO::ImageSpec spec = image.spec();
+    spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+    spec.attribute("compression", "zip");
+    // OIIO writes the time of day into every EXR that names no date.
+    spec.attribute("DateTime", "");
+
+    const auto failed = [&](const std::string& reason) {
+        error = format("\"{}\": {}", path, reason);
+        OIIO::Filesystem::remove(temporary);
+        return false;
+    };
+    auto out = OIIO::ImageOutput::create("openexr");
+    if (!out)
+        return failed(OIIO::geterror());
+    if (!out->open(temporary, spec))
+        return failed(out->geterror());
+    const auto* pixels = image.localpixels();
+    const bool written = out->write_image(OIIO::TypeDesc::FLOAT, pixels, OIIO::AutoStride, OIIO::AutoStride,
+                                          OIIO::AutoStride, report, const_cast<Progress*>(&progress));
+    if (!written || !out->close()) {
+        const std::string reason = out->geterror();
+        return failed(reason.empty() ? "interrupted" : reason);
+    }
+    if (!flush_to_disk(temporary))
+        return failed("cannot flush it to the disk");
+    std::string reason;
+    if (!OIIO::Filesystem::rename(temporary, path, reason))
+        return failed(reason);
+    flush_to_disk(folder_of(path));
+    return true;
+}
+
+} // namespace vmlight

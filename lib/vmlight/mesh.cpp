@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/mesh.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/hash.h>
+#include <OpenImageIO/strutil.h>
+
+#include <Imath/ImathMatrix.h>
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <cmath>
+#include <limits>
+
+namespace vmlight {
+namespace {
+
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+using OIIO::Strutil::fmt::format;
+
+bool is_finite(const V3d& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Assimp's matrices multiply column vectors; Imath's multiply rows: transposed here, composed in double.
+Imath::M44d matrix_of(const aiMatrix4x4& m)
+{
+    return Imath::M44d(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4);
+}
+
+struct Reading
+{
+    Reading(Mesh& dst, int set)
+        : mesh(dst)
+        , uv_set(set)
+    {
+    }
+
+    Mesh& mesh;
+    int uv_set;
+    bool has_uvs = false;
+    std::string error;
+
+    void append(const aiMesh& part, const Imath::M44d& to_object);
+    void append(const aiScene& scene, const aiNode& node, const Imath::M44d& parent);
+};
+
+void Reading::append(const aiMesh& part, const Imath::M44d& to_object)
+{
+    const uint32_t first = uint32_t(mesh.positions.size());
+    const bool mirrored = to_object.determinant() < 0;
+    const Imath::M44d normals_to_object = to_object.inverse().transposed();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+        const aiVector3D& p = part.mVertices[i];
+        V3d position;
+        to_object.multVecMatrix(V3d(p.x, p.y, p.z), position);
+        if (!is_finite(position) && error.empty())
+            error = format("vertex {} of \"{}\" is not finite: ({}, {}, {})", i, part.mName.C_Str(), p.x, p.y, p.z);
+        mesh.positions.push_back(position);
+
+        V3d normal(0);
+        if (part.HasNormals()) {
+            const aiVector3D& n = part.mNormals[i];
+            normals_to_object.multDirMatrix(V3d(n.x, n.y, n.z), normal);
+            normal = is_finite(normal) ? normal.normalized() : V3d(0);
+        }
+        mesh.normals.push_back(V3f(normal));
+
+        const bool has_uv = part.HasTextureCoords(unsigned(uv_set));
+        const aiVector3D* uv = has_uv ? &part.mTextureCoords[uv_set][i] : nullptr;
+        mesh.uvs.push_back(uv ? V2f(uv->x, uv->y) : V2f(nan, nan));
+        has_uvs |= has_uv;
+    }
+
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+        const aiFace& face = part.mFaces[i];
+        if (face.mNumIndices != 3)
+            continue;
+        std::array<uint32_t, 3> triangle { first + face.mIndices[0], first + face.mIndices[1],
+                                           first + face.mIndices[2] };
+        if (mirrored)
+            std::swap(triangle[1], triangle[2]); // a mirror turns the winding inside out
+        mesh.triangles.push_back(triangle);
+        mesh.materials.push_back(part.mMaterialIndex);
+    }
+}
+
+void Reading::append(const aiScene& scene, const aiNode& node, const Imath::M44d& parent)
+{
+    const Imath::M44d to_object = matrix_of(node.mTransformation) * parent;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        append(*scene.mMeshes[node.mMeshes[i]], to_object);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        append(scene, *node.mChildren[i], to_object);
+}
+
+bool is_z_up(const aiScene& scene, const std::string& up)
+{
+    int axis = 1;
+    if (up == "file" && scene.mMetaData)
+        scene.mMetaData->Get("UpAxis", axis);
+    return up == "z" || axis == 2;
+}
+
+} // namespace
+
+bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error)
+{
+    dst = Mesh();
+    dst.name = OIIO::Filesystem::filename(path);
+    if (!OIIO::Filesystem::is_regular(path)) {
+        error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
+        return false;
+    }
+    Assimp::Importer importer;
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
+    // relative distance, which collapses small meshes: both are done here, on equal bits.
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
+    if (!scene || !scene->mRootNode) {
+        error = format("\"{}\": not a mesh that can be read: {}", path, importer.GetErrorString());
+        return false;
+    }
+
+    Imath::M44d to_y_up;
+    if (is_z_up(*scene, params.up))
+        to_y_up = Imath::M44d(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1); // (x, y, z) -> (x, z, -y)
+    Reading reading(dst, params.uv_set);
+    reading.append(*scene, *scene->mRootNode, to_y_up);
+    if (!reading.error.empty() || dst.triangles.empty()) {
+        error = format("\"{}\": {}", path, reading.error.empty() ? "no triangle in it" : reading.error);
+        return false;
+    }
+
+    if (!reading.has_uvs)
+        dst.uvs.clear();
+    if (params.normals == "flat")
+        make_flat_normals(dst);
+    else if (params.normals == "smooth")
+        make_smooth_normals(dst, params.crease_angle);
+    else
+        fill_missing_normals(dst, params.crease_angle);
+    return true;
+}
+
+std::string mesh_hash(const Mesh& mesh)
+{
+    const auto fingerprint = [](const auto& elements) {
+        const char* bytes = reinterpret_cast<const char*>(elements.data());
+        return OIIO::farmhash::Fingerprint64(bytes, elements.size() * sizeof(elements[0]));
+    };
+    const std::array<uint64_t, 4> parts { fingerprint(mesh.positions), fingerprint(mesh.normals), fingerprint(mesh.uvs),
+                                          fingerprint(mesh.triangles) };
+    const uint64_t hash = fingerprint(parts);
+    return format("{:016x}", hash);
+}
+
+} // namespace vmlight

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The inner loops of shading: texels of a visibility map in, colour out, one function a model.
+///
+/// Each model has a vector form, compiled for several instruction sets and chosen when it first runs, and a scalar one
+/// that is its definition. Both round alike at each step (no fused multiply-add), so their results are the same bits
+/// on every machine with IEEE division and square root.
+#pragma once
+
+#include <vmlight/cfem_lookup.h>
+#include <vmlight/export.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace vmlight {
+
+/// Where the visibility stands among the four floats of a texel; the direction's x, y, z keep their order.
+/// Last is how EXR's sorting leaves a map whose channels were written as they come.
+enum class VismapOrder { visibility_first, visibility_last };
+
+struct ShadeSetup
+{
+    const CfemLookup* cfem;
+    /// Object space to environment space, row major.
+    float rotation[9];
+    /// Multiplies the result. Finite, not negative.
+    float gain;
+};
+
+/// A texel whose direction has no component of this many times its visibility has none: what it sees is symmetric.
+constexpr float kNoDirection = 1e-6f;
+
+/// Shade `texels` texels by the model `paper`: gain V C(R B / |B|). 0 where V <= 0; where there is light but no
+/// direction (kNoDirection), C is the mean of the CFEM over the sphere.
+///
+/// @param vismap   four floats a texel
+/// @param rgb      three floats a texel; may not overlap `vismap`
+/// @returns false if an input may not have been finite or a result may be out of float's range: the caller looks
+///          closer. Never reads or writes outside its arrays, whatever the input.
+using ShadeTexels = bool (*)(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
+                             float* rgb);
+VMLIGHT_API bool shade_paper(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
+                             float* rgb);
+/// The same, one texel at a time.
+VMLIGHT_API bool shade_paper_scalar(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
+                                    float* rgb);
+
+/// atan(a) / (2 pi) = a (c0 + c1 a^2 + ...) for a in [0, 1]: minimax, off by at most 6e-9.
+constexpr float kAtanTurns[8] = { 0.159154832f,   -0.0530461222f, 0.0317459442f,    -0.022136271f,
+                                  0.0153460335f, -0.00889872294f, 0.00347959786f, -0.000645304448f };
+
+/// The angle of (x, y) in turns, in [-0.5, 0.5], off by at most 6e-8 turns (4e-7 radians); quarter turns are exact.
+/// (0, 0) has angle 0.
+inline float atan2_turns(float y, float x)
+{
+    const float ax = std::abs(x), ay = std::abs(y);
+    const float larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
+    const float a = smaller / (larger > 1.17549435e-38f ? larger : 1.17549435e-38f);
+    const float s = a * a;
+    float r = kAtanTurns[7];
+    for (int i = 6; i >= 0; --i)
+        r = r * s + kAtanTurns[i];
+    r = r * a;
+    r = ay > ax ? 0.25f - r : r;
+    r = x < 0 ? 0.5f - r : r;
+    return std::copysign(r, y);
+}
+
+} // namespace vmlight

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage_main.h>
+
+#include <vmlight/image_file.h>
+
+#include <OpenImageIO/argparse.h>
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/timer.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+std::atomic<bool> s_interrupted { false };
+
+void interrupt(int)
+{
+    s_interrupted = true;
+}
+
+std::string flag_of(const std::string& name)
+{
+    return name.size() == 1 ? "-" + name : "--" + OIIO::Strutil::replace(name, "_", "-", true);
+}
+
+struct Option
+{
+    std::string heading, name, metavar, help;
+    StageMain::Take take;
+};
+
+struct OutputParams
+{
+    std::string format = "float";
+    int threads = 0;
+    bool quiet = false;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("format", format, Choices { { "float", "half" } }, "Numbers in the file");
+        field("threads", threads, Range { 0, 1024 }, "Threads; 0 is one for each core");
+        field("quiet", quiet, Flag {}, "Say nothing but warnings and errors");
+    }
+};
+
+} // namespace
+
+struct StageMain::State
+{
+    std::string name, purpose, example;
+    std::vector<std::string> operand_names, operands;
+    std::vector<Option> options;
+    std::string heading, output;
+    OutputParams common;
+
+    void message(const char* kind, const std::string& text) const
+    {
+        std::fprintf(stderr, "%s %s: %s\n", name.c_str(), kind, text.c_str());
+    }
+    std::vector<std::string> flags() const
+    {
+        std::vector<std::string> all { "--help", "--version" };
+        for (const Option& option : options)
+            all.push_back(flag_of(option.name));
+        return all;
+    }
+    bool split_arguments(int argc, const char** argv, std::vector<std::string>& words, std::string& error) const;
+    bool parse(const std::vector<std::string>& words, bool& helped, std::string& error);
+};
+
+// ArgParse takes neither --flag=value nor tells an unknown flag from a missing one's nearest name: both are done first.
+bool StageMain::State::split_arguments(int argc, const char** argv, std::vector<std::string>& words,
+                                       std::string& error) const
+{
+    const std::vector<std::string> known = flags();
+    words.push_back(argc > 0 ? argv[0] : name);
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word.size() < 2 || word[0] != '-') {
+            words.push_back(word);
+            continue;
+        }
+        const size_t equals = word.find('=');
+        const std::string flag = word.substr(0, equals);
+        if (std::find(known.begin(), known.end(), flag) == known.end()) {
+            const std::string near = nearest_name(flag, known);
+            error = format("unknown flag \"{}\"{}", flag, near.empty() ? "" : format("; did you mean {}?", near));
+            return false;
+        }
+        words.push_back(flag);
+        if (equals != std::string::npos)
+            words.push_back(word.substr(equals + 1));
+        for (const Option& option : options) {
+            const bool takes_value = !option.metavar.empty();
+            if (flag_of(option.name) != flag || (!takes_value && equals == std::string::npos))
+                continue;
+            if (!takes_value) {
+                error = format("{} takes no value", flag);
+                return false;
+            }
+            if (equals == std::string::npos && i + 1 < argc)
+                words.push_back(argv[++i]); // as it is, though it may begin with '-'
+        }
+    }
+    return true;
+}
+
+bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped, std::string& error)
+{
+    OIIO::ArgParse parser;
+    parser.intro(format("{}: {}\n(vmlight {})", name, purpose, VMLIGHT_VERSION));
+    parser.usage(format("{} {} -o OUTPUT.exr [options]", name, OIIO::Strutil::join(operand_names, " ")));
+    parser.epilog(format("Example:\n{}\nExit code 0: done, 1: the work failed, 2: wrong usage.\n", example));
+    parser.exit_on_error(false);
+    parser.add_help(true);
+    parser.add_version(VMLIGHT_VERSION);
+    parser.arg("operand").hidden().action([&](OIIO::cspan<const char*> argv) { operands.push_back(argv[0]); });
+    std::string heading;
+    for (const Option& option : options) {
+        if (option.heading != heading)
+            parser.separator(heading = option.heading);
+        const std::string flag = flag_of(option.name);
+        // Metavars follow a colon and end at the next blank.
+        const std::string metavar = OIIO::Strutil::replace(option.metavar, " ", "_", true);
+        parser.arg((option.metavar.empty() ? flag : flag + " %s:" + metavar).c_str())
+            .help(option.help)
+            .action([&error, &option](OIIO::cspan<const char*> argv) {
+                std::string reason;
+                if (error.empty() && !option.take(argv.size() > 1 ? argv[1] : "true", reason))
+                    error = reason;
+            });
+    }
+    std::vector<const char*> pointers;
+    for (const std::string& word : words)
+        pointers.push_back(word.c_str());
+    const int result = parser.parse_args(int(pointers.size()), pointers.data());
+    helped = parser.aborted();
+    if (error.empty() && result < 0 && !helped)
+        error = parser.geterror();
+    if (error.empty() && !helped && operands.size() != operand_names.size())
+        error = operands.size() < operand_names.size()
+            ? format("{} is missing", operand_names[operands.size()])
+            : format("\"{}\" is one argument too many", operands[operand_names.size()]);
+    if (error.empty() && !helped && output.empty())
+        error = "-o OUTPUT.exr is missing";
+    return error.empty();
+}
+
+StageMain::StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example)
+    : m_state(std::make_unique<State>())
+{
+    m_state->name = std::move(name);
+    m_state->purpose = std::move(purpose);
+    m_state->operand_names = std::move(operands);
+    m_state->example = std::move(example);
+    group("Output:");
+    option("o", "OUTPUT.exr", "The image to write", m_state->output);
+    params("Output:", m_state->common);
+}
+
+StageMain::~StageMain() = default;
+
+void StageMain::group(const std::string& heading)
+{
+    m_state->heading = heading;
+}
+
+void StageMain::option(const std::string& name, const std::string& metavar, const std::string& help, Take take)
+{
+    m_state->options.push_back({ m_state->heading, name, metavar, help, std::move(take) });
+}
+
+void StageMain::option(const std::string& name, const std::string& metavar, const std::string& help, std::string& dst)
+{
+    option(name, metavar, help, [&dst](OIIO::string_view text, std::string&) {
+        dst = std::string(text);
+        return true;
+    });
+}
+
+int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)
+{
+    OIIO::Filesystem::convert_native_arguments(argc, argv);
+    State& state = *m_state;
+    std::string error;
+    std::vector<std::string> words;
+    bool helped = false;
+    if (!state.split_arguments(argc, argv, words, error) || !state.parse(words, helped, error)) {
+        state.message("ERROR", error + " (see " + state.name + " --help)");
+        return int(Exit::Usage);
+    }
+    if (helped)
+        return int(Exit::Done);
+    if (state.common.threads > 0)
+        OIIO::attribute("threads", state.common.threads);
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    bool good = false;
+    try {
+        good = work(error);
+    } catch (const std::bad_alloc&) {
+        error = "out of memory";
+    } catch (const std::exception& exception) {
+        error = exception.what();
+    }
+    if (!good)
+        state.message("ERROR", error);
+    return int(good ? Exit::Done : Exit::Failed);
+}
+
+const std::string& StageMain::operand(size_t index) const
+{
+    return m_state->operands[index];
+}
+
+const std::string& StageMain::output() const
+{
+    return m_state->output;
+}
+
+int StageMain::threads() const
+{
+    return m_state->common.threads;
+}
+
+Progress StageMain::progress(const std::string& step)
+{
+    if (m_state->common.quiet)
+        return [](double) { return !s_interrupted; };
+    const bool terminal = ::isatty(STDERR_FILENO) != 0;
+    auto timer = std::make_shared<OIIO::Timer>();
+    auto last = std::make_shared<double>(terminal ? -1 : 0); // seconds on a terminal, tenths elsewhere
+    return [=](double done) {
+        const double seconds = (*timer)();
+        if (terminal && (seconds - *last > 0.1 || done >= 1)) {
+            *last = seconds;
+            std::fprintf(stderr, "\r%s %3.0f %%  %.0f s, %.0f s left   %s", step.c_str(), 100 * done, seconds,
+                         done > 0 ? seconds / done - seconds : 0.0, done >= 1 ? "\n" : "");
+        } else if (!terminal && int(10 * done) > *last && seconds > 1) {
+            *last = int(10 * done);
+            std::fprintf(stderr, "%s %3.0f %%  %.0f s\n", step.c_str(), 100 * done, seconds);
+        }
+        return !s_interrupted;
+    };
+}
+
+void StageMain::say(const std::string& line) const
+{
+    if (!m_state->common.quiet)
+        std::printf("%s\n", line.c_str());
+}
+
+void StageMain::warn(const std::string& line) const
+{
+    m_state->message("WARNING", line);
+}
+
+bool StageMain::write(const OIIO::ImageBuf& image, std::string& error)
+{
+    return write(image, m_state->output, error);
+}
+
+bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std::string& error)
+{
+    return write_image(
+        image, path, m_state->common.format, [](double) { return !s_interrupted; }, error);
+}
+
+} // namespace vmlight

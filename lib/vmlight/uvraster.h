@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which texels a mesh covers in texture space: texel centres, the top-left rule, exact integers.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/mesh.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vmlight {
+
+/// Side of the square tiles that the texture is cut into.
+constexpr int kTileSize = 64;
+
+/// What the texture coordinates are like, counted before any texel is.
+struct UvReport
+{
+    int64_t triangles = 0;
+    int64_t without_uv = 0; ///< a corner without texture coordinates, or with ones that are not finite
+    int64_t outside = 0; ///< reaching out of [0,1]: the part outside is not baked
+    int64_t degenerate_uv = 0; ///< no area in the texture (at 1/256 of a texel): covers nothing
+    int64_t degenerate_3d = 0; ///< no area in space: no normal, covers nothing
+    int64_t mirrored = 0; ///< clockwise in the texture
+};
+
+/// The texels of one tile: which triangle owns each, and where in it.
+struct TileCover
+{
+    static constexpr uint32_t kNone = ~0u;
+    /// Of the texel at (x, y) of the tile, at index y * kTileSize + x: its triangle, or kNone.
+    std::array<uint32_t, kTileSize * kTileSize> triangle;
+    /// Its weights of the triangle's second and third corners; the first has the rest.
+    std::array<float, kTileSize * kTileSize> weight1, weight2;
+    int64_t covered = 0;
+    int64_t overlapping = 0; ///< texels that more than one triangle covers
+};
+
+/// A mesh over a texture of width x height texels: row 0 is v = 1, texel centres at (i + 0.5) / n.
+/// Coordinates are rounded to 1/256 of a texel and all tests are exact, so that a texel on a shared edge goes to
+/// exactly one of the two triangles. Where triangles overlap, the lowest triangle index wins.
+class UvRaster
+{
+public:
+    /// Not checked: that the mesh has uvs.
+    VMLIGHT_API UvRaster(const Mesh& mesh, int width, int height);
+
+    VMLIGHT_API int tiles_across() const { return (m_width + kTileSize - 1) / kTileSize; }
+    VMLIGHT_API int tiles_down() const { return (m_height + kTileSize - 1) / kTileSize; }
+    const UvReport& report() const { return m_report; }
+
+    /// Cover tile number `tile` (row by row). Independent of other tiles; any thread.
+    VMLIGHT_API void cover(int tile, TileCover& dst) const;
+
+private:
+    struct Corner
+    {
+        int64_t x, y;
+    };
+    bool corners(size_t triangle, std::array<Corner, 3>& dst) const;
+    template <class Visit> void each_tile(const std::array<Corner, 3>& corners, Visit&& visit) const;
+
+    const Mesh& m_mesh;
+    int m_width, m_height;
+    UvReport m_report;
+    // The triangles of tile t, ascending: m_binned[m_first[t]] .. m_binned[m_first[t + 1]].
+    std::vector<size_t> m_first;
+    std::vector<uint32_t> m_binned;
+};
+
+} // namespace vmlight

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap.h>
+
+#include <vmlight/channels.h>
+#include <vmlight/color.h>
+#include <vmlight/margin.h>
+#include <vmlight/occluder.h>
+#include <vmlight/parallel.h>
+#include <vmlight/sampling.h>
+
+#include <OpenImageIO/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace vmlight {
+namespace {
+
+using Imath::V3d;
+using Imath::V3f;
+
+/// A point to bake, in scene space.
+struct SurfacePoint
+{
+    V3f origin; ///< where rays start
+    V3f normal; ///< the interpolated normal
+    V3f geometric_normal; ///< on the same side
+};
+
+/// What each triangle needs, computed once a tile for each run of texels that it owns.
+class SurfacePoints
+{
+public:
+    SurfacePoints(const Mesh& mesh, const SceneFrame& frame)
+        : m_mesh(mesh)
+        , m_frame(frame)
+    {
+    }
+
+    SurfacePoint at(uint32_t triangle, float weight1, float weight2)
+    {
+        if (triangle != m_triangle)
+            take(triangle);
+        // Rays from an edge of the triangle could slip behind a neighbour that meets it at a sharp angle: points are
+        // kept off the edges by what offset_origin() may move them, or by a quarter of a small triangle.
+        std::array<double, 3> weight { 1.0 - double(weight1) - double(weight2), weight1, weight2 };
+        double total = 0;
+        for (int k = 0; k < 3; ++k)
+            total += weight[k] = std::max(weight[k], m_least_weight[k]);
+        V3d position(0), normal(0);
+        for (int k = 0; k < 3; ++k) {
+            position += m_corner[k] * (weight[k] / total);
+            normal += V3d(m_mesh.normals[m_mesh.triangles[triangle][k]]) * weight[k];
+        }
+        SurfacePoint point;
+        point.geometric_normal = V3f(m_normal);
+        // Opposed corner normals can cancel, or lean under the triangle: then its own normal is right.
+        point.normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
+        point.origin = offset_origin(V3f(position), point.geometric_normal);
+        return point;
+    }
+
+private:
+    void take(uint32_t triangle)
+    {
+        m_triangle = triangle;
+        const auto& corners = m_mesh.triangles[triangle];
+        V3d shading(0);
+        for (int k = 0; k < 3; ++k) {
+            // From the same floats that are traced, so that the point lies in the plane of the traced triangle.
+            m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
+            shading += V3d(m_mesh.normals[corners[k]]);
+        }
+        V3d area_normal = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]);
+        if (!(area_normal.length() > 0))
+            area_normal = triangle_area_normal(m_mesh, corners);
+        const double area = area_normal.length();
+        // Which side is outside is the normals' word, not the winding's: files disagree on winding far more often.
+        m_normal = area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
+        for (int k = 0; k < 3; ++k) {
+            const double edge = (m_corner[(k + 1) % 3] - m_corner[(k + 2) % 3]).length();
+            const double height = edge > 0 ? area / edge : 0;
+            m_least_weight[k] = height > 0 ? std::min(0.25, kOffsetLength / height) : 0.25;
+        }
+    }
+
+    const Mesh& m_mesh;
+    const SceneFrame& m_frame;
+    uint32_t m_triangle = TileCover::kNone;
+    std::array<V3d, 3> m_corner;
+    std::array<double, 3> m_least_weight;
+    V3d m_normal;
+};
+
+struct Visibility
+{
+    double visibility = 0;
+    V3d direction { 0 };
+};
+
+class Baker
+{
+public:
+    Baker(const Occluder& occluder, const SamplePattern& pattern, const VismapParams& params, double scale)
+        : m_occluder(occluder)
+        , m_pattern(pattern)
+        , m_params(params)
+        , m_length(params.max_distance > 0 ? float(params.max_distance * scale)
+                                           : std::numeric_limits<float>::infinity())
+        , m_fan(pattern.count())
+    {
+    }
+
+    Visibility see(SurfacePoint point, int x, int y)
+    {
+        const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
+        m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
+        DirectionSums all = sum_directions(m_fan, point.normal);
+        if (all.rays == 0) {
+            // A few rays that all fall under the surface say nothing; around its own normal none does.
+            point.normal = point.geometric_normal;
+            m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
+            all = sum_directions(m_fan, point.normal);
+        }
+        m_rays += all.rays;
+        m_occluder.clear_blocked(m_fan, point.origin, m_length);
+        const DirectionSums seen = sum_directions(m_fan, point.normal);
+
+        Visibility result;
+        result.visibility = double(seen.rays) / double(all.rays);
+        if (seen.rays == 0)
+            return result;
+        if (m_params.measure == "uniform") {
+            result.direction = seen.weight > 0 ? seen.weighted_sum * (result.visibility / seen.weight) : V3d(0);
+        } else {
+            result.direction = seen.sum / double(all.rays);
+            // The mean of all directions is known: (2/3) n. What the samples miss of it, they miss in the same
+            // proportion of the part that is seen (a control variate): exact where all or nothing is.
+            if (all.rays == m_pattern.count())
+                result.direction += (V3d(point.normal) * (2.0 / 3) - all.sum / double(all.rays)) * result.visibility;
+        }
+        const double length = result.direction.length();
+        if (length > result.visibility)
+            result.direction *= result.visibility / length;
+        return result;
+    }
+
+    int64_t rays() const { return m_rays; }
+
+private:
+    const Occluder& m_occluder;
+    const SamplePattern& m_pattern;
+    const VismapParams& m_params;
+    float m_length;
+    RayFan m_fan;
+    int64_t m_rays = 0;
+};
+
+/// What one worker keeps between tiles.
+struct Worker
+{
+    Worker(const Occluder& occluder, const SamplePattern& pattern, const VismapParams& params, const Mesh& mesh,
+           const SceneFrame& frame)
+        : baker(occluder, pattern, params, frame.scale)
+        , points(mesh, frame)
+    {
+    }
+    TileCover cover;
+    Baker baker;
+    SurfacePoints points;
+    int64_t covered = 0, overlapping = 0, dark = 0;
+};
+
+bool fail(OIIO::ImageBuf& dst, const std::string& text)
+{
+    dst.clear();
+    dst.errorfmt("{}", text);
+    return false;
+}
+
+OIIO::ImageSpec vismap_spec(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params)
+{
+    OIIO::ImageSpec spec(params.width ? params.width : params.resolution.width,
+                         params.height ? params.height : params.resolution.height, 4, OIIO::TypeDesc::FLOAT);
+    spec.channelnames.assign(kVismapChannels.begin(), kVismapChannels.end());
+    if (params.coverage) {
+        spec.nchannels = 5;
+        spec.channelnames.push_back(kCoverageChannel);
+    }
+    spec.tile_width = spec.tile_height = kTileSize;
+    tag_data(spec);
+    append_params(spec, params);
+    spec.attribute("vmlight:stage", kVismapStage);
+    spec.attribute("vmlight:version", VMLIGHT_VERSION);
+    spec.attribute("vmlight:mesh", mesh.name);
+    spec.attribute("vmlight:meshHash", mesh_hash(mesh));
+    std::string hashes;
+    for (const Mesh& occluder : occluders)
+        hashes += (hashes.empty() ? "" : ",") + mesh_hash(occluder);
+    if (!hashes.empty())
+        spec.attribute("vmlight:occluderHash", hashes);
+    return spec;
+}
+
+} // namespace
+
+bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
+                 VismapReport* report, int nthreads, const Progress& progress)
+{
+    std::string error;
+    if (!check_params(params, error))
+        return fail(dst, error);
+    if (mesh.triangles.empty())
+        return fail(dst, OIIO::Strutil::fmt::format("\"{}\": no triangle in it", mesh.name));
+    if (mesh.uvs.empty())
+        return fail(dst,
+                    OIIO::Strutil::fmt::format("\"{}\": no texture coordinates: unwrap the mesh first, or choose "
+                                               "another set of them",
+                                               mesh.name));
+    VismapReport counts;
+    OIIO::Timer timer;
+    const OIIO::ImageSpec spec = vismap_spec(mesh, occluders, params);
+    dst.reset(spec, OIIO::InitializePixels::Yes);
+    float* pixels = static_cast<float*>(dst.localpixels());
+    if (!pixels)
+        return fail(dst, OIIO::Strutil::fmt::format("no memory for {} x {} texels", spec.width, spec.height));
+
+    const SceneFrame frame = SceneFrame::around(mesh);
+    std::vector<const Mesh*> casters { &mesh };
+    for (const Mesh& occluder : occluders)
+        casters.push_back(&occluder);
+    Occluder occluder;
+    if (!occluder.build(casters, frame, nthreads, error))
+        return fail(dst, error);
+    const UvRaster raster(mesh, spec.width, spec.height);
+    counts.uv = raster.report();
+    counts.build_seconds = timer.lap();
+
+    const SamplePattern pattern(params.sampler, params.samples, params.measure == "uniform");
+    Coverage coverage(spec.width, spec.height);
+    std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
+    for (auto& worker : workers)
+        worker = std::make_unique<Worker>(occluder, pattern, params, mesh, frame);
+
+    const auto bake_tile = [&](int64_t tile, int index) {
+        Worker& worker = *workers[size_t(index)];
+        raster.cover(int(tile), worker.cover);
+        worker.covered += worker.cover.covered;
+        worker.overlapping += worker.cover.overlapping;
+        if (!worker.cover.covered)
+            return;
+        const int tile_x = int(tile % raster.tiles_across()) * kTileSize;
+        const int tile_y = int(tile / raster.tiles_across()) * kTileSize;
+        // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).
+        for (int i = 0; i < kTileSize * kTileSize; ++i) {
+            const int block = i / 64, x = block % 8 * 8 + i % 8, y = block / 8 * 8 + i / 8 % 8;
+            const size_t texel = size_t(y) * kTileSize + x;
+            const uint32_t triangle = worker.cover.triangle[texel];
+            if (triangle == TileCover::kNone)
+                continue;
+            const SurfacePoint point
+                = worker.points.at(triangle, worker.cover.weight1[texel], worker.cover.weight2[texel]);
+            const Visibility seen = worker.baker.see(point, tile_x + x, tile_y + y);
+            worker.dark += seen.visibility < 0.01;
+            coverage.set(tile_x + x, tile_y + y);
+            float* out = pixels + (size_t(tile_y + y) * spec.width + size_t(tile_x + x)) * spec.nchannels;
+            out[0] = float(seen.visibility);
+            for (int c = 0; c < 3; ++c)
+                out[1 + c] = float(seen.direction[c]);
+            if (params.coverage)
+                out[4] = 1;
+        }
+    };
+    const int64_t tiles = int64_t(raster.tiles_across()) * raster.tiles_down();
+    if (!parallel_items(tiles, nthreads, bake_tile, progress))
+        return fail(dst, "interrupted");
+    counts.bake_seconds = timer.lap();
+    fill_margin(pixels, spec.nchannels, coverage, params.margin);
+    counts.margin_seconds = timer.lap();
+
+    counts.texels = int64_t(spec.width) * spec.height;
+    for (const auto& worker : workers) {
+        counts.covered += worker->covered;
+        counts.overlapping += worker->overlapping;
+        counts.dark += worker->dark;
+        counts.rays += worker->baker.rays();
+    }
+    if (report)
+        *report = counts;
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light_input.h"
+
+#include <vmlight/frames.h>
+#include <vmlight/image_file.h>
+#include <vmlight/lightmap.h>
+#include <vmlight/stage_main.h>
+
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/timer.h>
+
+using namespace vmlight;
+using OIIO::Strutil::fmt::format;
+
+namespace {
+
+/// What changes from frame to frame.
+struct Animation
+{
+    std::vector<int> frames { 1 };
+    bool asked = false;
+    Ramp rotate_y;
+
+    // The turn about y comes after the object's own rotation; both become one matrix.
+    LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const
+    {
+        LightmapParams frame = params;
+        LightmapParams own = params;
+        own.env_rotate.clear();
+        Rotation rotation;
+        if (rotate_y.first == 0 && rotate_y.last == 0)
+            return frame;
+        if (!lightmap_rotation(rotation, own, error))
+            return frame;
+        rotation = rotation_from_angles(0, rotate_y.at(index, frames.size()), 0) * rotation;
+        frame.rotate.clear();
+        frame.quaternion.clear();
+        frame.matrix.assign(&rotation[0][0], &rotation[0][0] + 9);
+        return frame;
+    }
+};
+
+} // namespace
+
+int main(int argc, const char** argv)
+{
+    LightmapParams params;
+    LightInput light;
+    Animation animation;
+    StageMain stage("makelightmap", "light a visibility map", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
+                    "  makelightmap hero_vismap.exr studio_cfem.exr --rotate 0,90,0 -o hero_lit.exr\n"
+                    "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr");
+    stage.params("Light:", params);
+    stage.group("Frames:");
+    stage.option("frames", "RANGE", "Frames to make, 1-48: -o holds #### for the number", [&](auto text, auto& error) {
+        animation.asked = true;
+        return parse_frames(animation.frames, std::string(text), error);
+    });
+    stage.option("rotate_y", "FIRST:LAST", "Degrees about y at the first and at the last frame, after the other turns",
+                 [&](auto text, auto& error) { return parse_ramp(animation.rotate_y, std::string(text), error); });
+    light.declare(stage);
+
+    return stage.run(argc, argv, [&](std::string& error) {
+        const bool numbered = stage.output().find('#') != std::string::npos;
+        error = output_fault(stage.output());
+        if (error.empty() && animation.frames.size() > 1 && !numbered)
+            error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
+                           animation.frames.size());
+        if (!error.empty() || !light.read(stage, error))
+            return false;
+        const OIIO::Timer timer;
+        for (size_t i = 0; i < animation.frames.size(); ++i) {
+            const LightmapParams frame = animation.at(params, i, error);
+            OIIO::ImageBuf lightmap;
+            if (!error.empty())
+                return false;
+            if (!make_lightmap(lightmap, light.vismap, light.cfem, frame, light.albedo(), stage.threads(),
+                               stage.progress("light"))) {
+                error = lightmap.geterror();
+                return false;
+            }
+            const std::string path = animation.asked ? frame_path(stage.output(), animation.frames[i]) : stage.output();
+            if (!stage.write(lightmap, path, error))
+                return false;
+        }
+        stage.say(format("light: {} of {}x{} in {:.3f} s",
+                         animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
+                         light.vismap.spec().width, light.vismap.spec().height, timer()));
+        return true;
+    });
+}

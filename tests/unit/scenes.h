@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Small meshes whose visibility has a closed form.
+#pragma once
+
+#include <vmlight/mesh.h>
+
+#include <cmath>
+
+namespace vmlight::scenes {
+
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+
+/// Add a quad a, b, c, d, counter-clockwise seen from outside, with uvs over the rectangle (u0, v0)-(u1, v1), or none.
+inline void add_quad(Mesh& mesh, V3d a, V3d b, V3d c, V3d d, V2f uv0 = V2f(NAN), V2f uv1 = V2f(NAN))
+{
+    const uint32_t first = uint32_t(mesh.positions.size());
+    const V3f normal = V3f((b - a).cross(c - a).normalized());
+    for (const V3d& p : { a, b, c, d }) {
+        mesh.positions.push_back(p);
+        mesh.normals.push_back(normal);
+    }
+    for (const V2f& uv : { uv0, V2f(uv1.x, uv0.y), uv1, V2f(uv0.x, uv1.y) })
+        mesh.uvs.push_back(uv);
+    mesh.triangles.push_back({ first, first + 1, first + 2 });
+    mesh.triangles.push_back({ first, first + 2, first + 3 });
+    mesh.materials.insert(mesh.materials.end(), 2, 0);
+}
+
+/// A square of side 2 `half` around `centre` in the plane z = centre.z, facing +z, over the whole texture.
+inline Mesh floor_facing_z(double half, V3d centre = V3d(0))
+{
+    Mesh mesh;
+    mesh.name = "floor";
+    const double h = half;
+    add_quad(mesh, centre + V3d(-h, -h, 0), centre + V3d(h, -h, 0), centre + V3d(h, h, 0), centre + V3d(-h, h, 0),
+             V2f(0, 0), V2f(1, 1));
+    return mesh;
+}
+
+/// An occluder without uvs: one quad.
+inline Mesh quad(V3d a, V3d b, V3d c, V3d d)
+{
+    Mesh mesh;
+    mesh.name = "quad";
+    add_quad(mesh, a, b, c, d);
+    return mesh;
+}
+
+/// A disc facing -z (as a fan of `sides` triangles with the disc's area), without uvs.
+inline Mesh disc(V3d centre, double radius, int sides = 2000)
+{
+    Mesh mesh;
+    mesh.name = "disc";
+    const double step = 2 * M_PI / sides, r = radius * std::sqrt(step / std::sin(step));
+    mesh.positions.push_back(centre);
+    for (int i = 0; i < sides; ++i)
+        mesh.positions.push_back(centre + V3d(r * std::cos(i * step), r * std::sin(i * step), 0));
+    mesh.normals.assign(mesh.positions.size(), V3f(0, 0, -1));
+    for (int i = 0; i < sides; ++i)
+        mesh.triangles.push_back({ 0, uint32_t(1 + (i + 1) % sides), uint32_t(1 + i) });
+    mesh.materials.assign(mesh.triangles.size(), 0);
+    return mesh;
+}
+
+/// A sphere of `rings` x 2 `rings` quads, each with its own cell of the texture; smooth normals.
+inline Mesh sphere(V3d centre, double radius, int rings, bool inward = false)
+{
+    Mesh mesh;
+    mesh.name = "sphere";
+    const int columns = 2 * rings;
+    for (int j = 0; j <= rings; ++j)
+        for (int i = 0; i <= columns; ++i) {
+            const double theta = M_PI * j / rings, phi = 2 * M_PI * i / columns;
+            const bool pole = j == 0 || j == rings; // exact, so that the two ends of a ring share their bits
+            const V3d d(pole ? 0 : std::sin(theta) * std::cos(i % columns * 2 * M_PI / columns),
+                        pole ? 0 : std::sin(theta) * std::sin(i % columns * 2 * M_PI / columns), std::cos(theta));
+            mesh.positions.push_back(centre + d * radius);
+            mesh.normals.push_back(V3f(d) * (inward ? -1.0f : 1.0f));
+            mesh.uvs.push_back(V2f(float(phi / (2 * M_PI)), float(1 - theta / M_PI)));
+        }
+    for (int j = 0; j < rings; ++j)
+        for (int i = 0; i < columns; ++i) {
+            const uint32_t a = uint32_t(j * (columns + 1) + i), b = a + 1, c = a + uint32_t(columns) + 1, d = c + 1;
+            for (std::array<uint32_t, 3> t : { std::array<uint32_t, 3> { a, c, d }, { a, d, b } }) {
+                if ((j == 0 && t[1] == d) || (j == rings - 1 && t[1] == c))
+                    continue; // no area at the poles
+                if (inward)
+                    std::swap(t[1], t[2]);
+                mesh.triangles.push_back(t);
+            }
+        }
+    mesh.materials.assign(mesh.triangles.size(), 0);
+    return mesh;
+}
+
+/// The six walls of a box from `low` to `high`, each over its own cell of a 3 x 2 atlas with a border; facing inwards
+/// or outwards.
+inline Mesh box(V3d low, V3d high, bool inward, double border = 0.01)
+{
+    Mesh mesh;
+    mesh.name = "box";
+    const V3d& l = low;
+    const V3d& h = high;
+    const V3d p[8] = { { l.x, l.y, l.z }, { h.x, l.y, l.z }, { h.x, h.y, l.z }, { l.x, h.y, l.z },
+                       { l.x, l.y, h.z }, { h.x, l.y, h.z }, { h.x, h.y, h.z }, { l.x, h.y, h.z } };
+    const int sides[6][4]
+        = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 }, { 2, 3, 7, 6 }, { 1, 2, 6, 5 }, { 3, 0, 4, 7 } };
+    for (int s = 0; s < 6; ++s) {
+        const int* q = sides[s];
+        const V2f uv0(float((s % 3 + border) / 3), float((s / 3 + border) / 2));
+        const V2f uv1(float((s % 3 + 1 - border) / 3), float((s / 3 + 1 - border) / 2));
+        if (inward)
+            add_quad(mesh, p[q[3]], p[q[2]], p[q[1]], p[q[0]], uv0, uv1);
+        else
+            add_quad(mesh, p[q[0]], p[q[1]], p[q[2]], p[q[3]], uv0, uv1);
+    }
+    return mesh;
+}
+
+} // namespace vmlight::scenes
