@@ -15,28 +15,28 @@ namespace vmlight {
 
 namespace {
 
-    OIIO::ImageSpec result_spec(const OIIO::ImageSpec& env, const CfemParams& params, int64_t mended)
-    {
-        OIIO::ImageSpec spec(params.resolution.width, params.resolution.height, 3, OIIO::TypeFloat);
-        spec.channelnames = { "R", "G", "B" };
-        spec.attribute("vmlight:stage", kCfemStage);
-        spec.attribute("vmlight:version", VMLIGHT_VERSION);
-        append_params(spec, params);
-        if (mended > 0)
-            spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
-        spec.attribute("oiio:updirection", "y");
-        for (const char* name : { "colorInteropID", "chromaticities" })
-            if (const OIIO::ParamValue* value = env.find_attribute(name))
-                spec.extra_attribs.add_or_replace(*value);
-        return spec;
-    }
+OIIO::ImageSpec result_spec(const OIIO::ImageSpec& env, const CfemParams& params, int64_t mended)
+{
+    OIIO::ImageSpec spec(params.resolution.width, params.resolution.height, 3, OIIO::TypeFloat);
+    spec.channelnames = { "R", "G", "B" };
+    spec.attribute("vmlight:stage", kCfemStage);
+    spec.attribute("vmlight:version", VMLIGHT_VERSION);
+    append_params(spec, params);
+    if (mended > 0)
+        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
+    spec.attribute("oiio:updirection", "y");
+    for (const char* name : { "colorInteropID", "chromaticities" })
+        if (const OIIO::ParamValue* value = env.find_attribute(name))
+            spec.extra_attribs.add_or_replace(*value);
+    return spec;
+}
 
-    bool fail(OIIO::ImageBuf& dst, const std::string& reason)
-    {
-        dst.reset();
-        dst.errorfmt("{}", reason);
-        return false;
-    }
+bool fail(OIIO::ImageBuf& dst, const std::string& reason)
+{
+    dst.reset();
+    dst.errorfmt("{}", reason);
+    return false;
+}
 
 } // namespace
 
@@ -53,9 +53,9 @@ bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams&
     std::vector<double> rgb;
     const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
     const bool exact = params.filter == "exact";
-    const bool done = exact ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
-                            : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads,
-                                               progress);
+    const bool done = exact
+        ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
+        : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress);
     if (!done)
         return fail(dst, rows.error().empty() ? "interrupted" : rows.error());
 

@@ -38,13 +38,18 @@ struct CfemParams
 
 /// Filter an environment with a cosine.
 ///
-/// @param dst      set to a float image of size `resolution` of R, G, B: a lat-long map in the frame of latlong.h
+/// @param dst      set to a float image of size `resolution` of R, G, B: a lat-long map in the frame of latlong.h,
+///                 sampled at pixel centres, with the `colorInteropID` and `chromaticities` of `env`. If values were
+///                 mended, `vmlight:sanitized` says how many
 /// @param env      a lat-long map of any size from 1x1, with channels R, G, B or one channel, in linear light. Its
-///                 pixels are taken as constant over their area, or, if the file says `oiio:sampleborder`, as
-///                 samples that lie on the seam and the poles. May be backed by an ImageCache: it is read row by row.
+///                 display window is the sphere. Its pixels are taken as constant over their area, or, if the file says
+///                 `oiio:sampleborder`, as samples that lie on the seam and the poles. May be backed by an ImageCache:
+///                 it is read row by row.
 /// @param params   `exact` (the default) integrates each row of the environment in closed form along longitude and
-///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy kept; its cost grows with
-///                 the height of `env` and not with its width. `sh` rings, below 0 too, under small bright lights.
+///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy kept. Measured error,
+///                 relative to the map's mean: below 1e-5 on photographed maps, below 5e-5 with a sun of one pixel. Its
+///                 cost grows with the height of `env` and little with its width: 12 ms for 128x64 from 1024x512, one
+///                 thread. `sh` rings, below 0 too, under small bright lights.
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, or a pixel
 ///          is NaN, infinite or negative (how many, where the first is, and the flag that mends them); `dst` then has

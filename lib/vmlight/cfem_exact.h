@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The exact cosine filter. For a pixel of the result and a circle of latitude of the environment,
 ///     n.w = a + b cos(phi - phi_n),  a = cos theta cos theta_n,  b = sin theta sin theta_n >= 0,
-/// so what the pixel sees of the circle is one arc, |phi - phi_n| < acos(-a / b), and its light follows from the running
-/// integrals of L, L cos phi and L sin phi at the arc's two ends, whatever the width of the environment.
-/// Each row of the environment is sampled at a few latitudes, by Gauss quadrature.
+/// so what the pixel sees of the circle is one arc, |phi - phi_n| < acos(-a / b), and its light follows from the
+/// running integrals of L, L cos phi and L sin phi at the arc's two ends, whatever the width of the environment. Each
+/// row of the environment is sampled at a few latitudes, by Gauss quadrature.
 #pragma once
 
 #include <vmlight/cfem_grid.h>

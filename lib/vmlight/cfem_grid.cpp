@@ -12,25 +12,37 @@ using latlong::pi;
 
 namespace {
 
-    // Edge i of n cells, in [0, 1].
-    double cell_edge(int i, int n, bool border)
-    {
-        if (i <= 0)
-            return 0;
-        if (i >= n)
-            return 1;
-        return border ? (i - 0.5) / (n - 1) : double(i) / n;
-    }
+// Edge i of n cells, in [0, 1].
+double cell_edge(int i, int n, bool border)
+{
+    if (i <= 0)
+        return 0;
+    if (i >= n)
+        return 1;
+    return border ? (i - 0.5) / (n - 1) : double(i) / n;
+}
 
 } // namespace
 
-double EnvironmentGrid::column_edge(int i) const { return 2 * pi * cell_edge(i, width, border); }
+double EnvironmentGrid::column_edge(int i) const
+{
+    return 2 * pi * cell_edge(i, width, border);
+}
 
-double EnvironmentGrid::row_edge(int j) const { return pi * cell_edge(j, height, border); }
+double EnvironmentGrid::row_edge(int j) const
+{
+    return pi * cell_edge(j, height, border);
+}
 
-double EnvironmentGrid::column_scale() const { return (border ? width - 1 : width) / (2 * pi); }
+double EnvironmentGrid::column_scale() const
+{
+    return (border ? width - 1 : width) / (2 * pi);
+}
 
-double EnvironmentGrid::column_offset() const { return border ? 0.5 : 0; }
+double EnvironmentGrid::column_offset() const
+{
+    return border ? 0.5 : 0;
+}
 
 LatitudeRule::LatitudeRule(int nodes)
     : m_position(nodes)

@@ -12,41 +12,41 @@ HWY_BEFORE_NAMESPACE();
 namespace vmlight {
 namespace HWY_NAMESPACE {
 
-    namespace hn = hwy::HWY_NAMESPACE;
+namespace hn = hwy::HWY_NAMESPACE;
 
-    void add_arcs(ColumnSum* HWY_RESTRICT sums, const PrefixCell* HWY_RESTRICT cells,
-                  const ColumnAngle* HWY_RESTRICT columns, const ArcRun& run)
-    {
-        const hn::CappedTag<double, 4> d;
-        const auto upward = hn::Set(d, run.upward), sideward = hn::Set(d, run.sideward);
-        const auto slope_at_end = hn::Set(d, run.slope_at_end[0]), slope_at_start = hn::Set(d, run.slope_at_end[1]);
-        const int64_t step = run.step;
-        int64_t position0 = run.end[0] + run.first * step, position1 = run.end[1] + run.first * step;
-        for (int c = run.first; c < run.last; ++c, position0 += step, position1 += step) {
-            const PrefixCell& e = cells[position0 >> 32];
-            const PrefixCell& s = cells[position1 >> 32];
-            const auto turn = hn::Set(d, columns[c].phi);
-            const auto e_slope = hn::MulAdd(upward, turn, slope_at_end);
-            const auto s_slope = hn::MulAdd(upward, turn, slope_at_start);
-            const auto cosine = hn::Mul(sideward, hn::Set(d, columns[c].cosine));
-            const auto sine = hn::Mul(sideward, hn::Set(d, columns[c].sine));
-            double* half0 = sums[c].half[0];
-            double* half1 = sums[c].half[1];
-            for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
-                const auto zero = hn::Sub(hn::Load(d, e.zero + i), hn::Load(d, s.zero + i));
-                const auto cosines = hn::Sub(hn::Load(d, e.cosine + i), hn::Load(d, s.cosine + i));
-                const auto sines = hn::Sub(hn::Load(d, e.sine + i), hn::Load(d, s.sine + i));
-                auto sum0 = hn::Load(d, half0 + i), sum1 = hn::Load(d, half1 + i);
-                sum0 = hn::MulAdd(upward, zero, sum0);
-                sum1 = hn::MulAdd(e_slope, hn::Load(d, e.slope + i), sum1);
-                sum0 = hn::MulAdd(cosine, cosines, sum0);
-                sum1 = hn::NegMulAdd(s_slope, hn::Load(d, s.slope + i), sum1);
-                sum1 = hn::MulAdd(sine, sines, sum1);
-                hn::Store(sum0, d, half0 + i);
-                hn::Store(sum1, d, half1 + i);
-            }
+void add_arcs(ColumnSum* HWY_RESTRICT sums, const PrefixCell* HWY_RESTRICT cells,
+              const ColumnAngle* HWY_RESTRICT columns, const ArcRun& run)
+{
+    const hn::CappedTag<double, 4> d;
+    const auto upward = hn::Set(d, run.upward), sideward = hn::Set(d, run.sideward);
+    const auto slope_at_end = hn::Set(d, run.slope_at_end[0]), slope_at_start = hn::Set(d, run.slope_at_end[1]);
+    const int64_t step = run.step;
+    int64_t position0 = run.end[0] + run.first * step, position1 = run.end[1] + run.first * step;
+    for (int c = run.first; c < run.last; ++c, position0 += step, position1 += step) {
+        const PrefixCell& e = cells[position0 >> 32];
+        const PrefixCell& s = cells[position1 >> 32];
+        const auto turn = hn::Set(d, columns[c].phi);
+        const auto e_slope = hn::MulAdd(upward, turn, slope_at_end);
+        const auto s_slope = hn::MulAdd(upward, turn, slope_at_start);
+        const auto cosine = hn::Mul(sideward, hn::Set(d, columns[c].cosine));
+        const auto sine = hn::Mul(sideward, hn::Set(d, columns[c].sine));
+        double* half0 = sums[c].half[0];
+        double* half1 = sums[c].half[1];
+        for (size_t i = 0; i < 4; i += hn::Lanes(d)) {
+            const auto zero = hn::Sub(hn::Load(d, e.zero + i), hn::Load(d, s.zero + i));
+            const auto cosines = hn::Sub(hn::Load(d, e.cosine + i), hn::Load(d, s.cosine + i));
+            const auto sines = hn::Sub(hn::Load(d, e.sine + i), hn::Load(d, s.sine + i));
+            auto sum0 = hn::Load(d, half0 + i), sum1 = hn::Load(d, half1 + i);
+            sum0 = hn::MulAdd(upward, zero, sum0);
+            sum1 = hn::MulAdd(e_slope, hn::Load(d, e.slope + i), sum1);
+            sum0 = hn::MulAdd(cosine, cosines, sum0);
+            sum1 = hn::NegMulAdd(s_slope, hn::Load(d, s.slope + i), sum1);
+            sum1 = hn::MulAdd(sine, sines, sum1);
+            hn::Store(sum0, d, half0 + i);
+            hn::Store(sum1, d, half1 + i);
         }
     }
+}
 
 } // namespace HWY_NAMESPACE
 } // namespace vmlight

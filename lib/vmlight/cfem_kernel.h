@@ -9,7 +9,8 @@
 
 namespace vmlight {
 
-/// The running integrals from longitude 0, anywhere in one pixel of a row of the environment (R, G, B and a spare lane):
+/// The running integrals from longitude 0, anywhere in one pixel of a row of the environment (R, G, B and a spare
+/// lane):
 ///     Int L dphi     = zero + slope phi
 ///     Int L cos dphi = cosine + slope sin phi
 ///     Int L sin dphi = sine - slope cos phi
@@ -26,14 +27,14 @@ struct ColumnAngle
 };
 
 /// Arcs around a run of columns. In column c the arc ends at cells (end[0] + c step) >> 32 and, at its beginning,
-/// (end[1] + c step) >> 32, in fixed point of 32 fraction bits; a cell taken one too far left or right for rounding does
-/// no harm, because the running integrals are continuous.
+/// (end[1] + c step) >> 32, in fixed point of 32 fraction bits; a cell taken one too far left or right for rounding
+/// does no harm, because the running integrals are continuous.
 struct ArcRun
 {
-    int first, last;                ///< columns, `last` not among them
-    int64_t end[2], step;           ///< cells
-    double upward, sideward;        ///< weight times a and b of n.w = a + b cos(phi - phi_column)
-    double slope_at_end[2];         ///< factors of the slopes are upward phi_column + slope_at_end
+    int first, last; ///< columns, `last` not among them
+    int64_t end[2], step; ///< cells
+    double upward, sideward; ///< weight times a and b of n.w = a + b cos(phi - phi_column)
+    double slope_at_end[2]; ///< factors of the slopes are upward phi_column + slope_at_end
 };
 
 /// Sums of a column: add the halves to get R, G, B. Two halves so that the loop is two vectors of four lanes.

@@ -15,7 +15,8 @@ using OIIO::Strutil::fmt::format;
 EnvironmentRows::EnvironmentRows(const OIIO::ImageBuf& env, bool sanitize)
     : m_env(env)
     , m_sanitize(sanitize)
-{ }
+{
+}
 
 bool EnvironmentRows::open()
 {
@@ -30,7 +31,7 @@ bool EnvironmentRows::open()
     }
     std::array<int, 3> index;
     if (!find_color_channels(spec, index, m_error)) {
-        m_error = "environment has " + m_error;
+        m_error = "environment: " + m_error;
         return false;
     }
     // The display window is the sphere: a cropped map is black outside its pixels.

@@ -23,9 +23,9 @@ public:
     bool open();
     const EnvironmentGrid& grid() const { return m_grid; }
 
-    /// Set `rgb` to the 3 x width floats of a row; to be called for rows 0, 1, 2, ... in order. False, with the reason in
-    /// error(), if the row cannot be read, or if it holds a bad value that is not to be mended: then all rows that are
-    /// left are read too, so that the reason counts every bad value.
+    /// Set `rgb` to the 3 x width floats of a row; to be called for rows 0, 1, 2, ... in order. False, with the reason
+    /// in error(), if the row cannot be read, or if it holds a bad value that is not to be mended: then all rows that
+    /// are left are read too, so that the reason counts every bad value.
     bool read(int row, float* rgb);
 
     /// Bad values met so far.
@@ -43,7 +43,7 @@ private:
     EnvironmentGrid m_grid;
     OIIO::ROI m_roi;
     std::array<int, 3> m_channels {}; // within m_roi
-    std::vector<float> m_row;         // all of m_roi's channels
+    std::vector<float> m_row; // all of m_roi's channels
     std::array<std::vector<float>, 3> m_window;
     std::array<bool, 3> m_window_bad {};
     int m_loaded = 0; // rows

@@ -13,47 +13,53 @@ using latlong::pi;
 
 namespace {
 
-    // Rows read before they are projected on threads.
-    constexpr int kBlockRows = 64;
-    // Four nodes a band follow P_lm of the highest band, 63, in the coarsest bands, 1/128 of pi, to 1e-6.
-    constexpr int kNodes = 4;
-    constexpr int kLeastBands = 128;
+// Rows read before they are projected on threads.
+constexpr int kBlockRows = 64;
+// Four nodes a band follow P_lm of the highest band, 63, in the coarsest bands, 1/128 of pi, to 1e-6.
+constexpr int kNodes = 4;
+constexpr int kLeastBands = 128;
 
-    // Normalised associated Legendre functions of one m, for l = m, m + 1, ...: Int P_lm^2 over the sphere is 1.
-    // The recurrence in l at fixed m is stable upwards.
-    class Legendre
+// Normalised associated Legendre functions of one m, for l = m, m + 1, ...: Int P_lm^2 over the sphere is 1.
+// The recurrence in l at fixed m is stable upwards.
+class Legendre
+{
+public:
+    Legendre(int m, double cos_theta, double sin_theta)
+        : m_m(m)
+        , m_l(m)
+        , m_cos(cos_theta)
+        , m_value(std::sqrt(1 / (4 * pi)))
     {
-    public:
-        Legendre(int m, double cos_theta, double sin_theta)
-            : m_m(m)
-            , m_l(m)
-            , m_cos(cos_theta)
-            , m_value(std::sqrt(1 / (4 * pi)))
-        {
-            for (int k = 1; k <= m; ++k)
-                m_value *= sin_theta * std::sqrt((2 * k + 1) / (2.0 * k));
-        }
-        double value() const { return m_value; }
-        void next()
-        {
-            const int l = ++m_l;
-            const double square = double(l) * l, m2 = double(m_m) * m_m;
-            const double factor = std::sqrt((4 * square - 1) / (square - m2));
-            const double below = (l - 1.0) * (l - 1.0);
-            const double next = factor * (m_cos * m_value - std::sqrt((below - m2) / (4 * below - 1)) * m_previous);
-            m_previous = m_value;
-            m_value = next;
-        }
+        for (int k = 1; k <= m; ++k)
+            m_value *= sin_theta * std::sqrt((2 * k + 1) / (2.0 * k));
+    }
+    double value() const { return m_value; }
+    void next()
+    {
+        const int l = ++m_l;
+        const double square = double(l) * l, m2 = double(m_m) * m_m;
+        const double factor = std::sqrt((4 * square - 1) / (square - m2));
+        const double below = (l - 1.0) * (l - 1.0);
+        const double next = factor * (m_cos * m_value - std::sqrt((below - m2) / (4 * below - 1)) * m_previous);
+        m_previous = m_value;
+        m_value = next;
+    }
 
-    private:
-        int m_m, m_l;
-        double m_cos, m_value, m_previous = 0;
-    };
+private:
+    int m_m, m_l;
+    double m_cos, m_value, m_previous = 0;
+};
 
-    // Y_l,m and Y_l,-m carry sqrt 2, Y_l0 does not.
-    double azimuth_norm(int m) { return m == 0 ? 1 : std::sqrt(2.0); }
+// Y_l,m and Y_l,-m carry sqrt 2, Y_l0 does not.
+double azimuth_norm(int m)
+{
+    return m == 0 ? 1 : std::sqrt(2.0);
+}
 
-    size_t place(int l, int m) { return 3 * (size_t(l) * l + l + m); }
+size_t place(int l, int m)
+{
+    return 3 * (size_t(l) * l + l + m);
+}
 
 } // namespace
 

@@ -44,7 +44,8 @@ private:
         , m_x(x)
         , m_y(y)
         , m_channel(channel)
-    { }
+    {
+    }
     std::tuple<int, int, int> place() const { return { m_y, m_x, m_channel }; }
 
     int64_t m_count = 0;

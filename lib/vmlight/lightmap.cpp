@@ -35,21 +35,15 @@ void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
 ImageSpec lightmap_spec(const ImageSpec& vismap, const ImageSpec& cfem, const LightmapParams& params)
 {
     ImageSpec spec(vismap.width, vismap.height, 3, OIIO::TypeFloat);
-    spec.x = vismap.x;
-    spec.y = vismap.y;
-    spec.z = vismap.z;
-    spec.full_x = vismap.full_x;
-    spec.full_y = vismap.full_y;
-    spec.full_z = vismap.full_z;
-    spec.full_width = vismap.full_width;
-    spec.full_height = vismap.full_height;
+    OIIO::set_roi(spec, OIIO::get_roi(vismap));
+    OIIO::set_roi_full(spec, OIIO::get_roi_full(vismap));
     spec.attribute("vmlight:stage", kLightmapStage);
     spec.attribute("vmlight:version", VMLIGHT_VERSION);
     append_params(spec, params);
-    copy_attribute(spec, vismap, "vmlight:mesh");
-    copy_attribute(spec, vismap, "vmlight:meshHash");
-    copy_attribute(spec, cfem, "colorInteropID");
-    copy_attribute(spec, cfem, "chromaticities");
+    for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
+        copy_attribute(spec, vismap, name);
+    for (const char* name : { "colorInteropID", "chromaticities" })
+        copy_attribute(spec, cfem, name);
     return spec;
 }
 
@@ -68,9 +62,9 @@ struct Job
     ShadeSetup setup;
     const VismapReader& vismap;
     const AlbedoReader* albedo;
-    std::mutex mutex;
-    Faults bad_vismap, bad_albedo, bad_result;
-    std::string error;
+    std::mutex mutex {};
+    Faults bad_vismap {}, bad_albedo {}, bad_result {};
+    std::string error {};
 };
 
 struct Scratch
@@ -139,6 +133,7 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const Lig
     VismapReader vismap_reader;
     CfemLookup lookup;
     AlbedoReader albedo_reader;
+
     if (!vismap_reader.open(vismap, error) || !check_input(cfem, "cosine-filtered environment", error))
         return false;
     if (!prepare_cfem(lookup, cfem, error)) {
@@ -161,8 +156,8 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const Lig
         return false;
     }
 
-    Job job { kernel_of(params.model), { &lookup, {}, float(std::exp2(params.exposure)) }, vismap_reader,
-              albedo ? &albedo_reader : nullptr, {}, {}, {}, {}, {} };
+    const ShadeSetup setup { &lookup, {}, float(std::exp2(params.exposure)) };
+    Job job { kernel_of(params.model), setup, vismap_reader, albedo ? &albedo_reader : nullptr };
     for (int i = 0; i < 9; ++i)
         job.setup.rotation[i] = float(rotation[i / 3][i % 3]);
     if (!shade(target, job, nthreads, progress, error))

@@ -65,7 +65,7 @@ private:
     bool read(OIIO::ROI roi, std::vector<float>& scratch, Faults& faults, std::string& error) const;
 
     const OIIO::ImageBuf* m_original = nullptr; // what the user named
-    const OIIO::ImageBuf* m_image = nullptr;    // what is read: the original, or the resized copy
+    const OIIO::ImageBuf* m_image = nullptr; // what is read: the original, or the resized copy
     OIIO::ImageBuf m_resized;
     std::array<int, 3> m_index {};
     int m_dx = 0, m_dy = 0; // from the map's pixel coordinates to those of m_image

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh.h>
 
+#include <vmlight/mesh_file_fault.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/hash.h>
 #include <OpenImageIO/strutil.h>
@@ -116,6 +118,11 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
     dst.name = OIIO::Filesystem::filename(path);
     if (!OIIO::Filesystem::is_regular(path)) {
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
+        return false;
+    }
+    const std::string fault = mesh_file_fault(path);
+    if (!fault.empty()) {
+        error = format("\"{}\": {}", path, fault);
         return false;
     }
     Assimp::Importer importer;

@@ -17,17 +17,6 @@ namespace vmlight {
 using Imath::V3d;
 using Imath::V3f;
 
-RayFan::RayFan(int rays)
-    : packets((rays + kPacketSize - 1) / kPacketSize)
-    , storage(size_t(packets) * kPacketSize * 3 + kPacketSize)
-    , lanes(size_t(packets))
-{
-    const auto misaligned = reinterpret_cast<uintptr_t>(storage.data()) % (kPacketSize * sizeof(float));
-    x = storage.data() + (misaligned ? kPacketSize - misaligned / sizeof(float) : 0);
-    y = x + packets * kPacketSize;
-    z = y + packets * kPacketSize;
-}
-
 SceneFrame SceneFrame::around(const Mesh& mesh)
 {
     V3d low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());

@@ -5,6 +5,7 @@
 #include <Imath/ImathVec.h>
 
 #include <vmlight/mesh.h>
+#include <vmlight/ray_fan.h>
 
 #include <cstdint>
 #include <memory>
@@ -12,24 +13,6 @@
 #include <vector>
 
 namespace vmlight {
-
-/// Rays of one packet that may be asked about at once.
-constexpr int kPacketSize = 8;
-
-/// Directions of rays that start at one point, in packets of eight; the lanes past the last ray are dead.
-struct RayFan
-{
-    explicit RayFan(int rays);
-    RayFan(const RayFan&) = delete;
-    RayFan& operator=(const RayFan&) = delete;
-
-    int packets;
-    /// packets * 8 numbers each, aligned for vectors.
-    std::vector<float> storage;
-    float *x, *y, *z;
-    /// One byte a packet, bit k for lane k. In: which rays to ask about. Out: which of them are not blocked.
-    std::vector<uint8_t> lanes;
-};
 
 /// Where positions become float: object space moved and scaled so that the baked mesh fills [-1, 1]. The scale is a
 /// power of two, so that scaling itself rounds nothing, and results do not depend on the mesh's units.

@@ -6,7 +6,7 @@
 #include <vmlight/export.h>
 
 #include <Imath/ImathVec.h>
-#include <vmlight/occluder.h>
+#include <vmlight/ray_fan.h>
 
 #include <cstdint>
 #include <string>

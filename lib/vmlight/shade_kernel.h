@@ -16,7 +16,11 @@ namespace vmlight {
 
 /// Where the visibility stands among the four floats of a texel; the direction's x, y, z keep their order.
 /// Last is how EXR's sorting leaves a map whose channels were written as they come.
-enum class VismapOrder { visibility_first, visibility_last };
+enum class VismapOrder
+{
+    visibility_first,
+    visibility_last
+};
 
 struct ShadeSetup
 {
@@ -30,6 +34,12 @@ struct ShadeSetup
 /// A texel whose direction has no component of this many times its visibility has none: what it sees is symmetric.
 constexpr float kNoDirection = 1e-6f;
 
+/// The largest V gain for which no lookup can leave float's range.
+inline float largest_light(const CfemLookup& cfem)
+{
+    return 1.7e38f / (cfem.largest > 1 ? cfem.largest : 1.0f);
+}
+
 /// Shade `texels` texels by the model `paper`: gain V C(R B / |B|). 0 where V <= 0; where there is light but no
 /// direction (kNoDirection), C is the mean of the CFEM over the sphere.
 ///
@@ -37,8 +47,8 @@ constexpr float kNoDirection = 1e-6f;
 /// @param rgb      three floats a texel; may not overlap `vismap`
 /// @returns false if an input may not have been finite or a result may be out of float's range: the caller looks
 ///          closer. Never reads or writes outside its arrays, whatever the input.
-using ShadeTexels = bool (*)(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
-                             float* rgb);
+using ShadeTexels
+    = bool (*)(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb);
 VMLIGHT_API bool shade_paper(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
                              float* rgb);
 /// The same, one texel at a time.
@@ -46,7 +56,7 @@ VMLIGHT_API bool shade_paper_scalar(const ShadeSetup& setup, VismapOrder order, 
                                     float* rgb);
 
 /// atan(a) / (2 pi) = a (c0 + c1 a^2 + ...) for a in [0, 1]: minimax, off by at most 6e-9.
-constexpr float kAtanTurns[8] = { 0.159154832f,   -0.0530461222f, 0.0317459442f,    -0.022136271f,
+constexpr float kAtanTurns[8] = { 0.159154832f,  -0.0530461222f,  0.0317459442f,  -0.022136271f,
                                   0.0153460335f, -0.00889872294f, 0.00347959786f, -0.000645304448f };
 
 /// The angle of (x, y) in turns, in [-0.5, 0.5], off by at most 6e-8 turns (4e-7 radians); quarter turns are exact.

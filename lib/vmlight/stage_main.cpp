@@ -237,7 +237,7 @@ Progress StageMain::progress(const std::string& step)
         return [](double) { return !s_interrupted; };
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
     auto timer = std::make_shared<OIIO::Timer>();
-    auto last = std::make_shared<double>(terminal ? -1 : 0); // seconds on a terminal, tenths elsewhere
+    auto last = std::make_shared<double>(-1); // seconds on a terminal, tenths elsewhere
     return [=](double done) {
         const double seconds = (*timer)();
         if (terminal && (seconds - *last > 0.1 || done >= 1)) {

@@ -7,6 +7,7 @@
 #include <vmlight/occluder.h>
 #include <vmlight/parallel.h>
 #include <vmlight/sampling.h>
+#include <vmlight/surface.h>
 
 #include <OpenImageIO/timer.h>
 
@@ -20,79 +21,6 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-
-/// A point to bake, in scene space.
-struct SurfacePoint
-{
-    V3f origin; ///< where rays start
-    V3f normal; ///< the interpolated normal
-    V3f geometric_normal; ///< on the same side
-};
-
-/// What each triangle needs, computed once a tile for each run of texels that it owns.
-class SurfacePoints
-{
-public:
-    SurfacePoints(const Mesh& mesh, const SceneFrame& frame)
-        : m_mesh(mesh)
-        , m_frame(frame)
-    {
-    }
-
-    SurfacePoint at(uint32_t triangle, float weight1, float weight2)
-    {
-        if (triangle != m_triangle)
-            take(triangle);
-        // Rays from an edge of the triangle could slip behind a neighbour that meets it at a sharp angle: points are
-        // kept off the edges by what offset_origin() may move them, or by a quarter of a small triangle.
-        std::array<double, 3> weight { 1.0 - double(weight1) - double(weight2), weight1, weight2 };
-        double total = 0;
-        for (int k = 0; k < 3; ++k)
-            total += weight[k] = std::max(weight[k], m_least_weight[k]);
-        V3d position(0), normal(0);
-        for (int k = 0; k < 3; ++k) {
-            position += m_corner[k] * (weight[k] / total);
-            normal += V3d(m_mesh.normals[m_mesh.triangles[triangle][k]]) * weight[k];
-        }
-        SurfacePoint point;
-        point.geometric_normal = V3f(m_normal);
-        // Opposed corner normals can cancel, or lean under the triangle: then its own normal is right.
-        point.normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
-        point.origin = offset_origin(V3f(position), point.geometric_normal);
-        return point;
-    }
-
-private:
-    void take(uint32_t triangle)
-    {
-        m_triangle = triangle;
-        const auto& corners = m_mesh.triangles[triangle];
-        V3d shading(0);
-        for (int k = 0; k < 3; ++k) {
-            // From the same floats that are traced, so that the point lies in the plane of the traced triangle.
-            m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
-            shading += V3d(m_mesh.normals[corners[k]]);
-        }
-        V3d area_normal = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]);
-        if (!(area_normal.length() > 0))
-            area_normal = triangle_area_normal(m_mesh, corners);
-        const double area = area_normal.length();
-        // Which side is outside is the normals' word, not the winding's: files disagree on winding far more often.
-        m_normal = area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
-        for (int k = 0; k < 3; ++k) {
-            const double edge = (m_corner[(k + 1) % 3] - m_corner[(k + 2) % 3]).length();
-            const double height = edge > 0 ? area / edge : 0;
-            m_least_weight[k] = height > 0 ? std::min(0.25, kOffsetLength / height) : 0.25;
-        }
-    }
-
-    const Mesh& m_mesh;
-    const SceneFrame& m_frame;
-    uint32_t m_triangle = TileCover::kNone;
-    std::array<V3d, 3> m_corner;
-    std::array<double, 3> m_least_weight;
-    V3d m_normal;
-};
 
 struct Visibility
 {
@@ -164,12 +92,12 @@ struct Worker
     Worker(const Occluder& occluder, const SamplePattern& pattern, const VismapParams& params, const Mesh& mesh,
            const SceneFrame& frame)
         : baker(occluder, pattern, params, frame.scale)
-        , points(mesh, frame)
+        , surface(mesh, frame)
     {
     }
     TileCover cover;
     Baker baker;
-    SurfacePoints points;
+    Surface surface;
     int64_t covered = 0, overlapping = 0, dark = 0;
 };
 
@@ -261,7 +189,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
             if (triangle == TileCover::kNone)
                 continue;
             const SurfacePoint point
-                = worker.points.at(triangle, worker.cover.weight1[texel], worker.cover.weight2[texel]);
+                = worker.surface.at(triangle, worker.cover.weight1[texel], worker.cover.weight2[texel]);
             const Visibility seen = worker.baker.see(point, tile_x + x, tile_y + y);
             worker.dark += seen.visibility < 0.01;
             coverage.set(tile_x + x, tile_y + y);

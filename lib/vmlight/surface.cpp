@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/surface.h>
+
+#include <algorithm>
+
+namespace vmlight {
+
+using Imath::V3d;
+using Imath::V3f;
+
+SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
+{
+    if (triangle != m_triangle)
+        take(triangle);
+    std::array<double, 3> weight { 1.0 - double(weight1) - double(weight2), weight1, weight2 };
+    double total = 0;
+    for (int k = 0; k < 3; ++k)
+        total += weight[k] = std::max(weight[k], m_least_weight[k]);
+    V3d position(0), normal(0);
+    for (int k = 0; k < 3; ++k) {
+        position += m_corner[k] * (weight[k] / total);
+        normal += V3d(m_mesh.normals[m_mesh.triangles[triangle][k]]) * weight[k];
+    }
+    SurfacePoint point;
+    point.geometric_normal = V3f(m_normal);
+    point.normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
+    point.origin = offset_origin(V3f(position), point.geometric_normal);
+    return point;
+}
+
+void Surface::take(uint32_t triangle)
+{
+    m_triangle = triangle;
+    const auto& corners = m_mesh.triangles[triangle];
+    V3d shading(0);
+    for (int k = 0; k < 3; ++k) {
+        // From the same floats that are traced, so that the point lies in the plane of the traced triangle.
+        m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
+        shading += V3d(m_mesh.normals[corners[k]]);
+    }
+    V3d area_normal = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]);
+    if (!(area_normal.length() > 0))
+        area_normal = triangle_area_normal(m_mesh, corners);
+    const double area = area_normal.length();
+    // Which side is outside is the normals' word, not the winding's: files disagree on winding far more often.
+    m_normal = area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
+    for (int k = 0; k < 3; ++k) {
+        const double edge = (m_corner[(k + 1) % 3] - m_corner[(k + 2) % 3]).length();
+        const double height = edge > 0 ? area / edge : 0;
+        m_least_weight[k] = height > 0 ? std::min(0.25, kOffsetLength / height) : 0.25;
+    }
+}
+
+} // namespace vmlight

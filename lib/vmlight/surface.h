@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Points of a mesh's surface that rays can start from.
+#pragma once
+
+#include <vmlight/mesh.h>
+#include <vmlight/occluder.h>
+
+#include <array>
+#include <cstdint>
+
+namespace vmlight {
+
+/// A point to bake, in scene space.
+struct SurfacePoint
+{
+    Imath::V3f origin; ///< where rays start: off the surface, see offset_origin()
+    Imath::V3f normal; ///< the interpolated normal, of unit length
+    Imath::V3f geometric_normal; ///< the triangle's, on the side of its corner normals
+};
+
+/// A mesh in a scene frame. Keeps what it worked out for the last triangle: one to a thread.
+class Surface
+{
+public:
+    Surface(const Mesh& mesh, const SceneFrame& frame)
+        : m_mesh(mesh)
+        , m_frame(frame)
+    {
+    }
+
+    /// The point with these weights of the triangle's second and third corners.
+    /// The normal is the interpolated one, or the triangle's where those of the corners cancel or lean under it.
+    /// The position is kept off the triangle's edges by kOffsetLength (a quarter of a small triangle's height): rays
+    /// from an edge could slip behind a neighbour that meets it at a sharp angle.
+    /// Not checked: that the triangle has an area.
+    SurfacePoint at(uint32_t triangle, float weight1, float weight2);
+
+private:
+    void take(uint32_t triangle);
+
+    const Mesh& m_mesh;
+    const SceneFrame& m_frame;
+    uint32_t m_triangle = ~0u;
+    std::array<Imath::V3d, 3> m_corner;
+    std::array<double, 3> m_least_weight;
+    Imath::V3d m_normal;
+};
+
+} // namespace vmlight

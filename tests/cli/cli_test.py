@@ -1,0 +1,334 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The executables as a user meets them: what they refuse, how, and what they leave behind.
+
+Run as: cli_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLIGHT_SOURCE (the repository) and oiiotool
+on the path. Each TestCase is one CTest test.
+"""
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BIN = os.environ["VMLIGHT_BIN"]
+SOURCE = os.environ["VMLIGHT_SOURCE"]
+SPOT = os.path.join(SOURCE, "tests/data/spot.obj")
+SKY = os.path.join(SOURCE, "tests/data/studio_small_03.hdr")
+CONFIG = os.path.join(SOURCE, "configs/ocio/config.ocio")
+
+QUAD = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"
+QUAD_WITHOUT_UV = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nf 1 2 3\n"
+
+
+class Case(unittest.TestCase):
+    """Each test has a folder of its own, and looks at the whole of it afterwards."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="vmlight ü ")
+        self.environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def file(self, name, content=b""):
+        with open(self.path(name), "wb") as out:
+            out.write(content.encode() if isinstance(content, str) else content)
+        return self.path(name)
+
+    def read(self, name):
+        with open(self.path(name), "rb") as data:
+            return data.read()
+
+    def run_tool(self, *words):
+        words = [os.path.join(BIN, words[0]), *words[1:]]
+        return subprocess.run(words, capture_output=True, text=True, cwd=self.folder, env=self.environment, timeout=120)
+
+    def done(self, *words):
+        result = self.run_tool(*words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout + result.stderr
+
+    def refused(self, code, text, *words):
+        """The tool ends with `code`, says `text`, and changes nothing in the folder."""
+        before = self.contents()
+        result = self.run_tool(*words)
+        self.assertEqual(result.returncode, code, (words, result.stdout, result.stderr))
+        self.assertIn(text, result.stderr)
+        self.assertTrue(result.stderr.startswith(words[0] + " ERROR: "), result.stderr)
+        self.assertEqual(self.contents(), before, "something was left behind or changed")
+
+    def contents(self):
+        found = {}
+        for folder, _, names in os.walk(self.folder):
+            for name in names:
+                with open(os.path.join(folder, name), "rb") as data:
+                    found[os.path.join(folder, name)] = data.read()
+        return found
+
+    def oiiotool(self, *words):
+        return subprocess.run(["oiiotool", *words], check=True, capture_output=True, text=True, cwd=self.folder,
+                              env=self.environment).stdout
+
+    def assert_same_pixels(self, a, b, tolerance):
+        # One threshold for all: a share of 0 % may fail.
+        self.oiiotool(a, b, "--fail", str(tolerance), "--diff")
+
+    def vismap(self, resolution="32"):
+        self.file("quad.obj", QUAD)
+        self.done("makevismap", "quad.obj", "-o", "vm.exr", "--resolution", resolution, "--samples", "8", "--quiet")
+        return "vm.exr"
+
+    def sky(self, *color, size="16x8", name="sky.exr"):
+        self.oiiotool("--pattern", "constant:color=" + ",".join(map(str, color)), size, str(len(color)), "-d", "float",
+                      "-o", name)
+        return name
+
+
+class Usage(Case):
+    TOOLS = {"makevismap": ["quad.obj"], "makecfem": ["sky.exr"], "makelightmap": ["vm.exr", "sky.exr"]}
+
+    def setUp(self):
+        super().setUp()
+        self.vismap()
+        self.sky(1, 1, 1)
+
+    def test_help_and_version_end_with_0(self):
+        for tool in self.TOOLS:
+            self.assertIn("Usage: " + tool, self.done(tool, "--help"))
+            self.assertRegex(self.done(tool, "--version"), r"\d+\.\d+\.\d+")
+
+    def test_an_unknown_flag_is_refused_with_the_nearest(self):
+        self.refused(2, 'unknown flag "--sample"; did you mean --samples?', "makevismap", "quad.obj", "-o", "x.exr",
+                     "--sample", "4")
+        self.refused(2, 'unknown flag "-x"', "makecfem", "sky.exr", "-x", "-o", "x.exr")
+        self.refused(2, 'unknown flag "--rotation"', "makelightmap", "vm.exr", "sky.exr", "-o", "x.exr",
+                     "--rotation=1,2,3")
+
+    def test_a_missing_or_surplus_argument_is_named(self):
+        self.refused(2, "-o OUTPUT.exr is missing", "makevismap", "quad.obj")
+        for tool, operands in self.TOOLS.items():
+            self.refused(2, " is missing", tool, "-o", "x.exr")
+            self.refused(2, '"surplus" is one argument too many', tool, *operands, "surplus", "-o", "x.exr")
+        self.refused(2, "", "makevismap", "quad.obj", "-o")
+        self.refused(2, "", "makevismap", "quad.obj", "-o", "x.exr", "--samples")
+
+    def test_values_are_parsed_strictly(self):
+        for flag, value, text in [
+                ("--samples", "0", "samples: 0 is not in [1, 1048576]"),
+                ("--samples", "4x", 'samples: "4x" is not a whole number'),
+                ("--samples", "", 'samples: "" is not a whole number'),
+                ("--resolution", "0", 'resolution: "0" is not WIDTHxHEIGHT from 1x1 to 32768x32768'),
+                ("--resolution", "99999", "resolution:"),
+                ("--sampler", "random", 'sampler: "random" is not one of fibonacci, sobol, halton'),
+                ("--max-distance", "far", 'max_distance: "far" is not a number or "infinite"'),
+                ("--max-distance", "nan", 'max_distance: "nan" is not a number'),
+                ("--max-distance", "-1", "max_distance: -1 is not in [0, 1e+30] or \"infinite\""),
+                ("--margin", "-2", "margin: -2 is not in"),
+                ("--format", "double", 'format: "double" is not one of float, half'),
+                ("--threads", "-1", "threads: -1 is not in [0, 1024]"),
+                ("--uv-set", "8", "uv_set: 8 is not in [0, 7]")]:
+            self.refused(2, text, "makevismap", "quad.obj", "-o", "x.exr", flag, value)
+            self.refused(2, text, "makevismap", "quad.obj", "-o", "x.exr", flag + "=" + value)
+        self.refused(2, "--coverage takes no value", "makevismap", "quad.obj", "-o", "x.exr", "--coverage=1")
+
+    def test_values_may_begin_with_a_minus_or_follow_an_equals_sign(self):
+        self.done("makelightmap", "vm.exr", "sky.exr", "-o", "a.exr", "--rotate", "-90,0,0", "--exposure", "-1")
+        self.done("makelightmap", "vm.exr", "sky.exr", "-o=b.exr", "--rotate=-90,0,0", "--exposure=-1")
+        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+
+    def test_frames_are_refused_in_words(self):
+        lightmap = ["makelightmap", "vm.exr", "sky.exr"]
+        self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "1-x")
+        self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "")
+        self.refused(2, "is not FIRST:LAST or one number", *lightmap, "-o", "x.#.exr", "--rotate-y", "0:b")
+        self.refused(1, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
+
+
+class Outputs(Case):
+    def setUp(self):
+        super().setUp()
+        self.vismap()
+        self.file("old.exr", "the old picture")
+
+    def test_a_name_that_cannot_be_written_is_refused_before_the_work(self):
+        self.refused(1, '"x.png": outputs are EXR files', "makevismap", "quad.obj", "-o", "x.png")
+        self.refused(1, 'no folder "missing"', "makevismap", "quad.obj", "-o", "missing/x.exr")
+        os.mkdir(self.path("folder.exr"))
+        self.refused(1, '"folder.exr": is a folder', "makevismap", "quad.obj", "-o", "folder.exr")
+        if os.geteuid() != 0:
+            os.mkdir(self.path("locked"), 0o500)
+            self.refused(1, "cannot be written", "makevismap", "quad.obj", "-o", "locked/x.exr")
+
+    def test_a_failed_run_leaves_the_old_file(self):
+        self.file("bad.obj", QUAD_WITHOUT_UV)
+        self.refused(1, "no texture coordinates", "makevismap", "bad.obj", "-o", "old.exr")
+        self.refused(1, "no such file", "makecfem", "missing.exr", "-o", "old.exr")
+        self.refused(1, "no such file", "makelightmap", "vm.exr", "missing.exr", "-o", "old.exr")
+
+    def test_half_is_refused_where_it_would_overflow(self):
+        self.sky(1e5, 1, 1)
+        self.refused(1, "beyond the range of half", "makecfem", "sky.exr", "-o", "old.exr", "--format", "half")
+        self.done("makecfem", "sky.exr", "-o", "old.exr")
+
+    def test_same_inputs_give_the_same_bytes_for_any_number_of_threads(self):
+        for threads in "1", "2", "7":
+            self.done("makevismap", SPOT, "-o", f"vm{threads}.exr", "--resolution", "128", "--samples", "16",
+                      "--threads", threads)
+            self.done("makecfem", SKY, "-o", f"cfem{threads}.exr", "--threads", threads)
+            self.done("makelightmap", f"vm{threads}.exr", f"cfem{threads}.exr", "-o", f"lit{threads}.exr",
+                      "--threads", threads)
+            time.sleep(1.1 if threads == "1" else 0)  # a date in the file would differ now
+        for stage in "vm", "cfem", "lit":
+            self.assertEqual(self.read(stage + "1.exr"), self.read(stage + "2.exr"), stage)
+            self.assertEqual(self.read(stage + "1.exr"), self.read(stage + "7.exr"), stage)
+        for word in self.folder, "makevismap", "--resolution":
+            self.assertNotIn(word.encode(), self.read("vm1.exr"))
+
+    def test_an_interrupt_leaves_the_old_file_and_no_debris(self):
+        before = self.contents()
+        process = subprocess.Popen([os.path.join(BIN, "makevismap"), SPOT, "-o", "old.exr", "--resolution", "4096",
+                                    "--samples", "65536"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        line = process.stderr.readline()  # the bake is under way
+        process.send_signal(signal.SIGINT)
+        _, rest = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, rest)
+        self.assertIn("makevismap ERROR: interrupted", line + rest)
+        self.assertEqual(self.contents(), before)
+
+
+class Meshes(Case):
+    def test_what_is_not_a_mesh_is_refused_in_words(self):
+        self.refused(1, '"missing.obj": no such file', "makevismap", "missing.obj", "-o", "x.exr")
+        os.mkdir(self.path("folder.obj"))
+        self.refused(1, '"folder.obj": not a file', "makevismap", "folder.obj", "-o", "x.exr")
+        self.file("empty.obj")
+        self.file("noise.obj", bytes(range(256)) * 64)
+        self.file("noise.glb", b"glTF" + bytes(range(256)) * 64)
+        self.file("noise.ply", b"ply\nformat ascii 1.0\nelement vertex 3\n" + bytes(range(256)))
+        self.file("huge.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n")
+        self.file("text.txt", "hello")
+        self.file("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")
+        self.file("cut.glb", b"glTF\x02\0\0\0")
+        for name in "empty.obj", "noise.obj", "noise.glb", "noise.ply", "huge.ply", "text.txt", "points.obj", "cut.glb":
+            self.refused(1, f'"{name}": ', "makevismap", name, "-o", "x.exr")
+
+    def test_a_mesh_without_uvs_says_so(self):
+        self.file("bare.obj", QUAD_WITHOUT_UV)
+        self.refused(1, '"bare.obj": no texture coordinates', "makevismap", "bare.obj", "-o", "x.exr")
+        self.file("quad.obj", QUAD)
+        self.refused(1, "no texture coordinates", "makevismap", "quad.obj", "-o", "x.exr", "--uv-set", "1")
+
+    def test_a_vertex_that_is_not_finite_is_named(self):
+        self.file("nan.obj", QUAD.replace("v 1 1 0", "v nan 1 0"))
+        self.refused(1, "is not finite", "makevismap", "nan.obj", "-o", "x.exr")
+
+    def test_surprises_are_warned_about_with_their_counts(self):
+        double = QUAD + "f 1/1/1 2/2/1 3/3/1\n"
+        self.file("double.obj", double)
+        out = self.done("makevismap", "double.obj", "-o", "x.exr", "--resolution", "8", "--samples", "4")
+        self.assertRegex(out, r"WARNING: 36 texels \(56.25 % of those covered\) belong to more than one triangle")
+        self.file("outside.obj", QUAD.replace("vt 1 1", "vt 2 2"))
+        out = self.done("makevismap", "outside.obj", "-o", "x.exr", "--resolution", "8", "--samples", "4")
+        self.assertIn("reach out of [0,1]", out)
+
+    def test_an_occluder_casts(self):
+        self.file("quad.obj", QUAD)
+        self.file("lid.obj", "v -9 -9 0.1\nv 9 -9 0.1\nv 9 9 0.1\nv -9 9 0.1\nf 1 2 3 4\n")
+        self.done("makevismap", "quad.obj", "-o", "open.exr", "--resolution", "4", "--samples", "64")
+        self.done("makevismap", "quad.obj", "--occluder", "lid.obj", "-o", "lid.exr", "--resolution", "4",
+                  "--samples", "64")
+        self.assertIn("Stats Min: 1.000000", self.oiiotool("open.exr", "--ch", "visibility", "--printstats"))
+        self.assertIn("Stats Max: 0.0", self.oiiotool("lid.exr", "--ch", "visibility", "--printstats"))
+        self.refused(1, '"gone.obj": no such file', "makevismap", "quad.obj", "--occluder", "gone.obj", "-o", "x.exr")
+
+
+class Light(Case):
+    def test_a_constant_sky_lights_by_visibility_alone(self):
+        self.done("makevismap", SPOT, "-o", "vm.exr", "--resolution", "128", "--samples", "16")
+        self.sky(0.25, 0.5, 2)
+        self.done("makelightmap", "vm.exr", "sky.exr", "-o", "lit.exr", "--rotate", "10,20,30")
+        self.oiiotool("vm.exr", "--ch", "visibility,visibility,visibility", "--chnames", "R,G,B", "--mulc",
+                      "0.25,0.5,2", "-o", "expected.exr")
+        self.assert_same_pixels("lit.exr", "expected.exr", 2e-6)
+
+    def test_frames_equal_single_maps_at_their_angles(self):
+        self.done("makevismap", SPOT, "-o", "vm.exr", "--resolution", "64", "--samples", "16")
+        self.done("makecfem", SKY, "-o", "cfem.exr")
+        self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "lit.####.exr", "--frames", "9-12", "--rotate-y", "0:270")
+        for frame, angle in ("0009", 0), ("0010", 90), ("0011", 180), ("0012", 270):
+            self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "one.exr", "--rotate", f"0,{angle},0")
+            self.assert_same_pixels(f"lit.{frame}.exr", "one.exr", 1e-6)
+        self.assertFalse(os.path.exists(self.path("lit.0013.exr")))
+
+    def test_an_environment_is_filtered_as_makecfem_would(self):
+        self.vismap()
+        self.done("makecfem", SKY, "-o", "cfem.exr")
+        self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "a.exr")
+        self.done("makelightmap", "vm.exr", SKY, "-o", "b.exr")
+        self.assert_same_pixels("a.exr", "b.exr", 0)
+
+    def test_the_same_light_in_two_colour_spaces_gives_the_same_map(self):
+        self.vismap()
+        self.oiiotool("--colorconfig", CONFIG, SKY, "--colorconvert", "lin_rec709_scene", "ACEScg", "-d", "float", "-o",
+                      "sky_acescg.exr")
+        config = ["--colorconfig", CONFIG]
+        self.done("makelightmap", "vm.exr", SKY, *config, "-o", "a.exr", "--colorspace", "lin_rec709_scene")
+        self.done("makelightmap", "vm.exr", "sky_acescg.exr", *config, "-o", "b.exr", "--colorspace", "ACEScg")
+        self.assert_same_pixels("a.exr", "b.exr", 1e-4)
+        self.refused(1, "Nonsense", "makelightmap", "vm.exr", SKY, *config, "-o", "x.exr", "--colorspace", "Nonsense")
+        self.refused(1, "missing.ocio", "makecfem", SKY, "--colorconfig", "missing.ocio", "-o", "x.exr")
+
+    def test_albedo_multiplies_in_linear_light(self):
+        self.vismap()
+        self.sky(1, 1, 1)
+        self.oiiotool("--pattern", "constant:color=0.5,0.5,0.5", "8x8", "3", "-d", "uint8", "-o", "gray.png")
+        self.done("makelightmap", "vm.exr", "sky.exr", "--albedo", "gray.png", "-o", "lit.exr")
+        stats = self.oiiotool("lit.exr", "--printstats")
+        self.assertIn("Stats Avg: 0.2158", stats.replace("0.215861", "0.2158"))  # sRGB 128 is 0.2159 in linear light
+        self.refused(1, "no such file", "makelightmap", "vm.exr", "sky.exr", "--albedo", "gone.png", "-o", "x.exr")
+
+    def test_what_is_not_light_or_visibility_is_refused(self):
+        self.vismap()
+        self.done("makecfem", SKY, "-o", "cfem.exr")
+        self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "lit.exr")
+        self.file("noise.exr", bytes(range(256)) * 16)
+        self.file("noise.hdr", "#?RADIANCE\n\n-Y 4 +X 4\n")
+        self.file("empty.exr")
+        with open(self.path("cfem.exr"), "rb") as whole:
+            self.file("cut.exr", whole.read()[:5000])
+        self.refused(1, "not a visibility map", "makelightmap", "cfem.exr", "cfem.exr", "-o", "x.exr")
+        self.refused(1, "not a visibility map", "makelightmap", "lit.exr", "cfem.exr", "-o", "x.exr")
+        self.refused(1, "neither an environment nor a CFEM", "makelightmap", "vm.exr", "vm.exr", "-o", "x.exr")
+        self.refused(1, "neither an environment nor a CFEM", "makelightmap", "vm.exr", "lit.exr", "-o", "x.exr")
+        self.refused(1, "visibility map", "makecfem", "vm.exr", "-o", "x.exr")
+        for name in "noise.exr", "noise.hdr", "empty.exr", "cut.exr":
+            self.refused(1, f'"{name}": ', "makecfem", name, "-o", "x.exr")
+            self.refused(1, f'"{name}": ', "makelightmap", "vm.exr", name, "-o", "x.exr")
+            self.refused(1, f'"{name}": ', "makelightmap", name, "cfem.exr", "-o", "x.exr")
+        self.refused(1, "mirror", "makelightmap", "vm.exr", "cfem.exr", "--matrix", "-1,0,0,0,1,0,0,0,1", "-o", "x.exr")
+
+    def test_bad_pixels_are_refused_unless_mending_is_asked_for(self):
+        rows = b""
+        for y in range(4):
+            pixels = [(1.0, 1.0, 1.0)] * 8
+            if y == 2:
+                pixels[5] = (float("nan"), float("inf"), -1.0)
+            rows += b"".join(struct.pack("<3f", *p) for p in reversed(pixels))
+        # Little-endian PFM, bottom row first.
+        flipped = b"".join(rows[i:i + 96] for i in range(0, len(rows), 96))
+        self.file("bad.pfm", b"PF\n8 4\n-1.0\n" + flipped)
+        self.refused(1, "2 NaN or infinite", "makecfem", "bad.pfm", "-o", "x.exr")
+        out = self.done("makecfem", "bad.pfm", "-o", "x.exr", "--sanitize")
+        self.assertIn("3 bad values of the environment were mended", out)
+        self.assertNotIn("nan", self.oiiotool("x.exr", "--printstats").lower().replace("nancount: 0", ""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[1:]])

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Maps of light to filter, and measures of what comes out: for the tests of the cfem rooms.
+#pragma once
+
+#include "cfem_brute.h"
+
+#include <vmlight/cfem.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace cfem_maps {
+
+using namespace vmlight;
+using brute::center;
+using brute::Map;
+using brute::pi;
+using brute::V3d;
+
+inline OIIO::ImageBuf image(const Map& map)
+{
+    OIIO::ImageBuf buf(OIIO::ImageSpec(map.width, map.height, 3, OIIO::TypeFloat));
+    buf.set_pixels(buf.roi(), OIIO::TypeFloat, map.rgb.data());
+    return buf;
+}
+
+inline CfemParams exact(int width, int height)
+{
+    CfemParams params;
+    params.resolution = { width, height };
+    return params;
+}
+
+inline CfemParams harmonics(int order, int width, int height)
+{
+    CfemParams params = exact(width, height);
+    params.filter = "sh";
+    params.order = order;
+    return params;
+}
+
+inline Map filtered(const OIIO::ImageBuf& env, const CfemParams& params, int nthreads = 1)
+{
+    OIIO::ImageBuf dst;
+    Map map(params.resolution.width, params.resolution.height);
+    EXPECT_TRUE(make_cfem(dst, env, params, nthreads)) << dst.geterror();
+    EXPECT_TRUE(dst.get_pixels(dst.roi(), OIIO::TypeFloat, map.rgb.data()));
+    return map;
+}
+
+inline Map filtered(const Map& map, int width, int height)
+{
+    return filtered(image(map), exact(width, height));
+}
+
+inline std::string refusal(const OIIO::ImageBuf& env, const CfemParams& params = exact(4, 2))
+{
+    OIIO::ImageBuf dst(OIIO::ImageSpec(2, 2, 3, OIIO::TypeFloat));
+    EXPECT_FALSE(make_cfem(dst, env, params, 1));
+    EXPECT_EQ(dst.spec().width, 0) << "a failed filter left pixels";
+    return dst.geterror();
+}
+
+// Light given by a function of direction, sampled at pixel centres.
+template <class Light> inline Map sampled(int width, int height, Light&& light)
+{
+    Map map(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const V3d value = light(center(x, y, width, height));
+            for (int k = 0; k < 3; ++k)
+                map.at(x, y)[k] = float(value[k]);
+        }
+    return map;
+}
+
+inline Map random_map(int width, int height, unsigned seed)
+{
+    std::mt19937 random(seed);
+    Map map(width, height);
+    for (float& value : map.rgb)
+        value = float(random() % 1000) / 1000;
+    return map;
+}
+
+// Largest |cfem - want(n)| over all pixels and channels.
+template <class Want> inline double largest_error(const Map& cfem, Want&& want)
+{
+    double worst = 0;
+    for (int y = 0; y < cfem.height; ++y)
+        for (int x = 0; x < cfem.width; ++x) {
+            const V3d expected = want(center(x, y, cfem.width, cfem.height));
+            for (int k = 0; k < 3; ++k)
+                worst = std::max(worst, std::abs(cfem.at(x, y)[k] - expected[k]));
+        }
+    return worst;
+}
+
+inline double largest_difference(const Map& a, const Map& b)
+{
+    double worst = 0;
+    for (size_t i = 0; i < a.rgb.size(); ++i)
+        worst = std::max(worst, double(std::abs(a.rgb[i] - b.rgb[i])));
+    return worst;
+}
+
+// A smooth light that no symmetry of the grid leaves alone.
+inline V3d soft_light(const V3d& w)
+{
+    const V3d lobe = V3d(1, 2, -0.5).normalized();
+    return { std::exp(2 * w.dot(lobe)), 1 + 0.8 * w.x * w.y, std::exp(-w.z) };
+}
+
+} // namespace cfem_maps

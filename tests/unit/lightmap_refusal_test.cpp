@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightmap_scene.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <array>
+#include <cstdio>
+
+using namespace vmlight;
+using namespace scene;
+using OIIO::ImageBufAlgo::channels;
+
+namespace {
+
+std::string refusal(const ImageBuf& vm, const ImageBuf& map, const LightmapParams& params = {},
+                    const ImageBuf* albedo = nullptr, const Progress& progress = {})
+{
+    ImageBuf dst(ImageSpec(8, 8, 3, OIIO::TypeFloat));
+    EXPECT_FALSE(make_lightmap(dst, vm, map, params, albedo, 2, progress));
+    EXPECT_FALSE(dst.initialized());
+    EXPECT_TRUE(dst.has_error());
+    return dst.geterror();
+}
+
+ImageBuf with_stage(ImageBuf image, const char* stage)
+{
+    image.specmod().attribute("vmlight:stage", stage);
+    return image;
+}
+
+ImageBuf with_value(ImageBuf image, int x, int y, int channel, float value)
+{
+    pixels(image)[(size_t(y) * image.spec().width + x) * image.nchannels() + channel] = value;
+    return image;
+}
+
+const ImageBuf kVismap = random_vismap(30, 20), kCfem = random_cfem(16, 8);
+
+} // namespace
+
+TEST(LightmapRefusal, PixelsThatAreNotFiniteAreCountedAndTheFirstIsTold)
+{
+    ImageBuf vm = with_value(with_value(with_value(kVismap, 29, 19, 0, INFINITY), 4, 12, 2, NAN), 5, 12, 0, NAN);
+    EXPECT_EQ(refusal(vm, kCfem),
+              "visibility map has 3 values that are not finite, the first at pixel (4, 12) channel "
+              "\"direction.y\"");
+    const std::array<int, 4> exr { 1, 2, 3, 0 };
+    EXPECT_EQ(refusal(channels(vm, 4, exr), kCfem),
+              "visibility map has 3 values that are not finite, the first at "
+              "pixel (4, 12) channel \"direction.y\"");
+    EXPECT_EQ(refusal(kVismap, with_value(kCfem, 15, 7, 2, -INFINITY)),
+              "cosine-filtered environment has 1 value that is not finite, at pixel (15, 7) channel \"B\"");
+    // Filters that ring go below 0, and light that is a little negative must pass.
+    EXPECT_LT(color(lit(one_texel(1, V3f(0, 1, 0)), cfem(4, 2, [](V3d) { return V3f(-1); }))).x, 0);
+
+    const ImageBuf albedo = with_value(with_value(random_cfem(30, 20), 7, 3, 1, -0.5f), 7, 3, 2, NAN);
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &albedo),
+              "albedo has 2 values that are negative or not finite, the first at pixel (7, 3) channel \"G\"");
+    const ImageBuf small = with_value(random_cfem(9, 9), 7, 3, 1, NAN);
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &small),
+              "albedo has 1 value that is negative or not finite, at pixel (7, 3) channel \"G\"");
+}
+
+TEST(LightmapRefusal, AResultTooLargeForFloatIsRefused)
+{
+    const ImageBuf bright = cfem(4, 2, [](V3d) { return V3f(1e30f, 1, 1); });
+    LightmapParams params;
+    EXPECT_NEAR(color(lit(one_texel(1, V3f(0, 1, 0)), bright, params)).x, 1e30f, 1e24f);
+    params.exposure = 60;
+    EXPECT_EQ(refusal(one_texel(1, V3f(0, 1, 0)), bright, params),
+              "lightmap has 1 value that is too large for float, at pixel (0, 0) channel \"R\"");
+    EXPECT_EQ(refusal(kVismap, cfem(4, 2, [](V3d n) { return V3f(n.x > 0 && n.z > 0 ? -3e38f : 3e38f); })),
+              "cosine-filtered environment has values too large to be interpolated");
+}
+
+TEST(LightmapRefusal, WhatIsNotAStagesImageIsRefused)
+{
+    EXPECT_EQ(refusal(kCfem, kCfem), "not a visibility map: no channel \"visibility\" among R, G, B");
+    EXPECT_EQ(refusal(with_stage(kVismap, "lightmap"), kCfem),
+              "not a visibility map: its vmlight:stage is \"lightmap\", not \"vismap\"");
+    EXPECT_EQ(refusal(kVismap, with_stage(kCfem, "lightmap")),
+              "not a cosine-filtered environment: its vmlight:stage is \"lightmap\", not \"cfem\"");
+    EXPECT_EQ(refusal(kVismap, with_stage(kVismap, "vismap")),
+              "not a cosine-filtered environment: its vmlight:stage is \"vismap\", not \"cfem\"");
+    EXPECT_EQ(refusal(kVismap, kVismap), "no channels R, G, B among visibility, direction.x, direction.y, direction.z");
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &kVismap),
+              "no channels R, G, B among visibility, direction.x, direction.y, direction.z");
+    const ImageBuf nothing;
+    EXPECT_EQ(refusal(nothing, kCfem), "no visibility map: the image is empty");
+    EXPECT_EQ(refusal(kVismap, nothing), "no cosine-filtered environment: the image is empty");
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &nothing), "no albedo: the image is empty");
+    ImageSpec deep(4, 4, 4, OIIO::TypeFloat);
+    deep.deep = true;
+    EXPECT_EQ(refusal(ImageBuf(deep), kCfem), "not a visibility map: a deep image");
+    ImageSpec volume(4, 4, 3, OIIO::TypeFloat);
+    volume.depth = 2;
+    EXPECT_EQ(refusal(kVismap, ImageBuf(volume)), "not a cosine-filtered environment: a volume image");
+}
+
+TEST(LightmapRefusal, ParametersAreChecked)
+{
+    LightmapParams params;
+    params.model = "radiosity";
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "model: \"radiosity\" is not one of paper");
+    params = {};
+    params.rotate = { 1, 2 };
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "rotate: \"1,2\" has 2 numbers, 3 are needed");
+    params.rotate = { 0, 90, 0 };
+    params.quaternion = { 1, 0, 0, 0 };
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "only one of rotate, matrix and quaternion may be given");
+    params = {};
+    params.matrix = { 2, 0, 0, 0, 1, 0, 0, 0, 1 };
+    EXPECT_EQ(refusal(kVismap, kCfem, params),
+              "matrix: not a rotation: R R^T differs from the identity by 3, the limit is 1e-4");
+    params = {};
+    params.quaternion = { 0, 0, 0, 0 };
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "quaternion: 0,0,0,0 has no direction");
+    params = {};
+    params.exposure = 65;
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "exposure: 65 is not in [-64, 64]");
+}
+
+TEST(LightmapRefusal, ProgressMayStopTheWork)
+{
+    const ImageBuf vm = random_vismap(300, 200);
+    double last = 0;
+    EXPECT_EQ(refusal(vm, kCfem, {}, nullptr, [&](double done) { return last = done, false; }), "interrupted");
+    EXPECT_GT(last, 0);
+    EXPECT_LE(last, 1);
+}
+
+TEST(LightmapRefusal, AFileIsNamed)
+{
+    const std::string path = testing::TempDir() + "lightmap_refusal_test.exr";
+    ASSERT_TRUE(with_value(kVismap, 3, 2, 0, NAN).write(path));
+    EXPECT_EQ(refusal(ImageBuf(path), kCfem),
+              "\"" + path
+                  + "\": visibility map has 1 value that is not finite, at pixel (3, 2) channel \"visibility\"");
+    std::remove(path.c_str());
+    const std::string text = refusal(ImageBuf(path), kCfem);
+    EXPECT_NE(text.find(path), std::string::npos) << text;
+}
