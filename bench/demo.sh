@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Light a real mesh with a real studio, by the three executables, and make pictures of what came out.
+#   bench/demo.sh BUILD_FOLDER OUTPUT_FOLDER
+set -euo pipefail
+[[ $# == 2 ]] || { echo "usage: $0 BUILD_FOLDER OUTPUT_FOLDER" >&2; exit 2; }
+data=$(cd "$(dirname "${BASH_SOURCE[0]}")/../tests/data" && pwd)
+config=$(cd "$(dirname "${BASH_SOURCE[0]}")/../configs/ocio" && pwd)/config.ocio
+bin=$(cd "$1/bin" && pwd)
+mkdir -p "$2"
+out=$(cd "$2" && pwd)
+unset OCIO # vmlight's own config, whatever the studio's is
+
+mesh=spot environment=studio_small_03 resolution=512
+angles=(0 90 180 270)
+stops=-2.2      # exposure of diffuse light: the brightest side of the cow is just below white
+studio_stops=1.5 # and of the studio itself, whose lamps are a thousand times as bright as its walls
+
+command -v oiiotool >/dev/null || { echo "demo: oiiotool is missing: install openimageio-tools" >&2; exit 1; }
+
+# Run a stage, and say what it took.
+stage() {
+    local name=$1 start=$EPOCHREALTIME
+    shift
+    "$@"
+    awk -v name="$name" -v from="$start" -v to="$EPOCHREALTIME" 'BEGIN { printf "  %-46s %6.2f s\n", name, to - from }'
+}
+
+echo "Stages"
+stage "visibility map, $resolution x $resolution" \
+    "$bin/makevismap" "$data/$mesh.obj" -o "$out/${mesh}_vismap.exr" --resolution $resolution --quiet
+stage "cosine-filtered environment" \
+    "$bin/makecfem" "$data/$environment.hdr" --colorconfig "$config" -o "$out/studio_cfem.exr" --quiet
+for angle in "${angles[@]}"; do
+    stage "lightmap, turned $angle degrees" \
+        "$bin/makelightmap" "$out/${mesh}_vismap.exr" "$out/studio_cfem.exr" --colorconfig "$config" \
+        --rotate "0,$angle,0" -o "$out/${mesh}_lit_$angle.exr" --quiet
+done
+
+# Pictures. Light goes through the ACES view of an sRGB screen, all lit textures at one exposure. A visibility map is data and goes
+# through nothing: visibility in grey, directions from [-1,1] to colours.
+gain=$(awk -v stops=$stops 'BEGIN { print 2 ^ stops }')
+studio_gain=$(awk -v stops=$studio_stops 'BEGIN { print 2 ^ stops }')
+tool=(oiiotool --colorconfig "$config" --nosoftwareattrib)
+show=(--ociodisplay:from=ACEScg "sRGB - Display" "ACES 1.0 - SDR Video" --ch R,G,B -d uint8)
+tagged=(--attrib oiio:ColorSpace sRGB -d uint8)
+square=(--create ${resolution}x${resolution} 3) # what a map that is half as high is centred in
+middle=+0+$((resolution / 4))
+
+make_pictures() {
+    "${tool[@]}" "$out/${mesh}_vismap.exr" --ch visibility,visibility,visibility --chnames R,G,B "${tagged[@]}" \
+        -o "$out/${mesh}_visibility.png"
+    "${tool[@]}" "$out/${mesh}_vismap.exr" --ch direction.x,direction.y,direction.z --chnames R,G,B --mulc 0.5 --addc 0.5 \
+        "${tagged[@]}" -o "$out/${mesh}_direction.png"
+    "${tool[@]}" "$data/$environment.hdr" --tocolorspace ACEScg --mulc "$studio_gain" "${show[@]}" -o "$out/studio.png"
+    "${tool[@]}" "$out/studio_cfem.exr" --ch R,G,B --mulc "$gain" "${show[@]}" -o "$out/studio_cfem.png"
+    for angle in "${angles[@]}"; do
+        "${tool[@]}" "$out/${mesh}_lit_$angle.exr" --ch R,G,B --mulc "$gain" "${show[@]}" -o "$out/${mesh}_lit_$angle.png"
+    done
+    local lit=("${angles[@]/#/$out/${mesh}_lit_}") name
+    for name in studio studio_cfem; do
+        "${tool[@]}" "$out/$name.png" --resize ${resolution}x$((resolution / 2)) "${square[@]}" --paste $middle \
+            -d uint8 -o "$out/$name.tile.png"
+    done
+    "${tool[@]}" "$out/${mesh}_visibility.png" "$out/${mesh}_direction.png" "$out/studio.tile.png" \
+        "$out/studio_cfem.tile.png" "${lit[@]/%/.png}" --mosaic:pad=8 4x2 "${tagged[@]}" -o "$out/contact_sheet.png"
+    rm "$out/studio.tile.png" "$out/studio_cfem.tile.png"
+}
+stage "pictures" make_pictures
+
+cat <<END
+Pictures in $out
+  contact_sheet.png       all of them: above, visibility, directions, studio, filtered studio;
+                          below, the mesh's texture lit at ${angles[*]} degrees
+  ${mesh}_lit_*.exr          the lit textures themselves, scene-linear ACEScg
+END

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# From a bare Debian 12 (bookworm) to a built and proven vmlight. Installs the packages it needs with apt-get (sudo unless
+# root) when any is missing; all else stays in build/ and demo-out/ of this folder.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+usage() {
+    cat <<'END'
+usage: ./bootstrap.sh demo|test [CMAKE_ARGUMENT...]
+  demo   build the three executables, light a mesh with them, leave pictures in demo-out/
+  test   build everything and run the test suite
+Further arguments go to cmake when it configures: -DVMLIGHT_WERROR=ON
+END
+}
+
+# What builds the library, what tests it, and what shows its pictures. (assimp's CMake files want zlib's, unsaid by Debian.)
+packages=(
+    ca-certificates cmake g++ ninja-build
+    libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev
+    libgtest-dev libbenchmark-dev
+    python3 openimageio-tools opencolorio-tools
+)
+
+install_packages() {
+    if ! command -v apt-get >/dev/null; then
+        echo "bootstrap: no apt-get here; building with what is installed. Debian's names of what is needed: ${packages[*]}"
+        return
+    fi
+    local missing=() package
+    for package in "${packages[@]}"; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    done
+    ((${#missing[@]})) || return 0
+    echo "bootstrap: installing ${missing[*]}"
+    local as_root=()
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null || { echo "bootstrap: need root or sudo to install packages" >&2; exit 1; }
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq update
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+say() { echo "bootstrap: $* (${SECONDS} s)"; }
+
+mode=${1:-}
+case $mode in
+demo | test) shift ;;
+-h | --help)
+    usage
+    exit 0
+    ;;
+*)
+    usage >&2
+    exit 2
+    ;;
+esac
+
+jobs=$(nproc)
+install_packages
+say "configuring"
+configured=$(cmake --preset release "$@" 2>&1) || { echo "$configured" >&2; exit 1; }
+case $mode in
+demo)
+    say "building"
+    cmake --build --preset release -j "$jobs" --target makevismap makecfem makelightmap
+    say "running the demo"
+    bench/demo.sh build/release demo-out
+    ;;
+test)
+    say "building"
+    cmake --build --preset release -j "$jobs"
+    say "testing"
+    ctest --preset release -j "$jobs"
+    ;;
+esac
+say "done"
