@@ -52,7 +52,7 @@ public:
         V3d position(0), normal(0);
         for (int k = 0; k < 3; ++k) {
             position += m_corner[k] * (weight[k] / total);
-            normal += V3d(m_mesh.normals[m_mesh.triangles[triangle][k]]) * weight[k];
+            normal += m_corner_normal[k] * weight[k];
         }
         SurfacePoint point;
         point.geometric_normal = V3f(m_normal);
@@ -71,7 +71,9 @@ private:
         for (int k = 0; k < 3; ++k) {
             // From the same floats that are traced, so that the point lies in the plane of the traced triangle.
             m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
-            shading += V3d(m_mesh.normals[corners[k]]);
+            const V3d normal(m_mesh.normals[corners[k]]);
+            m_corner_normal[k] = std::isfinite(normal.length2()) ? normal : V3d(0);
+            shading += m_corner_normal[k];
         }
         V3d area_normal = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]);
         if (!(area_normal.length() > 0))
@@ -89,7 +91,7 @@ private:
     const Mesh& m_mesh;
     const SceneFrame& m_frame;
     uint32_t m_triangle = TileCover::kNone;
-    std::array<V3d, 3> m_corner;
+    std::array<V3d, 3> m_corner, m_corner_normal;
     std::array<double, 3> m_least_weight;
     V3d m_normal;
 };
