@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -16,12 +17,19 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// OIIO's callback carries a pointer and returns true to stop.
-bool report(void* progress, float done)
+// OIIO's callback carries a pointer and returns true to stop; a writer that was stopped says that all went well.
+struct Watch
 {
-    const Progress& callback = *static_cast<const Progress*>(progress);
-    return callback && !callback(double(done));
-}
+    const Progress& progress;
+    bool stopped = false;
+
+    static bool report(void* watch, float done)
+    {
+        Watch& self = *static_cast<Watch*>(watch);
+        self.stopped = self.stopped || (self.progress && !self.progress(double(done)));
+        return self.stopped;
+    }
+};
 
 std::string folder_of(const std::string& path)
 {
@@ -44,7 +52,9 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
     constexpr float kLargestHalf = 65504;
     const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
     for (size_t c = 0; c < stats.max.size(); ++c) {
-        const float worst = std::max(std::abs(stats.max[c]), std::abs(stats.min[c]));
+        // The extremes are those of finite values.
+        const float worst = stats.infcount[c] > 0 ? std::numeric_limits<float>::infinity()
+                                                  : std::max(std::abs(stats.max[c]), std::abs(stats.min[c]));
         if (!(worst <= kLargestHalf)) {
             error = format("channel {} reaches {:g}, beyond the range of half (65504): write float",
                            image.spec().channelnames[c], worst);
@@ -96,7 +106,8 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
         return false;
 
     const std::string name = OIIO::Filesystem::filename(path);
-    const std::string temporary = OIIO::Filesystem::unique_path(folder_of(path) + "/." + name + ".%%%%%%%%.part");
+    // Every % becomes a random digit: the folder's must stay.
+    const std::string temporary = folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
     OIIO::ImageSpec spec = image.spec();
     spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
@@ -114,12 +125,14 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!out->open(temporary, spec))
         return failed(out->geterror());
     const auto* pixels = image.localpixels();
+    Watch watch { progress };
     const bool written = out->write_image(OIIO::TypeDesc::FLOAT, pixels, OIIO::AutoStride, OIIO::AutoStride,
-                                          OIIO::AutoStride, report, const_cast<Progress*>(&progress));
-    if (!written || !out->close()) {
-        const std::string reason = out->geterror();
-        return failed(reason.empty() ? "interrupted" : reason);
-    }
+                                          OIIO::AutoStride, Watch::report, &watch);
+    const bool closed = out->close();
+    if (watch.stopped)
+        return failed("interrupted");
+    if (!written || !closed)
+        return failed(out->geterror());
     if (!flush_to_disk(temporary))
         return failed("cannot flush it to the disk");
     std::string reason;

@@ -83,7 +83,7 @@ void Reading::append(const aiMesh& part, const Imath::M44d& to_object)
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
         const aiFace& face = part.mFaces[i];
         if (face.mNumIndices != 3)
-            continue;
+            continue; // a point or a line
         std::array<uint32_t, 3> triangle { first + face.mIndices[0], first + face.mIndices[1],
                                            first + face.mIndices[2] };
         if (mirrored)
@@ -126,10 +126,9 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
         return false;
     }
     Assimp::Importer importer;
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
     // relative distance, which collapses small meshes: both are done here, on equal bits.
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (!scene || !scene->mRootNode) {
         error = format("\"{}\": not a mesh that can be read: {}", path, importer.GetErrorString());
         return false;

@@ -55,6 +55,8 @@ struct Occluder::Scene
 
 bool Occluder::Scene::attach(const Mesh& mesh, const SceneFrame& frame)
 {
+    if (mesh.triangles.empty())
+        return true; // Embree takes no empty buffer
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f),
                                              mesh.positions.size());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
 
 namespace vmlight {
@@ -21,17 +22,33 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
     std::atomic<int64_t> next { 0 }, finished { 0 };
     std::atomic<bool> stopped { false };
     std::mutex reporting;
+    double reported = 0;
+    std::exception_ptr failure; // OIIO's pool would swallow it
 
+    // Under the lock, so that what is reported only ever grows.
+    const auto report = [&] {
+        const double done = double(finished) / double(items);
+        if (!stopped && done > reported && !progress(reported = done))
+            stopped = true;
+    };
     const auto run = [&](int worker) {
         for (int64_t item; !stopped && (item = next++) < items;) {
-            work(item, worker);
-            const int64_t done = ++finished;
+            try {
+                work(item, worker);
+            } catch (...) {
+                const std::lock_guard<std::mutex> lock(reporting);
+                if (!failure)
+                    failure = std::current_exception();
+                stopped = true;
+                return;
+            }
+            ++finished;
             if (!progress)
                 continue;
             // A worker that finds another one reporting goes on: progress must never hold up the work.
-            std::unique_lock<std::mutex> lock(reporting, std::try_to_lock);
-            if (lock && !progress(double(done) / double(items)))
-                stopped = true;
+            const std::unique_lock<std::mutex> lock(reporting, std::try_to_lock);
+            if (lock)
+                report();
         }
     };
 
@@ -45,6 +62,10 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
             for (int64_t worker = begin; worker < end; ++worker)
                 run(int(worker));
         });
+    if (failure)
+        std::rethrow_exception(failure);
+    if (progress && items > 0)
+        report(); // the last item's, if another worker was reporting when it ended
     return !stopped;
 }
 

@@ -16,8 +16,9 @@ namespace vmlight {
 /// gets which item is not determined, so results must not depend on it.
 ///
 /// @param nthreads 0 means OIIO's default ("threads" attribute); 1 runs on the calling thread
-/// @param progress called between items, from one thread at a time; false from it stops the hand-out of items
-/// @returns false if `progress` stopped the work.
+/// @param progress called between items, from one thread at a time, with a share that grows and ends at 1; false from
+///                 it stops the hand-out of items, and it is not called again
+/// @returns false if `progress` stopped the work. What `work` throws stops it too, and is thrown on to the caller.
 VMLIGHT_API bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t item, int worker)>& work,
                                 const Progress& progress = {});
 

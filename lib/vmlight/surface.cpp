@@ -2,6 +2,7 @@
 #include <vmlight/surface.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vmlight {
 
@@ -19,7 +20,7 @@ SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
     V3d position(0), normal(0);
     for (int k = 0; k < 3; ++k) {
         position += m_corner[k] * (weight[k] / total);
-        normal += V3d(m_mesh.normals[m_mesh.triangles[triangle][k]]) * weight[k];
+        normal += m_corner_normal[k] * weight[k];
     }
     SurfacePoint point;
     point.geometric_normal = V3f(m_normal);
@@ -36,7 +37,9 @@ void Surface::take(uint32_t triangle)
     for (int k = 0; k < 3; ++k) {
         // From the same floats that are traced, so that the point lies in the plane of the traced triangle.
         m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
-        shading += V3d(m_mesh.normals[corners[k]]);
+        const V3d normal(m_mesh.normals[corners[k]]);
+        m_corner_normal[k] = std::isfinite(normal.length2()) ? normal : V3d(0);
+        shading += m_corner_normal[k];
     }
     V3d area_normal = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]);
     if (!(area_normal.length() > 0))

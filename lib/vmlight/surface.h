@@ -41,7 +41,7 @@ private:
     const Mesh& m_mesh;
     const SceneFrame& m_frame;
     uint32_t m_triangle = ~0u;
-    std::array<Imath::V3d, 3> m_corner;
+    std::array<Imath::V3d, 3> m_corner, m_corner_normal;
     std::array<double, 3> m_least_weight;
     Imath::V3d m_normal;
 };

@@ -79,7 +79,8 @@ struct VismapReport
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no uvs, or memory
 ///          runs out; `dst` then has no pixels. Overlap, mirroring and texels outside [0, 1] are counted, not refused.
-/// Error of V at n rays, `fibonacci`: about 0.25 n^-0.6 of the worst texels' scenes; measured in README.
+/// Error (root mean square) of V, and of B as a vector, at n rays: at most 0.47 n^-0.75 by `fibonacci`, 0.6 n^-0.75 by
+/// `sobol` and 0.65 n^-0.75 by `halton`, in any scene with a closed form that was tried.
 VMLIGHT_API bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders = {},
                              const VismapParams& params = {}, VismapReport* report = nullptr, int nthreads = 0,
                              const Progress& progress = {});

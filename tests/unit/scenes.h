@@ -4,7 +4,9 @@
 
 #include <vmlight/mesh.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace vmlight::scenes {
 
@@ -117,6 +119,96 @@ inline Mesh box(V3d low, V3d high, bool inward, double border = 0.01)
             add_quad(mesh, p[q[0]], p[q[1]], p[q[2]], p[q[3]], uv0, uv1);
     }
     return mesh;
+}
+
+/// A rectangle from `corner` along two sides, without uvs.
+inline Mesh rectangle(V3d corner, V3d side1, V3d side2)
+{
+    return quad(corner, corner + side1, corner + side1 + side2, corner + side2);
+}
+
+/// The wall of a round pit around the z axis, from z = 0 to `height`, without uvs; the prism's cross section has the
+/// circle's area.
+inline Mesh tube(double radius, double height, int sides = 1000)
+{
+    Mesh mesh;
+    mesh.name = "tube";
+    const double step = 2 * M_PI / sides, r = radius * std::sqrt(step / std::sin(step));
+    const auto point = [&](int i, double z) { return V3d(r * std::cos(i * step), r * std::sin(i * step), z); };
+    for (int i = 0; i < sides; ++i)
+        add_quad(mesh, point(i + 1, 0), point(i, 0), point(i, height), point(i + 1, height));
+    return mesh;
+}
+
+/// An icosahedron, its faces cut in four `cuts` times and pushed out to the unit sphere, with the sphere's normals and
+/// each triangle over its own cell of the texture: 20, 80, 320, ... triangles.
+inline Mesh icosphere(int cuts)
+{
+    const double g = (1 + std::sqrt(5.0)) / 2;
+    const std::vector<V3d> ico {
+        { -1, g, 0 },  { 1, g, 0 },  { -1, -g, 0 }, { 1, -g, 0 }, { 0, -1, g },  { 0, 1, g },
+        { 0, -1, -g }, { 0, 1, -g }, { g, 0, -1 },  { g, 0, 1 },  { -g, 0, -1 }, { -g, 0, 1 }
+    };
+    const int faces[20][3]
+        = { { 0, 11, 5 },  { 0, 5, 1 },  { 0, 1, 7 },  { 0, 7, 10 }, { 0, 10, 11 }, { 1, 5, 9 }, { 5, 11, 4 },
+            { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 },  { 3, 9, 4 },  { 3, 4, 2 },   { 3, 2, 6 }, { 3, 6, 8 },
+            { 3, 8, 9 },   { 4, 9, 5 },  { 2, 4, 11 }, { 6, 2, 10 }, { 8, 6, 7 },   { 9, 8, 1 } };
+    std::vector<std::array<V3d, 3>> triangles;
+    for (const auto& f : faces)
+        triangles.push_back({ ico[f[0]].normalized(), ico[f[1]].normalized(), ico[f[2]].normalized() });
+    for (int cut = 0; cut < cuts; ++cut) {
+        std::vector<std::array<V3d, 3>> finer;
+        for (const auto& [a, b, c] : triangles) {
+            const V3d ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
+            finer.insert(finer.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+        }
+        triangles.swap(finer);
+    }
+    Mesh mesh;
+    mesh.name = "icosphere";
+    const int across = int(std::ceil(std::sqrt(double(triangles.size()))));
+    for (size_t t = 0; t < triangles.size(); ++t) {
+        const double u = double(int(t) % across), v = double(int(t) / across), lo = 0.02, hi = 0.98;
+        const V2f uvs[3] = { V2f(float((u + lo) / across), float((v + lo) / across)),
+                             V2f(float((u + hi) / across), float((v + lo) / across)),
+                             V2f(float((u + lo) / across), float((v + hi) / across)) };
+        for (int k = 0; k < 3; ++k) {
+            mesh.positions.push_back(triangles[t][k]);
+            mesh.normals.push_back(V3f(triangles[t][k]));
+            mesh.uvs.push_back(uvs[k]);
+        }
+        const uint32_t first = uint32_t(3 * t);
+        mesh.triangles.push_back({ first, first + 1, first + 2 });
+        mesh.materials.push_back(0);
+    }
+    return mesh;
+}
+
+/// Turn every triangle over; normals stay.
+inline Mesh rewound(Mesh mesh)
+{
+    for (auto& triangle : mesh.triangles)
+        std::swap(triangle[1], triangle[2]);
+    return mesh;
+}
+
+/// Scale, then move.
+inline Mesh placed(Mesh mesh, double scale, V3d offset = V3d(0))
+{
+    for (V3d& p : mesh.positions)
+        p = p * scale + offset;
+    return mesh;
+}
+
+inline void append(Mesh& mesh, const Mesh& other)
+{
+    const uint32_t first = uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    mesh.normals.insert(mesh.normals.end(), other.normals.begin(), other.normals.end());
+    mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
+    for (const auto& t : other.triangles)
+        mesh.triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
+    mesh.materials.insert(mesh.materials.end(), other.materials.begin(), other.materials.end());
 }
 
 } // namespace vmlight::scenes

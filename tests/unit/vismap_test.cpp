@@ -1,94 +1,319 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a bake takes, counts and refuses. Closed forms: vismap_closed_forms_test.cpp; exact answers on hard meshes:
+// vismap_hard_cases_test.cpp.
+#include "baked_map.h"
 #include "scenes.h"
 
-#include <vmlight/vismap.h>
-
-#include <gtest/gtest.h>
+#include <cstring>
 
 using namespace vmlight;
 using namespace vmlight::scenes;
 
 namespace {
 
-struct Texel
+// A floor half under a roof, with a wall: something partly blocked everywhere.
+Mesh courtyard()
 {
-    float visibility;
-    V3f direction;
-};
-
-class Map
-{
-public:
-    Map(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params, int nthreads = 0)
-    {
-        EXPECT_TRUE(make_vismap(m_image, mesh, occluders, params, &report, nthreads)) << m_image.geterror();
-    }
-    Texel at(int x, int y) const
-    {
-        float p[4];
-        m_image.getpixel(x, y, 0, p, 4);
-        return { p[0], V3f(p[1], p[2], p[3]) };
-    }
-    Texel centre() const { return at(m_image.spec().width / 2, m_image.spec().height / 2); }
-    const OIIO::ImageBuf& image() const { return m_image; }
-    template <class Visit> void each(Visit&& visit) const
-    {
-        for (int y = 0; y < m_image.spec().height; ++y)
-            for (int x = 0; x < m_image.spec().width; ++x)
-                visit(at(x, y), x, y);
-    }
-    VismapReport report;
-
-private:
-    OIIO::ImageBuf m_image;
-};
-
-VismapParams one_texel(int samples, const char* sampler = "fibonacci")
-{
-    VismapParams params;
-    params.resolution = { 1, 1 };
-    params.samples = samples;
-    params.sampler = sampler;
-    params.margin = 0;
-    return params;
+    Mesh mesh = floor_facing_z(1);
+    for (V2f& uv : mesh.uvs)
+        uv.x *= 0.5f;
+    append(mesh, box(V3d(0.1, 0.2, 0.4), V3d(1.5, 0.9, 0.6), false));
+    for (size_t v = 4; v < mesh.uvs.size(); ++v)
+        mesh.uvs[v].x = 0.5f + 0.5f * mesh.uvs[v].x;
+    return mesh;
 }
 
-// The sampler's error at n rays, four times its measured root mean square (tests/unit/sampling_test.cpp measures it).
-double tolerance(int samples)
+const Mesh& wall_at_x1()
 {
-    return 4 * 0.35 * std::pow(samples, -0.75);
+    static const Mesh wall = rectangle(V3d(1, -1e5, 0), V3d(0, 2e5, 0), V3d(0, 0, 1e5));
+    return wall;
 }
 
-void expect_visibility(const Texel& texel, double visibility, V3d direction, double tolerance)
+std::string refusal(const Mesh& mesh, const VismapParams& params, const Progress& progress = {})
 {
-    EXPECT_NEAR(texel.visibility, visibility, tolerance);
-    EXPECT_NEAR(texel.direction.x, direction.x, tolerance);
-    EXPECT_NEAR(texel.direction.y, direction.y, tolerance);
-    EXPECT_NEAR(texel.direction.z, direction.z, tolerance);
+    OIIO::ImageBuf image(OIIO::ImageSpec(3, 3, 1, OIIO::TypeDesc::FLOAT));
+    EXPECT_FALSE(make_vismap(image, mesh, {}, params, nullptr, 2, progress));
+    EXPECT_EQ(image.spec().width, 0);
+    EXPECT_FALSE(image.initialized());
+    return image.geterror();
 }
-
-const double kFar = 1e5;
 
 } // namespace
 
-TEST(Vismap, AnOpenFloorSeesAllAlongItsNormal)
+TEST(Vismap, AMapSaysWhatItIsAndHowItWasMade)
 {
-    VismapParams params = one_texel(64);
-    params.resolution = { 8, 8 };
-    Map(floor_facing_z(1), {}, params).each([](const Texel& t, int x, int y) {
-        EXPECT_EQ(t.visibility, 1.0f) << x << ", " << y;
-        EXPECT_LT((t.direction - V3f(0, 0, 2.0f / 3)).length(), 1e-6f) << x << ", " << y;
+    VismapParams params = map_params(96, 40, 16, "sobol");
+    params.margin = 3;
+    const Mesh mesh = courtyard();
+    const BakedMap map(mesh, { wall_at_x1(), floor_facing_z(1) }, params);
+    const OIIO::ImageSpec& spec = map.spec();
+    EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+    EXPECT_EQ(spec.width, 96);
+    EXPECT_EQ(spec.height, 40);
+    EXPECT_EQ(spec.channelnames,
+              (std::vector<std::string> { "visibility", "direction.x", "direction.y", "direction.z", "coverage" }));
+    EXPECT_EQ(spec.get_string_attribute("vmlight:stage"), "vismap");
+    EXPECT_EQ(spec.get_string_attribute("vmlight:mesh"), "floor");
+    EXPECT_EQ(spec.get_string_attribute("vmlight:meshHash"), mesh_hash(mesh));
+    EXPECT_EQ(spec.get_string_attribute("vmlight:occluderHash"),
+              mesh_hash(wall_at_x1()) + "," + mesh_hash(floor_facing_z(1)));
+    EXPECT_EQ(spec.get_string_attribute("vmlight:sampler"), "sobol");
+    EXPECT_EQ(spec.get_string_attribute("vmlight:samples"), "16");
+    EXPECT_EQ(spec.get_string_attribute("vmlight:margin"), "3");
+    EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "data");
+    EXPECT_EQ(spec.find_attribute("oiio:ColorSpace"), nullptr);
+}
+
+TEST(Vismap, WidthAndHeightReplaceTheSidesOfTheResolution)
+{
+    VismapParams params = map_params(64, 64, 1);
+    params.width = 7;
+    EXPECT_EQ(BakedMap(floor_facing_z(1), {}, params).spec().width, 7);
+    EXPECT_EQ(BakedMap(floor_facing_z(1), {}, params).spec().height, 64);
+    params.height = 1;
+    EXPECT_EQ(BakedMap(floor_facing_z(1), {}, params).spec().height, 1);
+}
+
+TEST(Vismap, AnyNumberOfThreadsGivesTheSameBits)
+{
+    VismapParams params = map_params(200, 130, 24);
+    params.margin = 5;
+    for (const char* sampler : { "fibonacci", "sobol", "halton" }) {
+        params.sampler = sampler;
+        const BakedMap one(courtyard(), { wall_at_x1() }, params, 1);
+        for (int threads : { 2, 7, 0 }) {
+            const BakedMap map(courtyard(), { wall_at_x1() }, params, threads);
+            EXPECT_EQ(std::memcmp(map.image().localpixels(), one.image().localpixels(), map.spec().image_bytes()), 0);
+            EXPECT_EQ(map.report.rays, one.report.rays);
+            EXPECT_EQ(map.report.covered, one.report.covered);
+            EXPECT_EQ(map.report.dark, one.report.dark);
+        }
+    }
+}
+
+TEST(Vismap, TheSeedAloneTurnsTheNoise)
+{
+    VismapParams params = map_params(64, 64, 16);
+    const BakedMap first(courtyard(), {}, params), again(courtyard(), {}, params);
+    EXPECT_TRUE(first == again);
+    params.seed = 1;
+    const BakedMap other(courtyard(), {}, params);
+    double changed = 0, texels = 0, mean = 0;
+    other.each_covered([&](const Texel& t, int x, int y) {
+        const Texel f = first.at(x, y);
+        changed += t.visibility != f.visibility;
+        texels += f.visibility > 0.1 && f.visibility < 0.9;
+        mean += t.visibility - f.visibility;
+    });
+    EXPECT_GT(changed, 0.5 * texels);
+    EXPECT_LT(std::abs(mean), 0.01 * texels);
+}
+
+TEST(Vismap, OccludersCastAndAreNotBaked)
+{
+    Mesh occluder = wall_at_x1();
+    occluder.uvs = floor_facing_z(1).uvs; // texture coordinates do not make it a thing to bake
+    const BakedMap map(floor_facing_z(1), { occluder }, map_params(16, 16, 256));
+    EXPECT_EQ(map.report.covered, 256);
+    EXPECT_EQ(map.report.overlapping, 0);
+    map.each([](const Texel& t, int, int) {
+        EXPECT_NEAR(t.visibility, 0.5, 0.05);
+        EXPECT_LT(t.direction.x, -0.15);
     });
 }
 
-TEST(Vismap, AWallOfFiniteHeightHidesAStrip)
+TEST(Vismap, AnOccluderWithoutTrianglesHidesNothing)
 {
-    const double phi = std::atan(1.5), pi = M_PI;
-    const Mesh wall = quad(V3d(1, -kFar, 0), V3d(1, -kFar, 1.5), V3d(1, kFar, 1.5), V3d(1, kFar, 0));
-    const V3d direction(-(2 / (3 * pi)) * std::pow(std::sin(phi), 2), 0,
-                        2.0 / 3 - 2 / (3 * pi) * (phi - std::sin(phi) * std::cos(phi)));
-    EXPECT_NEAR((1 + std::cos(phi)) / 2, 0.777350, 1e-6);
-    for (int samples : { 16, 64, 256, 4096, 65536 })
-        expect_visibility(Map(floor_facing_z(0.5), { wall }, one_texel(samples)).centre(), (1 + std::cos(phi)) / 2,
-                          direction, tolerance(samples));
+    const BakedMap map(floor_facing_z(1), { Mesh(), wall_at_x1() }, map_params(8, 8, 64));
+    map.each([](const Texel& t, int, int) { EXPECT_NEAR(t.visibility, 0.5, 0.1); });
+    const BakedMap open(floor_facing_z(1), { Mesh() }, map_params(8, 8, 64));
+    open.each([](const Texel& t, int, int) { EXPECT_EQ(t.visibility, 1); });
+}
+
+TEST(Vismap, BothVisibilityAndDirectionHonourTheGreatestDistance)
+{
+    // A ceiling at height 1 within reach R hides the cone whose cosine is 1 / R: V = 1 - sin^2 = 1 / R^2, at any scale.
+    for (double scale : { 1.0, 1e-6, 1e6 })
+        for (double reach : { 0.999, 1.5, 3.0 }) {
+            const Mesh ceiling = rectangle(V3d(-1e3, -1e3, 1) * scale, V3d(2e3, 0, 0) * scale, V3d(0, 2e3, 0) * scale);
+            VismapParams params = map_params(8, 8, 1024);
+            params.max_distance = reach * scale;
+            const double c = std::min(1.0, 1 / reach);
+            const MapError error
+                = error_of(BakedMap(floor_facing_z(1e-3 * scale), { ceiling }, params),
+                           { reach < 1 ? 1 : c * c, V3d(0, 0, 2.0 / 3 * (reach < 1 ? 1 : c * c * c)) });
+            EXPECT_LT(error.visibility, reach < 1 ? 1e-9 : 0.004) << reach << ", " << scale;
+            EXPECT_LT(error.direction, reach < 1 ? 1e-6 : 0.004) << reach << ", " << scale;
+        }
+}
+
+TEST(Vismap, RowZeroIsTheTopOfTheTexture)
+{
+    // u grows with x, v with y; the wall stands at y = 1, beyond v = 1.
+    const Mesh wall = rectangle(V3d(-10, 1.001, 0), V3d(20, 0, 0), V3d(0, 0, 0.5));
+    const BakedMap map(floor_facing_z(1), { wall }, map_params(4, 16, 1024));
+    for (int x = 0; x < 4; ++x)
+        for (int y = 0; y + 1 < 16; ++y) {
+            EXPECT_LT(map.at(x, y).visibility, map.at(x, y + 1).visibility + 0.004) << y;
+            EXPECT_LT(map.at(x, y).direction.y, 0);
+        }
+    EXPECT_LT(map.at(0, 0).visibility, 0.6);
+    EXPECT_GT(map.at(0, 15).visibility, 0.95);
+}
+
+TEST(Vismap, AMirroredChartKeepsTheNormalsSide)
+{
+    const Mesh mesh = floor_facing_z(1);
+    Mesh mirrored = mesh;
+    for (V2f& uv : mirrored.uvs)
+        uv.x = 1 - uv.x;
+    const BakedMap map(mesh, { wall_at_x1() }, map_params(16, 16, 256));
+    const BakedMap other(mirrored, { wall_at_x1() }, map_params(16, 16, 256));
+    EXPECT_EQ(map.report.uv.mirrored, 0);
+    EXPECT_EQ(other.report.uv.mirrored, 2);
+    EXPECT_EQ(other.report.covered, 256);
+    other.each([&](const Texel& t, int x, int y) {
+        EXPECT_NEAR(t.visibility, map.at(15 - x, y).visibility, 0.05);
+        EXPECT_LT((t.direction - map.at(15 - x, y).direction).length(), 0.05);
+        EXPECT_GT(t.direction.z, 0.3);
+    });
+}
+
+TEST(Vismap, WhatLiesOutsideTheTextureIsNotBaked)
+{
+    Mesh mesh = floor_facing_z(1);
+    for (V2f& uv : mesh.uvs)
+        uv = V2f(uv.x + 0.5f, uv.y - 0.25f);
+    const BakedMap map(mesh, {}, map_params(16, 16, 4));
+    EXPECT_EQ(map.report.uv.outside, 2);
+    EXPECT_EQ(map.report.covered, 8 * 12);
+    map.each([](const Texel& t, int x, int y) { EXPECT_EQ(t.visibility, x >= 8 && y >= 4 ? 1 : 0) << x << "," << y; });
+    for (V2f& uv : mesh.uvs)
+        uv.x += 1;
+    EXPECT_EQ(BakedMap(mesh, {}, map_params(16, 16, 4)).report.covered, 0);
+}
+
+TEST(Vismap, WhereTrianglesOverlapTheFirstWins)
+{
+    // Three floors at different heights over the same texture; the later ones hide the first.
+    Mesh mesh = floor_facing_z(1, V3d(0, 0, 0));
+    append(mesh, floor_facing_z(1, V3d(0, 0, 1e-2)));
+    for (size_t v = 4; v < 8; ++v)
+        mesh.uvs[v].x *= 0.5f;
+    append(mesh, floor_facing_z(1, V3d(0, 0, 2e-2)));
+    for (size_t v = 8; v < 12; ++v)
+        mesh.uvs[v].x *= 0.25f;
+    const BakedMap map(mesh, {}, map_params(16, 16, 64));
+    EXPECT_EQ(map.report.covered, 256);
+    EXPECT_EQ(map.report.overlapping, 128); // once each, though half of them is hit three times
+    map.each([](const Texel& t, int, int) { EXPECT_LT(t.visibility, 0.2); });
+
+    std::swap(mesh.triangles[0], mesh.triangles[4]);
+    std::swap(mesh.triangles[1], mesh.triangles[5]);
+    BakedMap(mesh, {}, map_params(16, 16, 64)).each([](const Texel& t, int x, int) {
+        if (x < 4)
+            EXPECT_EQ(t.visibility, 1);
+        else
+            EXPECT_LT(t.visibility, 0.2);
+    });
+}
+
+TEST(Vismap, TrianglesWithoutTextureCoordinatesCastAndAreNotBaked)
+{
+    Mesh mesh = floor_facing_z(1);
+    append(mesh, wall_at_x1()); // its uvs are NaN
+    const BakedMap map(mesh, {}, map_params(8, 8, 256));
+    EXPECT_EQ(map.report.uv.triangles, 4);
+    EXPECT_EQ(map.report.uv.without_uv, 2);
+    EXPECT_EQ(map.report.covered, 64);
+    map.each([](const Texel& t, int, int) { EXPECT_NEAR(t.visibility, 0.5, 0.05); });
+}
+
+TEST(Vismap, TheMarginIsFilledAndCoverageTellsItApart)
+{
+    Mesh mesh = floor_facing_z(1);
+    for (V2f& uv : mesh.uvs)
+        uv = V2f(0.25f, 0.25f) + uv * 0.5f;
+    VismapParams params = map_params(32, 32, 16);
+    params.margin = 2;
+    const BakedMap map(mesh, {}, params);
+    EXPECT_EQ(map.report.covered, 256);
+    int covered = 0;
+    map.each_covered([&](const Texel&, int, int) { ++covered; });
+    EXPECT_EQ(covered, 256);
+    map.each([](const Texel& t, int x, int y) {
+        const bool filled = x >= 6 && x < 26 && y >= 6 && y < 26;
+        EXPECT_EQ(t.visibility, filled ? 1 : 0) << x << "," << y;
+        EXPECT_NEAR(t.direction.z, filled ? 2.0 / 3 : 0, 1e-6);
+    });
+    params.margin = -1;
+    BakedMap(mesh, {}, params).each([](const Texel& t, int, int) { EXPECT_EQ(t.visibility, 1); });
+}
+
+TEST(Vismap, TheReportCountsTexelsAndRays)
+{
+    Mesh mesh = floor_facing_z(1);
+    for (V2f& uv : mesh.uvs)
+        uv.y *= 0.5f;
+    append(mesh, box(V3d(-9), V3d(9), true));
+    for (size_t v = 4; v < mesh.uvs.size(); ++v)
+        mesh.uvs[v] = V2f(NAN, NAN);
+    const BakedMap map(mesh, {}, map_params(32, 32, 10));
+    EXPECT_EQ(map.report.texels, 1024);
+    EXPECT_EQ(map.report.covered, 512);
+    EXPECT_EQ(map.report.overlapping, 0);
+    EXPECT_EQ(map.report.dark, 512); // closed in
+    EXPECT_EQ(map.report.rays, 5120);
+}
+
+TEST(Vismap, RefusesWhatItCannotBake)
+{
+    Mesh mesh = floor_facing_z(1);
+    mesh.uvs.clear();
+    EXPECT_EQ(refusal(mesh, {}),
+              "\"floor\": no texture coordinates: unwrap the mesh first, or choose another set of them");
+    mesh.triangles.clear();
+    EXPECT_EQ(refusal(mesh, {}), "\"floor\": no triangle in it");
+}
+
+TEST(Vismap, RefusesParametersOutOfRange)
+{
+    const Mesh mesh = floor_facing_z(1);
+    VismapParams params;
+    params.samples = 0;
+    EXPECT_EQ(refusal(mesh, params), "samples: 0 is not in [1, 1048576]");
+    params = {};
+    params.sampler = "random";
+    EXPECT_EQ(refusal(mesh, params), "sampler: \"random\" is not one of fibonacci, sobol, halton");
+    params = {};
+    params.measure = "";
+    EXPECT_EQ(refusal(mesh, params), "measure: \"\" is not one of cosine, uniform");
+    params = {};
+    params.seed = -1;
+    EXPECT_EQ(refusal(mesh, params), "seed: -1 is not in [0, 2147483647]");
+    params = {};
+    params.max_distance = -1;
+    EXPECT_EQ(refusal(mesh, params), "max_distance: -1 is not in [0, 1e+30] or \"infinite\"");
+    params = {};
+    params.max_distance = NAN;
+    EXPECT_EQ(refusal(mesh, params), "max_distance: \"nan\" is not a number or \"infinite\"");
+    params = {};
+    params.margin = -2;
+    EXPECT_EQ(refusal(mesh, params), "margin: -2 is not in [0, 32768] or \"infinite\"");
+    params = {};
+    params.resolution = { 0, 5 };
+    EXPECT_EQ(refusal(mesh, params), "resolution: \"0x5\" is not WIDTHxHEIGHT from 1x1 to 32768x32768");
+    params = {};
+    params.width = 32769;
+    EXPECT_EQ(refusal(mesh, params), "width: 32769 is not in [0, 32768]");
+    params = {};
+    params.height = -1;
+    EXPECT_EQ(refusal(mesh, params), "height: -1 is not in [0, 32768]");
+}
+
+TEST(Vismap, AnInterruptedBakeLeavesNoPixels)
+{
+    int calls = 0;
+    EXPECT_EQ(refusal(floor_facing_z(1), map_params(512, 512, 1), [&](double) { return ++calls < 3; }), "interrupted");
+    EXPECT_EQ(calls, 3);
 }

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "temporary_folder.h"
+
+#include <vmlight/channels.h>
+#include <vmlight/color.h>
+#include <vmlight/image_file.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace vmlight;
+
+namespace {
+
+OIIO::ImageBuf vismap_like(int width, int height, float factor = 1)
+{
+    OIIO::ImageSpec spec(width, height, 5, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = { "visibility", "direction.x", "direction.y", "direction.z", "coverage" };
+    spec.tile_width = spec.tile_height = 64;
+    tag_data(spec);
+    spec.attribute("vmlight:stage", "vismap");
+    OIIO::ImageBuf image(spec, OIIO::InitializePixels::Yes);
+    for (OIIO::ImageBuf::Iterator<float> p(image); !p.done(); ++p)
+        for (int c = 0; c < 5; ++c)
+            p[c] = factor * (0.125f * float(c) - 0.001f * float(p.x()) + 0.5f * float(p.y()));
+    return image;
+}
+
+bool write(const OIIO::ImageBuf& image, const std::string& path, std::string& error, const char* format = "float")
+{
+    return write_image(image, path, format, {}, error);
+}
+
+} // namespace
+
+TEST(ImageFile, WhatIsWrittenIsReadBackByName)
+{
+    const TemporaryFolder folder;
+    const OIIO::ImageBuf image = vismap_like(70, 66);
+    std::string error;
+    ASSERT_TRUE(write(image, folder / "a.exr", error)) << error;
+    OIIO::ImageBuf back;
+    ASSERT_TRUE(read_image(back, folder / "a.exr", error)) << error;
+    ASSERT_EQ(back.nchannels(), 5);
+    for (int c = 0; c < 5; ++c) {
+        const int k = back.spec().channelindex(image.spec().channelnames[size_t(c)]);
+        ASSERT_GE(k, 0) << image.spec().channelnames[size_t(c)];
+        for (int y = 0; y < 66; ++y)
+            for (int x = 0; x < 70; ++x)
+                ASSERT_EQ(back.getchannel(x, y, 0, k), image.getchannel(x, y, 0, c));
+    }
+    std::array<int, 4> index;
+    EXPECT_TRUE(find_vismap_channels(back.spec(), index, error)) << error;
+    EXPECT_EQ(back.spec().get_string_attribute("vmlight:stage"), "vismap");
+    EXPECT_EQ(back.spec().get_string_attribute("colorInteropID"), "data");
+    EXPECT_EQ(back.spec().get_string_attribute("compression"), "zip");
+    EXPECT_EQ(back.nativespec().tile_width, 64);
+    EXPECT_EQ(back.nativespec().format, OIIO::TypeDesc::FLOAT);
+}
+
+TEST(ImageFile, HalfIsWrittenOnRequest)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    ASSERT_TRUE(write(vismap_like(9, 9), folder / "a.exr", error, "half")) << error;
+    OIIO::ImageBuf back(folder / "a.exr");
+    EXPECT_EQ(back.nativespec().format, OIIO::TypeDesc::HALF);
+    EXPECT_EQ(back.getchannel(0, 0, 0, back.spec().channelindex("direction.y")), 0.25f);
+}
+
+TEST(ImageFile, EqualPixelsGiveEqualBytes)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    ASSERT_TRUE(write(vismap_like(70, 66), folder / "a.exr", error)) << error;
+    ::sleep(1); // a date would show
+    ASSERT_TRUE(write(vismap_like(70, 66), folder / "b.exr", error)) << error;
+    EXPECT_TRUE(folder.bytes("a.exr") == folder.bytes("b.exr"));
+    EXPECT_GT(folder.bytes("a.exr").size(), 1000u);
+    for (const char* word : { "DateTime", "HostComputer", "Software", "Exif:ImageHistory" })
+        EXPECT_EQ(folder.bytes("a.exr").find(word), std::string::npos) << word;
+}
+
+TEST(ImageFile, AnOutputReplacesTheOldOneAndLeavesNothingElse)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    ASSERT_TRUE(write(vismap_like(4, 4), folder / "a.exr", error)) << error;
+    ASSERT_TRUE(write(vismap_like(8, 8), folder / "a.exr", error)) << error;
+    EXPECT_EQ(OIIO::ImageBuf(folder / "a.exr").spec().width, 8);
+    EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
+}
+
+TEST(ImageFile, AnInterruptedOutputLeavesTheOldFileAsItWas)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    ASSERT_TRUE(write(vismap_like(4, 4), folder / "a.exr", error)) << error;
+    const std::string old = folder.bytes("a.exr");
+    for (int stop_at : { 1, 2, 4 }) {
+        int calls = 0;
+        error.clear();
+        EXPECT_FALSE(write_image(
+            vismap_like(300, 500), folder / "a.exr", "float", [&](double) { return ++calls < stop_at; }, error));
+        EXPECT_EQ(error, "\"" + folder / "a.exr" + "\": interrupted");
+        EXPECT_TRUE(folder.bytes("a.exr") == old);
+        EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
+    }
+}
+
+TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    OIIO::ImageBuf image = vismap_like(8, 8);
+    ASSERT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
+    const std::string old = folder.bytes("a.exr");
+    for (float value : { 65505.0f, -1e6f }) {
+        image.setpixel(3, 4, std::vector<float> { 0, 0, value, 0, 0 });
+        EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
+        EXPECT_EQ(error,
+                  "\"" + folder / "a.exr" + "\": channel direction.y reaches " + (value > 0 ? "65505" : "1e+06")
+                      + ", beyond the range of half (65504): write float");
+        EXPECT_TRUE(folder.bytes("a.exr") == old);
+    }
+    image.setpixel(3, 4, std::vector<float> { 0, 0, 0, std::numeric_limits<float>::infinity(), 0 });
+    EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
+    EXPECT_EQ(error,
+              "\"" + folder / "a.exr"
+                  + "\": channel direction.z reaches inf, beyond the range of half (65504): write float");
+    image.setpixel(3, 4, std::vector<float> { 65504, 0, 0, -65504, 0 });
+    EXPECT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
+}
+
+TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    const auto refusal = [&](const std::string& path) {
+        EXPECT_FALSE(write(vismap_like(2, 2), path, error));
+        EXPECT_EQ(error, output_fault(path));
+        return error;
+    };
+    EXPECT_EQ(refusal(folder / "a.png"),
+              "\"" + folder / "a.png" + "\": outputs are EXR files; name it .exr, then convert it with oiiotool");
+    EXPECT_EQ(refusal(""), "\"\": outputs are EXR files; name it .exr, then convert it with oiiotool");
+    EXPECT_EQ(refusal(folder / "none/a.exr"),
+              "\"" + folder / "none/a.exr" + "\": no folder \"" + folder / "none" + "\"");
+    ASSERT_EQ(::mkdir((folder / "dir.exr").c_str(), 0755), 0);
+    EXPECT_EQ(refusal(folder / "dir.exr"), "\"" + folder / "dir.exr" + "\": is a folder");
+    EXPECT_EQ(output_fault("a.exr"), "");
+    EXPECT_EQ(output_fault(folder / "A.EXR"), "");
+    if (::geteuid() != 0) { // nothing is forbidden to root
+        ASSERT_EQ(::chmod((folder / "dir.exr").c_str(), 0555), 0);
+        EXPECT_EQ(refusal(folder / "dir.exr/a.exr"),
+                  "\"" + folder / "dir.exr/a.exr" + "\": the folder \"" + folder / "dir.exr" + "\" cannot be written");
+    }
+}
+
+TEST(ImageFile, AnyNameTheFileSystemTakesWorks)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    for (const char* name : { "50%.exr", "%%%%%%%%.exr", "a b.exr", "\xc3\xa4.exr", ".exr" }) {
+        EXPECT_TRUE(write(vismap_like(4, 4), folder / name, error)) << error;
+        EXPECT_FALSE(folder.bytes(name).empty()) << name;
+    }
+    EXPECT_EQ(folder.names().size(), 5u);
+    ASSERT_EQ(::mkdir((folder / "100%").c_str(), 0755), 0);
+    EXPECT_TRUE(write(vismap_like(4, 4), folder / "100%/a.exr", error)) << error;
+}
+
+TEST(ImageFile, WhatCannotBeReadIsRefusedWithItsPath)
+{
+    const TemporaryFolder folder;
+    OIIO::ImageBuf image(OIIO::ImageSpec(3, 3, 1, OIIO::TypeDesc::FLOAT));
+    std::string error;
+    EXPECT_FALSE(read_image(image, folder / "none.exr", error));
+    EXPECT_EQ(error, "\"" + folder / "none.exr" + "\": no such file");
+    EXPECT_FALSE(read_image(image, folder / "", error));
+    EXPECT_EQ(error, "\"" + folder / "" + "\": not a file");
+    folder.write("noise.exr", std::string("\x01\x02\x03 no image"));
+    EXPECT_FALSE(read_image(image, folder / "noise.exr", error));
+    EXPECT_EQ(error.find("\"" + folder / "noise.exr" + "\": "), 0u) << error;
+    EXPECT_GT(error.size(), (folder / "noise.exr").size() + 6);
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+    EXPECT_FALSE(image.initialized());
+    ASSERT_TRUE(write(vismap_like(300, 300), folder / "cut.exr", error)) << error;
+    folder.write("cut.exr", folder.bytes("cut.exr").substr(0, 3000));
+    EXPECT_FALSE(read_image(image, folder / "cut.exr", error));
+    EXPECT_EQ(error.find("\"" + folder / "cut.exr" + "\": "), 0u) << error;
+}

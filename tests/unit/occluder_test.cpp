@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenes.h"
+
+#include <vmlight/occluder.h>
+#include <vmlight/sampling.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+using namespace vmlight;
+using namespace vmlight::scenes;
+
+namespace {
+
+const float kNoLimit = std::numeric_limits<float>::infinity();
+
+struct Scene
+{
+    explicit Scene(const std::vector<Mesh>& meshes, const SceneFrame& frame = {})
+    {
+        std::vector<const Mesh*> casters;
+        for (const Mesh& mesh : meshes)
+            casters.push_back(&mesh);
+        std::string error;
+        EXPECT_TRUE(occluder.build(casters, frame, 1, error)) << error;
+    }
+    bool blocked(const V3f& origin, const V3f& direction, float length = kNoLimit) const
+    {
+        RayFan fan(1);
+        fan.x[0] = direction.x, fan.y[0] = direction.y, fan.z[0] = direction.z;
+        fan.lanes[0] = 1;
+        occluder.clear_blocked(fan, origin, length);
+        EXPECT_EQ(fan.lanes[0] & 0xfe, 0);
+        return fan.lanes[0] == 0;
+    }
+    Occluder occluder;
+};
+
+} // namespace
+
+TEST(Occluder, ARayIsBlockedByWhatItMeetsFromEitherSide)
+{
+    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)) });
+    EXPECT_TRUE(scene.blocked(V3f(0.3f, 0.2f, 0), V3f(0, 0, 1)));
+    EXPECT_TRUE(scene.blocked(V3f(0.3f, 0.2f, 4), V3f(0, 0, -1)));
+    EXPECT_FALSE(scene.blocked(V3f(0.3f, 0.2f, 0), V3f(0, 0, -1)));
+    EXPECT_FALSE(scene.blocked(V3f(1.3f, 0.2f, 0), V3f(0, 0, 1)));
+}
+
+TEST(Occluder, LengthLimitsARay)
+{
+    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)) });
+    EXPECT_FALSE(scene.blocked(V3f(0), V3f(0, 0, 1), 1.999f));
+    EXPECT_TRUE(scene.blocked(V3f(0), V3f(0, 0, 1), 2.001f));
+}
+
+TEST(Occluder, AllMeshesCast)
+{
+    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)), Mesh(), floor_facing_z(1, V3d(5, 0, 2)) });
+    EXPECT_TRUE(scene.blocked(V3f(0), V3f(0, 0, 1)));
+    EXPECT_TRUE(scene.blocked(V3f(5, 0, 0), V3f(0, 0, 1)));
+    EXPECT_FALSE(scene.blocked(V3f(3, 0, 0), V3f(0, 0, 1)));
+}
+
+TEST(Occluder, NothingBlocksInAnEmptyScene)
+{
+    EXPECT_FALSE(Scene({}).blocked(V3f(0), V3f(0, 0, 1)));
+    EXPECT_FALSE(Scene({ Mesh() }).blocked(V3f(0), V3f(0, 0, 1)));
+}
+
+TEST(Occluder, DeadLanesStayDeadAndLiveOnesAreAskedAloneOrTogether)
+{
+    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)) });
+    std::mt19937 random(1);
+    RayFan fan(40);
+    for (int i = 0; i < 40; ++i) {
+        const bool up = i % 3 == 0;
+        fan.x[i] = 0, fan.y[i] = 0, fan.z[i] = up ? 1.0f : -1.0f;
+    }
+    for (int run = 0; run < 50; ++run) {
+        std::vector<uint8_t> asked;
+        for (uint8_t& lanes : fan.lanes) {
+            lanes = uint8_t(random());
+            asked.push_back(lanes);
+        }
+        scene.occluder.clear_blocked(fan, V3f(0), kNoLimit);
+        for (int i = 0; i < 40; ++i)
+            EXPECT_EQ(fan.lanes[size_t(i / 8)] >> i % 8 & 1, (asked[size_t(i / 8)] >> i % 8 & 1) && i % 3 != 0) << i;
+    }
+}
+
+TEST(Occluder, NoRayLeaksThroughTheSidesAndCornersOfABall)
+{
+    const Mesh ball = icosphere(3);
+    const Scene scene({ ball });
+    const auto expect_closed = [&](const V3d& target) {
+        for (const V3d& origin : { V3d(0), V3d(0.3, -0.2, 0.1) })
+            ASSERT_TRUE(scene.blocked(V3f(origin), V3f((target - origin).normalized()))) << target;
+    };
+    for (const auto& t : ball.triangles)
+        for (int k = 0; k < 3; ++k) {
+            const V3d &a = ball.positions[t[k]], &b = ball.positions[t[(k + 1) % 3]];
+            expect_closed(a);
+            for (double along : { 0.5, 0.25, 1.0 / 3, 0.01 })
+                expect_closed(a + (b - a) * along);
+        }
+}
+
+TEST(Occluder, TheFrameFillsMinusOneToOneByAPowerOfTwo)
+{
+    for (double size : { 1e-6, 0.3, 1.0, 2.0, 777.0, 1e6 })
+        for (double offset : { 0.0, 1e4 }) {
+            const Mesh mesh = placed(box(V3d(-1, -0.5, -0.1), V3d(1, 0.5, 0.1), false), size, V3d(offset * size));
+            const SceneFrame frame = SceneFrame::around(mesh);
+            float reach = 0;
+            for (const V3d& p : mesh.positions) {
+                const V3f s = frame.to_scene(p);
+                reach = std::max({ reach, std::abs(s.x), std::abs(s.y), std::abs(s.z) });
+            }
+            EXPECT_LE(reach, 1 + 1e-7f) << size;
+            EXPECT_GT(reach, 0.5f - 1e-7f) << size;
+            int exponent = 0;
+            EXPECT_EQ(std::frexp(frame.scale, &exponent), 0.5) << size;
+        }
+}
+
+TEST(Occluder, VerticesThatNoTriangleUsesDoNotStretchTheFrame)
+{
+    Mesh mesh = floor_facing_z(1);
+    mesh.positions.push_back(V3d(1e20));
+    mesh.positions.push_back(V3d(NAN));
+    const SceneFrame frame = SceneFrame::around(mesh);
+    EXPECT_EQ(frame.scale, 1);
+    EXPECT_EQ(frame.centre, V3d(0));
+}
+
+TEST(Occluder, TheFrameOfAPointOrOfNothingIsFinite)
+{
+    Mesh point = floor_facing_z(0, V3d(3, 4, 5));
+    EXPECT_EQ(SceneFrame::around(point).to_scene(V3d(3, 4, 5)), V3f(0));
+    EXPECT_EQ(SceneFrame::around(Mesh()).scale, 1);
+}
+
+TEST(Occluder, AnOriginIsPushedOutOfRoundingsReachAndNoFarther)
+{
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> in(-1, 1);
+    for (int run = 0; run < 20000; ++run) {
+        V3f p(in(random), in(random), in(random)), n(in(random), in(random), in(random));
+        if (run % 4 == 0)
+            p[run % 3] = 0;
+        if (run % 5 == 0)
+            p *= 1e-3f;
+        if (run % 7 == 0)
+            n = V3f(0), n[run % 3] = run % 2 ? 1.0f : -1.0f;
+        n.normalize();
+        const V3d moved = V3d(offset_origin(p, n)) - V3d(p);
+        EXPECT_GT(moved.dot(V3d(n)), 6e-7) << p << n; // ten times the rounding of a point in [-1, 1]
+        EXPECT_LT(moved.length(), double(kOffsetLength)) << p << n;
+    }
+}
