@@ -29,7 +29,7 @@ cycles() {
         "$(realpath "$mesh")" "$resolution" "$1" "$threads" "$work/ao.exr"
 }
 # rms A B: root mean square difference of two one-channel images
-rms() { oiiotool "$1" "$2" --fail 2 --warn 2 --diff | awk '/RMS error/ { print $4 }'; }
+rms() { { idiff "$1" "$2" || true; } | awk '/RMS error/ { print $4 }'; } # idiff prints errors of images that differ only
 visibility() { oiiotool "$1" --ch "$2" --chnames Y -d float -o "$3"; }
 
 echo "$(basename "$mesh"), ${resolution}x$resolution, $threads threads"
