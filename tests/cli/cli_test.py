@@ -164,6 +164,11 @@ class Outputs(Case):
         self.refused(1, 'no folder "missing"', "makevismap", "quad.obj", "-o", "missing/x.exr")
         os.mkdir(self.path("folder.exr"))
         self.refused(1, '"folder.exr": is a folder', "makevismap", "quad.obj", "-o", "folder.exr")
+        os.mkdir(self.path("pipes"))
+        os.mkfifo(self.path("pipes/x.exr"))
+        process = self.run_tool("makevismap", "quad.obj", "-o", "pipes/x.exr")
+        self.assertEqual((process.returncode, "is a device or a pipe" in process.stderr), (1, True), process.stderr)
+        os.remove(self.path("pipes/x.exr"))  # contents() would wait for its writer
         if os.geteuid() != 0:
             os.mkdir(self.path("locked"), 0o500)
             self.refused(1, "cannot be written", "makevismap", "quad.obj", "-o", "locked/x.exr")
