@@ -200,13 +200,28 @@ class Outputs(Case):
 
     def test_an_interrupt_leaves_the_old_file_and_no_debris(self):
         before = self.contents()
-        process = subprocess.Popen([os.path.join(BIN, "makevismap"), SPOT, "-o", "old.exr", "--resolution", "4096",
-                                    "--samples", "65536"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        line = process.stderr.readline()  # the bake is under way
+        for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+            process = subprocess.Popen([os.path.join(BIN, "makevismap"), SPOT, "-o", "old.exr", "--resolution", "4096",
+                                        "--samples", "65536"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+            line = process.stderr.readline()  # the bake is under way
+            process.send_signal(number)
+            _, rest = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 1, rest)
+            self.assertIn("makevismap ERROR: interrupted", line + rest)
+            self.assertEqual(self.contents(), before)
+
+    def test_an_interrupt_need_not_wait_for_a_mesh_to_be_read(self):
+        self.file("large.obj", QUAD + "v 1 1 1\nv 1 1 2\nv 2 1 1\n" * 500000)
+        before = self.contents()
+        process = subprocess.Popen([os.path.join(BIN, "makevismap"), "large.obj", "-o", "old.exr", "--resolution", "8"],
+                                   cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        caught = 0
+        while process.poll() is None and not caught >> (signal.SIGINT - 1) & 1:
+            with open(f"/proc/{process.pid}/status") as status:
+                caught = next(int(line.split()[1], 16) for line in status if line.startswith("SigCgt:"))
         process.send_signal(signal.SIGINT)
         _, rest = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 1, rest)
-        self.assertIn("makevismap ERROR: interrupted", line + rest)
+        self.assertEqual((process.returncode, rest), (1, "makevismap ERROR: interrupted\n"))
         self.assertEqual(self.contents(), before)
 
 
