@@ -6,17 +6,24 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
+
 namespace vmlight {
 
 using OIIO::Strutil::fmt::format;
 
 bool parse_frames(std::vector<int>& dst, const std::string& text, std::string& error)
 {
-    // OIIO reads what it can of a range and ignores the rest: only the characters of a range are let through.
-    const bool plausible = !text.empty() && text.find_first_not_of("0123456789-,x") == std::string::npos;
+    // OIIO reads what it can of a range and ignores the rest, and lists every frame before it returns: only the
+    // characters of a range are let through, and numbers below a million.
+    bool plausible = !text.empty() && text.find_first_not_of("0123456789-,x") == std::string::npos;
+    for (size_t begin = 0, end; plausible && begin < text.size(); begin = end + 1) {
+        end = std::min(text.find_first_of("-,x", begin), text.size());
+        plausible = end - begin <= 6;
+    }
     std::vector<int> frames;
     if (!plausible || !OIIO::Filesystem::enumerate_sequence(text, frames) || frames.empty()) {
-        error = format("\"{}\" is not a range of frames such as 1-48, 1-48x2 or 1,3,10-12", text);
+        error = format("\"{}\" is not a range of frames up to 999999, such as 1-48, 1-48x2 or 1,3,10-12", text);
         return false;
     }
     dst = frames;

@@ -9,7 +9,8 @@
 
 namespace vmlight {
 
-/// "1-48", "1-48x2", "1,3,10-12": OIIO's frame ranges. False, with the reason in `error`, if it is not one.
+/// "1-48", "1-48x2", "1,3,10-12": OIIO's frame ranges, of frames up to 999999. False, with the reason in `error`, if it
+/// is not one.
 VMLIGHT_API bool parse_frames(std::vector<int>& dst, const std::string& text, std::string& error);
 
 /// The name of one frame's file: a run of '#' becomes the frame number, padded with zeros to at least that many digits.

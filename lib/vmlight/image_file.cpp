@@ -87,6 +87,8 @@ std::string output_fault(const std::string& path)
         return format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
     if (OIIO::Filesystem::is_directory(path))
         return format("\"{}\": is a folder", path);
+    if (OIIO::Filesystem::exists(path) && !OIIO::Filesystem::is_regular(path))
+        return format("\"{}\": is a device or a pipe, which a file would replace", path);
     const std::string folder = folder_of(path);
     if (!OIIO::Filesystem::is_directory(folder))
         return format("\"{}\": no folder \"{}\"", path, folder);

@@ -15,7 +15,8 @@ namespace vmlight {
 VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error);
 
 /// Why `path` cannot be the name of an output, or "": it must end in .exr (other formats lose channel names, range or
-/// the mark that says data from colour), lie in a folder that exists and can be written, and not be a folder itself.
+/// the mark that says data from colour), lie in a folder that exists and can be written, and not be a folder, a device
+/// or a pipe.
 VMLIGHT_API std::string output_fault(const std::string& path);
 
 /// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a temporary file beside `path`, flushed

@@ -2,6 +2,7 @@
 #include <vmlight/margin.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace vmlight {
@@ -39,6 +40,39 @@ std::vector<Texel> rim(const Coverage& coverage)
     return texels;
 }
 
+double dot(const float* a, const float* b)
+{
+    return double(a[1]) * b[1] + double(a[2]) * b[2] + double(a[3]) * b[3];
+}
+
+void average_neighbours(float* pixels, int channels, const Coverage& coverage, const Texel& t)
+{
+    const auto at = [&](const Texel& n) {
+        return pixels + (size_t(n.y) * size_t(coverage.width()) + size_t(n.x)) * size_t(channels);
+    };
+    std::array<const float*, 8> filled;
+    int count = 0;
+    each_neighbour(coverage, t, [&](const Texel& n) {
+        if (coverage.get(n.x, n.y))
+            filled[count++] = at(n);
+    });
+    // Where the margins of two islands meet, their directions may cancel, and what is left would be lit from anywhere:
+    // a dark line between bright islands. Neighbours that look away from the most decided one are left out.
+    const float* leader = *std::max_element(filled.begin(), filled.begin() + count,
+                                            [](const float* a, const float* b) { return dot(a, a) < dot(b, b); });
+    double sum[4] = {};
+    int used = 0;
+    for (int i = 0; i < count; ++i) {
+        if (dot(filled[i], leader) < 0)
+            continue;
+        for (int c = 0; c < 4; ++c)
+            sum[c] += double(filled[i][c]);
+        ++used;
+    }
+    for (int c = 0; c < 4; ++c)
+        at(t)[c] = float(sum[c] / used);
+}
+
 } // namespace
 
 Coverage::Coverage(int width, int height)
@@ -63,19 +97,7 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings)
                 }
             });
         for (const Texel& t : next) {
-            double sum[4] = {};
-            int count = 0;
-            each_neighbour(coverage, t, [&](const Texel& n) {
-                if (!coverage.get(n.x, n.y))
-                    return;
-                const float* neighbour = pixels + (size_t(n.y) * size_t(coverage.width()) + size_t(n.x)) * channels;
-                for (int c = 0; c < 4; ++c)
-                    sum[c] += double(neighbour[c]);
-                ++count;
-            });
-            float* texel = pixels + (size_t(t.y) * size_t(coverage.width()) + size_t(t.x)) * channels;
-            for (int c = 0; c < 4; ++c)
-                texel[c] = float(sum[c] / count);
+            average_neighbours(pixels, channels, coverage, t);
         }
         // Only now, so that a ring does not depend on the order within it.
         for (const Texel& t : next)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/sampling.h>
 
+#include <vmlight/latlong.h>
 #include <vmlight/sampling_kernel.h>
 
 #include <algorithm>
@@ -121,7 +122,7 @@ void SamplePattern::directions_scalar(RayFan& fan, const TangentFrame& frame, co
         const uint32_t u = m_owen ? reverse_bits(kernel::scramble_reversed(m_u[i], texel.u)) : m_u[i] + texel.u;
         const uint32_t v = m_owen ? reverse_bits(kernel::scramble_reversed(m_v[i], texel.v)) : m_v[i] + texel.v;
         // 24 bits: what a float in [0, 1) holds exactly, so that u never rounds to 1.
-        const double fu = (u >> 8) * 0x1p-24, azimuth = 2 * 3.14159265358979323846 * ((v >> 8) * 0x1p-24);
+        const double fu = (u >> 8) * 0x1p-24, azimuth = 2 * latlong::pi * ((v >> 8) * 0x1p-24);
         const double radius = std::sqrt(m_uniform ? fu * (2 - fu) : fu);
         const double height = m_uniform ? 1 - fu : std::sqrt(1 - fu);
         const V3d d = V3d(frame.tangent) * (radius * std::cos(azimuth))

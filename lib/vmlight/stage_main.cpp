@@ -11,6 +11,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 
 #include <unistd.h>
 
@@ -20,10 +21,29 @@ namespace {
 using OIIO::Strutil::fmt::format;
 
 std::atomic<bool> s_interrupted { false };
+std::atomic<bool> s_leaves_debris { false }; // while an output is being written
+static_assert(std::atomic<bool>::is_always_lock_free);
+char s_farewell[64]; // what to say from within a signal handler, which may format nothing
 
+// Reading a mesh or building its tree does not look at s_interrupted for seconds. While no output is being written
+// there is nothing to tidy up, and no need to wait for them.
 void interrupt(int)
 {
     s_interrupted = true;
+    if (s_leaves_debris)
+        return;
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_farewell, std::strlen(s_farewell));
+    ::_exit(int(Exit::Failed));
+}
+
+// A signal that the parent ignores (nohup, a shell's background) stays ignored.
+void catch_interrupts(const std::string& name)
+{
+    std::snprintf(s_farewell, sizeof(s_farewell), "%s%s ERROR: interrupted\n", ::isatty(STDERR_FILENO) ? "\n" : "",
+                  name.c_str());
+    for (int number : { SIGINT, SIGTERM, SIGHUP })
+        if (std::signal(number, interrupt) == SIG_IGN)
+            std::signal(number, SIG_IGN);
 }
 
 std::string flag_of(const std::string& name)
@@ -201,8 +221,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         return int(Exit::Done);
     if (state.common.threads > 0)
         OIIO::attribute("threads", state.common.threads);
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
+    catch_interrupts(state.name);
     bool good = false;
     try {
         good = work(error);
@@ -270,8 +289,11 @@ bool StageMain::write(const OIIO::ImageBuf& image, std::string& error)
 
 bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std::string& error)
 {
-    return write_image(
+    s_leaves_debris = true;
+    const bool written = write_image(
         image, path, m_state->common.format, [](double) { return !s_interrupted; }, error);
+    s_leaves_debris = false;
+    return written;
 }
 
 } // namespace vmlight

@@ -66,6 +66,9 @@ int main(int argc, const char** argv)
         if (error.empty() && animation.frames.size() > 1 && !numbered)
             error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
                            animation.frames.size());
+        if (error.empty() && !animation.asked && animation.rotate_y.first != animation.rotate_y.last)
+            error = format("rotate_y: from {} to {} degrees needs --frames", animation.rotate_y.first,
+                           animation.rotate_y.last);
         if (!error.empty() || !light.read(stage, error))
             return false;
         const OIIO::Timer timer;

@@ -148,6 +148,8 @@ class Usage(Case):
         self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "1-x")
         self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "")
         self.refused(2, "is not FIRST:LAST or one number", *lightmap, "-o", "x.#.exr", "--rotate-y", "0:b")
+        self.refused(2, "up to 999999", *lightmap, "-o", "x.#.exr", "--frames", "1-2000000000")
+        self.refused(1, "from 0 to 90 degrees needs --frames", *lightmap, "-o", "x.exr", "--rotate-y", "0:90")
         self.refused(1, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
 
 
@@ -162,6 +164,11 @@ class Outputs(Case):
         self.refused(1, 'no folder "missing"', "makevismap", "quad.obj", "-o", "missing/x.exr")
         os.mkdir(self.path("folder.exr"))
         self.refused(1, '"folder.exr": is a folder', "makevismap", "quad.obj", "-o", "folder.exr")
+        os.mkdir(self.path("pipes"))
+        os.mkfifo(self.path("pipes/x.exr"))
+        process = self.run_tool("makevismap", "quad.obj", "-o", "pipes/x.exr")
+        self.assertEqual((process.returncode, "is a device or a pipe" in process.stderr), (1, True), process.stderr)
+        os.remove(self.path("pipes/x.exr"))  # contents() would wait for its writer
         if os.geteuid() != 0:
             os.mkdir(self.path("locked"), 0o500)
             self.refused(1, "cannot be written", "makevismap", "quad.obj", "-o", "locked/x.exr")
@@ -193,13 +200,28 @@ class Outputs(Case):
 
     def test_an_interrupt_leaves_the_old_file_and_no_debris(self):
         before = self.contents()
-        process = subprocess.Popen([os.path.join(BIN, "makevismap"), SPOT, "-o", "old.exr", "--resolution", "4096",
-                                    "--samples", "65536"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        line = process.stderr.readline()  # the bake is under way
+        for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+            process = subprocess.Popen([os.path.join(BIN, "makevismap"), SPOT, "-o", "old.exr", "--resolution", "4096",
+                                        "--samples", "65536"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+            line = process.stderr.readline()  # the bake is under way
+            process.send_signal(number)
+            _, rest = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 1, rest)
+            self.assertIn("makevismap ERROR: interrupted", line + rest)
+            self.assertEqual(self.contents(), before)
+
+    def test_an_interrupt_need_not_wait_for_a_mesh_to_be_read(self):
+        self.file("large.obj", QUAD + "v 1 1 1\nv 1 1 2\nv 2 1 1\n" * 500000)
+        before = self.contents()
+        process = subprocess.Popen([os.path.join(BIN, "makevismap"), "large.obj", "-o", "old.exr", "--resolution", "8"],
+                                   cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        caught = 0
+        while process.poll() is None and not caught >> (signal.SIGINT - 1) & 1:
+            with open(f"/proc/{process.pid}/status") as status:
+                caught = next(int(line.split()[1], 16) for line in status if line.startswith("SigCgt:"))
         process.send_signal(signal.SIGINT)
         _, rest = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 1, rest)
-        self.assertIn("makevismap ERROR: interrupted", line + rest)
+        self.assertEqual((process.returncode, rest), (1, "makevismap ERROR: interrupted\n"))
         self.assertEqual(self.contents(), before)
 
 

@@ -62,6 +62,24 @@ std::vector<std::array<int, 2>> cover_at_random(Image& image, int count, unsigne
 
 } // namespace
 
+TEST(Margin, OpposedDirectionsDoNotCancelWhereTwoMarginsMeet)
+{
+    for (int gap : { 1, 2, 3, 4 }) {
+        Image image(gap + 2, 3);
+        for (int y = 0; y < 3; ++y) {
+            image.cover(0, y, { 1, 0.6f, 0, 0 });
+            image.cover(gap + 1, y, { 1, -0.5f, 0.1f, 0 });
+        }
+        image.fill(-1);
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < gap + 2; ++x) {
+                const float* texel = image.at(x, y);
+                EXPECT_EQ(texel[0], 1) << gap << ": " << x << "," << y;
+                EXPECT_GE(std::hypot(texel[1], texel[2]), 0.5f) << gap << ": " << x << "," << y;
+            }
+    }
+}
+
 TEST(Margin, EveryRingIsOneTexelWide)
 {
     for (const auto& [width, height] : { std::pair(40, 30), { 63, 5 }, { 64, 64 }, { 65, 3 }, { 200, 33 }, { 1, 70 } })
