@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image_file.h>
 
+#include <vmlight/oiio.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
@@ -74,7 +76,7 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
     }
     dst.reset(path);
     if (!dst.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-        error = format("\"{}\": {}", path, dst.geterror());
+        error = format("\"{}\": {}", path, oiio::reason(dst));
         dst.clear();
         return false;
     }
@@ -125,7 +127,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!out)
         return failed(OIIO::geterror());
     if (!out->open(temporary, spec))
-        return failed(out->geterror());
+        return failed(oiio::reason(*out));
     const auto* pixels = image.localpixels();
     Watch watch { progress };
     const bool written = out->write_image(OIIO::TypeDesc::FLOAT, pixels, OIIO::AutoStride, OIIO::AutoStride,
@@ -134,7 +136,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (watch.stopped)
         return failed("interrupted");
     if (!written || !closed)
-        return failed(out->geterror());
+        return failed(oiio::reason(*out));
     if (!flush_to_disk(temporary))
         return failed("cannot flush it to the disk");
     std::string reason;

@@ -6,6 +6,7 @@
 #include <OpenImageIO/argparse.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
 #include <OpenImageIO/timer.h>
 
 #include <atomic>
@@ -209,6 +210,9 @@ void StageMain::option(const std::string& name, const std::string& metavar, cons
 int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)
 {
     OIIO::Filesystem::convert_native_arguments(argc, argv);
+    // Debian builds OIIO 3 to tell its inner doings on stderr: only for who asks.
+    if (OIIO::Sysutil::getenv("OPENIMAGEIO_DEBUG").empty())
+        OIIO::attribute("debug", 0);
     State& state = *m_state;
     std::string error;
     std::vector<std::string> words;

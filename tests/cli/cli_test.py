@@ -104,6 +104,11 @@ class Usage(Case):
             self.assertIn("Usage: " + tool, self.done(tool, "--help"))
             self.assertRegex(self.done(tool, "--version"), r"\d+\.\d+\.\d+")
 
+    def test_quiet_says_nothing(self):
+        for tool, operands in self.TOOLS.items():
+            small = [] if tool == "makelightmap" else ["--resolution", "32"]
+            self.assertEqual(self.done(tool, *operands, *small, "-o", "x.exr", "--quiet"), "", tool)
+
     def test_an_unknown_flag_is_refused_with_the_nearest(self):
         self.refused(2, 'unknown flag "--sample"; did you mean --samples?', "makevismap", "quad.obj", "-o", "x.exr",
                      "--sample", "4")
