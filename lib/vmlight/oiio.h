@@ -13,7 +13,7 @@ namespace vmlight::oiio {
 
 /// Why the last call of an ImageBuf, ImageOutput or ColorConfig failed, on one line: OIIO 3 says some reasons twice, on
 /// a line each.
-template <class Object> std::string reason(const Object& object)
+template <class Object> std::string reason(Object& object)
 {
     std::vector<std::string> lines;
     for (const std::string& line : OIIO::Strutil::splits(object.geterror(), "\n"))
