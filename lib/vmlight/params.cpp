@@ -19,7 +19,7 @@ bool whole_number_text(string_view text, double& value)
     char* end = nullptr;
     if (trimmed.empty() || OIIO::Strutil::icontains(trimmed, "x")) // no hexadecimal
         return false;
-    value = OIIO::Strutil::strtod(trimmed.c_str(), &end);
+    value = OIIO::Strutil::strtod(trimmed.c_str(), &end) + 0.0; // -0 is 0
     return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
 }
 
