@@ -5,6 +5,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -22,8 +23,8 @@ using OIIO::string_view;
 using OIIO::Strutil::fmt::format;
 
 constexpr uint64_t kLargestFile = 1 << 20;
-// toml++ makes a table of each part of a dotted key, one in the other, and takes them down by recursion.
-constexpr size_t kMostDots = 1000;
+constexpr size_t kMostDots = 100;
+constexpr size_t kLongestReason = 500;
 
 // Texts of the file come back in messages, which are one line.
 std::string one_line(string_view text)
@@ -36,9 +37,109 @@ std::string one_line(string_view text)
     return line;
 }
 
+// A reason with the file's own words in it, which may be many.
+std::string reason_line(string_view reason)
+{
+    return one_line(reason.substr(0, kLongestReason)) + (reason.size() > kLongestReason ? "..." : "");
+}
+
 std::string at_line(const std::string& path, uint64_t line)
 {
     return line ? format("\"{}\" line {}", path, line) : format("\"{}\"", path);
+}
+
+// ---- TOML that toml++ can take ------------------------------------------------------------------------------------
+// Version 3.3 has undefined behaviour where a character that is not ASCII stands outside quotes, and what it takes for
+// quotes depends on what is wrong before them. So it is given ASCII alone: in quotes, \u says the rest. It also makes a
+// table of each part of a dotted key, one in the other, which it takes down by recursion: hence the limit on dots. What
+// is refused for these is no TOML either, or of no use in a recipe.
+
+// Bytes of the character at the start of `text`, or 0 if they are no UTF-8.
+size_t read_character(string_view text, uint32_t& code)
+{
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const size_t count = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    constexpr std::array<uint32_t, 5> kLeast { 0, 0, 0x80, 0x800, 0x10000 };
+    if (count > text.size() || (count > 1 && lead < 0xc2) || lead > 0xf4)
+        return 0;
+    code = count == 1 ? lead : lead & (0xffu >> (count + 1));
+    for (size_t i = 1; i < count; ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        if ((byte & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (byte & 0x3f);
+    }
+    const bool good = code >= kLeast[count] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
+    return good ? count : 0;
+}
+
+// Append `line` to `dst`, and return "" or what is wrong with it.
+std::string append_ascii(std::string& dst, string_view line)
+{
+    enum
+    {
+        Plain,
+        Basic,
+        Literal,
+        Comment
+    } where
+        = Plain;
+    size_t dots = 0, count = 0;
+    for (size_t i = 0; i < line.size(); i += count) {
+        uint32_t code = 0;
+        const char c = line[i];
+        count = read_character(line.substr(i), code);
+        if (count == 0)
+            return "not TOML: its bytes are not UTF-8";
+        if ((code < 0x20 && c != '\t') || code == 0x7f)
+            return format("not TOML: a control character ({})", code);
+        if (count > 1) {
+            if (where == Plain)
+                return "not TOML: a character outside quotes that is not ASCII";
+            dst += where == Comment ? "?" : format("\\U{:08x}", code);
+        } else if (where == Plain && (c == '"' || c == '\'')) {
+            if (line.substr(i, 3) == std::string(3, c))
+                return "three quotes in a row: a recipe's texts are of one line";
+            where = c == '"' ? Basic : Literal;
+            dst += '"';
+        } else if (where == Plain) {
+            where = c == '#' ? Comment : Plain;
+            dots += c == '.';
+            dst += c;
+            if (dots > kMostDots)
+                return format("more than {} dots outside quotes", kMostDots);
+        } else if (where == Literal) {
+            where = c == '\'' ? Plain : Literal;
+            dst += c == '\'' ? "\"" : c == '"' || c == '\\' ? std::string { '\\', c } : std::string(1, c);
+        } else {
+            const bool escapes
+                = where == Basic && c == '\\' && i + 1 < line.size() && (line[i + 1] == '"' || line[i + 1] == '\\');
+            where = where == Basic && c == '"' ? Plain : where;
+            count = escapes ? 2 : 1;
+            dst.append(line.data() + i, count);
+        }
+    }
+    return "";
+}
+
+bool to_ascii(std::string& dst, string_view text, const std::string& path, std::string& error)
+{
+    if (OIIO::Strutil::starts_with(text, "\xEF\xBB\xBF")) // an editor's mark of UTF-8
+        text.remove_prefix(3);
+    for (uint64_t number = 1; !text.empty(); ++number) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        string_view line = text.substr(0, end);
+        if (end < text.size() && !line.empty() && line.back() == '\r')
+            line.remove_suffix(1);
+        const std::string fault = append_ascii(dst, line);
+        if (!fault.empty()) {
+            error = at_line(path, number) + ": " + fault;
+            return false;
+        }
+        dst += '\n';
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return true;
 }
 
 // ---- TOML values as the texts that parse_value() takes -----------------------------------------------------------
@@ -284,30 +385,16 @@ bool set_from_node(Recipe& recipe, const std::string& key, const toml::node& nod
     return found ? good : set_param(recipe, key, "", error);
 }
 
-bool bytes_fault(string_view text, const std::string& path, std::string& error)
-{
-    uint64_t line = 1, dots = 0;
-    for (const char c : text) {
-        dots = c == '\n' ? 0 : dots + (c == '.');
-        if (c == '\0')
-            error = at_line(path, line) + ": not text: it holds a zero byte";
-        else if (dots > kMostDots)
-            error = at_line(path, line) + format(": more than {} dots", kMostDots);
-        if (!error.empty())
-            return true;
-        line += c == '\n';
-    }
-    return false;
-}
-
 bool parse_toml(toml::table& dst, string_view text, const std::string& path, std::string& error)
 {
-    if (bytes_fault(text, path, error))
+    std::string ascii;
+    if (!to_ascii(ascii, text, path, error))
         return false;
-    toml::parse_result result = toml::parse(std::string_view(text.data(), text.size()));
+    toml::parse_result result = toml::parse(ascii);
     if (!result) {
         const toml::parse_error& fault = result.error();
-        error = at_line(path, fault.source().begin.line) + ": not TOML: " + one_line(std::string(fault.description()));
+        error
+            = at_line(path, fault.source().begin.line) + ": not TOML: " + reason_line(std::string(fault.description()));
         if (error.find("could not determine value type") != std::string::npos)
             error += "; texts need quotes";
         return false;
@@ -404,7 +491,7 @@ bool read_recipe_text(Recipe& dst, string_view text, const std::string& path, st
         std::string reason;
         if (!set_from_node(recipe, std::string(key.str()), node, folder, reason) && (first == 0 || line < first)) {
             first = line;
-            error = at_line(path, line) + ": " + one_line(reason);
+            error = at_line(path, line) + ": " + reason_line(reason);
         }
     }
     if (!error.empty())
@@ -425,7 +512,7 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
     if (!alone && (!read_bytes(bytes, path, error) || !read_recipe_text(recipe, bytes, path, error)))
         return false;
     if (!apply(recipe, overrides, reason)) {
-        error = one_line(format("\"{}\": {}", name, reason));
+        error = one_line(format("\"{}\": ", name)) + reason_line(reason);
         return false;
     }
     dst = recipe;
