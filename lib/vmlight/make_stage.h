@@ -24,14 +24,13 @@ struct MakeOptions
     /// A progress for one step of the work: "bake", "filter", "light".
     std::function<Progress(const std::string& step)> progress;
     /// One line on what was done, and one on what may surprise.
-    std::function<void(const std::string&line)> say, warn;
+    std::function<void(const std::string&)> say, warn;
 };
 
 /// Make a stage.
 ///
-/// @param dst      set to the image, as make_vismap(), make_cfem() and make_lightmap() make it. Mapped parameters of
-/// the
-///                 mesh are added to a vismap's metadata
+/// @param dst      set to the image, as make_vismap(), make_cfem() and make_lightmap() make it; a vismap's metadata
+///                 hold the parameters of its mesh too
 /// @returns false, with the reason in `dst.geterror()`, if an input is missing, cannot be read or made, or is not what
 ///          it should be (with the recipe's line, if that says it), or if a recipe reads itself through others.
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options = {});

@@ -5,7 +5,8 @@
 ///     environment = "studio.exr"
 ///     rotate = [0, 90, 0]
 /// Each recipe is one struct: what the stage reads, and its params. Keys, ?query keys, flags and metadata are those of
-/// visit(), with one spelling. Paths in a recipe start at its folder; those in a query or a flag where the user stands.
+/// visit(), with one spelling. It is flat: no tables, and texts of one line, in single or double quotes. Paths in a
+/// recipe start at its folder; those in a query or a flag where the user stands.
 #pragma once
 
 #include <vmlight/cfem.h>
