@@ -15,22 +15,6 @@ namespace vmlight {
 
 namespace {
 
-OIIO::ImageSpec result_spec(const OIIO::ImageSpec& env, const CfemParams& params, int64_t mended)
-{
-    OIIO::ImageSpec spec(params.resolution.width, params.resolution.height, 3, OIIO::TypeFloat);
-    spec.channelnames = { "R", "G", "B" };
-    spec.attribute("vmlight:stage", kCfemStage);
-    spec.attribute("vmlight:version", VMLIGHT_VERSION);
-    append_params(spec, params);
-    if (mended > 0)
-        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
-    spec.attribute("oiio:updirection", "y");
-    for (const char* name : { "colorInteropID", "chromaticities" })
-        if (const OIIO::ParamValue* value = env.find_attribute(name))
-            spec.extra_attribs.add_or_replace(*value);
-    return spec;
-}
-
 bool fail(OIIO::ImageBuf& dst, const std::string& reason)
 {
     dst.reset();
@@ -39,6 +23,20 @@ bool fail(OIIO::ImageBuf& dst, const std::string& reason)
 }
 
 } // namespace
+
+OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& params)
+{
+    OIIO::ImageSpec spec(params.resolution.width, params.resolution.height, 3, OIIO::TypeFloat);
+    spec.channelnames = { "R", "G", "B" };
+    spec.attribute("vmlight:stage", kCfemStage);
+    spec.attribute("vmlight:version", VMLIGHT_VERSION);
+    append_params(spec, params);
+    spec.attribute("oiio:updirection", "y");
+    for (const char* name : { "colorInteropID", "chromaticities" })
+        if (const OIIO::ParamValue* value = env.find_attribute(name))
+            spec.extra_attribs.add_or_replace(*value);
+    return spec;
+}
 
 bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, int nthreads,
                const Progress& progress)
@@ -66,7 +64,10 @@ bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams&
         if (!std::isfinite(pixels[i]))
             return fail(dst, OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]));
     }
-    dst.reset(result_spec(env.spec(), params, rows.bad_values()));
+    OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
+    if (const int64_t mended = rows.bad_values())
+        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
+    dst.reset(spec);
     return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
 }
 

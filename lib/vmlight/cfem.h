@@ -57,4 +57,8 @@ struct CfemParams
 VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params = {},
                            int nthreads = 0, const Progress& progress = {});
 
+/// What make_cfem() would make of an environment with this spec: size, channels and metadata, but for
+/// `vmlight:sanitized`, which takes the pixels to know.
+VMLIGHT_API OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& params);
+
 } // namespace vmlight

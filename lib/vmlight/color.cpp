@@ -36,15 +36,15 @@ struct Decision
 };
 
 // PNG and its like: whole numbers of 8 or 16 bits, in the file, whatever they were turned into in memory.
-bool has_whole_numbers(const OIIO::ImageBuf& image)
+bool is_whole_number(OIIO::TypeDesc stored)
 {
-    const OIIO::TypeDesc::BASETYPE type = static_cast<OIIO::TypeDesc::BASETYPE>(image.nativespec().format.basetype);
+    const OIIO::TypeDesc::BASETYPE type = static_cast<OIIO::TypeDesc::BASETYPE>(stored.basetype);
     return type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::INT8 || type == OIIO::TypeDesc::UINT16
         || type == OIIO::TypeDesc::INT16;
 }
 
-bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std::string& path,
-                      const std::string& config_name, const std::string& asked, std::string& error)
+bool decide_by_config(Decision& decision, const OIIO::ImageSpec& spec, const std::string& path,
+                      const std::string& config_name, const ColorSettings& settings, std::string& error)
 {
     ColorConfig config(config_name);
     if (config.has_error()) {
@@ -58,7 +58,8 @@ bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std
     const std::string working = config.getColorSpaceNameByRole("scene_linear");
 
     std::string from;
-    const std::string id = image.spec().get_string_attribute("colorInteropID");
+    const std::string& asked = settings.from;
+    const std::string id = spec.get_string_attribute("colorInteropID");
     if (!asked.empty()) {
         from = space_named(config, asked);
         if (from.empty()) {
@@ -73,7 +74,7 @@ bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std
         from = space_of_path(config, path);
     if (from.empty())
         from = space_named(config, id);
-    if (from.empty() && has_whole_numbers(image)) {
+    if (from.empty() && is_whole_number(settings.stored)) {
         from = first_space_named(
             config, { kSrgb, "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture", "sRGB" });
         if (from.empty()) {
@@ -111,15 +112,16 @@ bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std
     return true;
 }
 
-bool decide_without_config(Decision& decision, const OIIO::ImageBuf& image, const std::string& asked,
+bool decide_without_config(Decision& decision, const OIIO::ImageSpec& spec, const ColorSettings& settings,
                            std::string& error)
 {
+    const std::string& asked = settings.from;
     // OIIO's own idea of no config differs from version to version, and so is not asked.
     const std::vector<std::string> srgb { kSrgb, "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx" };
     const std::vector<std::string> linear { kLinearRec709, "lin_rec709", "lin_srgb", "linear",
                                             "Linear Rec.709 (sRGB)" };
     const std::vector<std::string> data { "data", "raw" };
-    const std::string id = image.spec().get_string_attribute("colorInteropID");
+    const std::string id = spec.get_string_attribute("colorInteropID");
     const auto is_known
         = [&](const std::string& n) { return is_any_of(n, srgb) || is_any_of(n, linear) || is_any_of(n, data); };
 
@@ -130,10 +132,12 @@ bool decide_without_config(Decision& decision, const OIIO::ImageBuf& image, cons
                      asked, kSrgb, kLinearRec709);
         return false;
     }
-    if (from.empty() && !id.empty() && !has_whole_numbers(image))
+    if (from.empty() && !id.empty() && !is_whole_number(settings.stored))
         from = id;
     if (from.empty())
-        from = is_any_of(id, data) || is_any_of(id, linear) ? id : has_whole_numbers(image) ? kSrgb : kLinearRec709;
+        from = is_any_of(id, data) || is_any_of(id, linear) ? id
+            : is_whole_number(settings.stored)              ? kSrgb
+                                                            : kLinearRec709;
 
     decision.space = kLinearRec709;
     if (is_any_of(from, srgb)) {
@@ -174,9 +178,9 @@ bool make_float(OIIO::ImageBuf& image, std::string& error)
 
 // Only the colour channels, wherever they are: neither alpha nor data channels are colour. A pixel that is not finite
 // stays as it is: a matrix would spread it to the other channels, and a curve might hide it.
-void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, const Decision& decision)
+void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, const Decision& decision, int nthreads)
 {
-    OIIO::ImageBufAlgo::parallel_image(image.roi(), [&](OIIO::ROI roi) {
+    OIIO::ImageBufAlgo::parallel_image(image.roi(), nthreads, [&](OIIO::ROI roi) {
         const int width = roi.width();
         std::vector<float> row(3 * size_t(width));
         std::vector<char> finite(width);
@@ -208,10 +212,19 @@ void forget_space(OIIO::ImageSpec& spec)
     spec.erase_attribute("ICCProfile:.*");
 }
 
+// `settings.stored` must be known.
+bool decide(Decision& decision, const OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
+            std::string& error)
+{
+    const std::string config = settings.config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : settings.config;
+    return config.empty() ? decide_without_config(decision, spec, settings, error)
+                          : decide_by_config(decision, spec, path, config, settings, error);
+}
+
 } // namespace
 
 bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings, std::string& note,
-                     std::string& error)
+                     std::string& error, int nthreads)
 {
     std::array<int, 3> index;
     image.spec(); // opens a file that was only named
@@ -227,18 +240,32 @@ bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const Color
         error = format("\"{}\": {}", path, error);
         return false;
     }
-    const std::string config = settings.config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : settings.config;
+    ColorSettings known = settings;
+    if (known.stored == OIIO::TypeUnknown)
+        known.stored = image.nativespec().format;
     Decision decision;
-    if (!(config.empty() ? decide_without_config(decision, image, settings.from, error)
-                         : decide_by_config(decision, image, path, config, settings.from, error)))
+    if (!decide(decision, image.spec(), path, known, error))
         return false;
     if (decision.convert) {
         if (!make_float(image, error))
             return false;
-        convert_pixels(image, index, decision);
+        convert_pixels(image, index, decision, nthreads);
     }
     tag_scene_linear(image.specmod(), decision.space);
     note = decision.note;
+    return true;
+}
+
+bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
+                           std::string& error)
+{
+    ColorSettings known = settings;
+    if (known.stored == OIIO::TypeUnknown)
+        known.stored = spec.format;
+    Decision decision;
+    if (!decide(decision, spec, path, known, error))
+        return false;
+    tag_scene_linear(spec, decision.space);
     return true;
 }
 

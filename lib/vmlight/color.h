@@ -16,6 +16,8 @@ struct ColorSettings
     std::string config;
     /// Colour space of the image; "" means: ask the config's file rules, then the file's own metadata.
     std::string from;
+    /// Pixel type in the file, for an image in memory that no longer tells.
+    OIIO::TypeDesc stored {};
 };
 
 /// Convert `image` in place into the config's role `scene_linear`, and tag it with its space.
@@ -30,9 +32,14 @@ struct ColorSettings
 ///                 stays as it is. An image that is converted becomes float, in memory of its own.
 /// @param note     set to one line that says what was done: "Linear Rec.709 (sRGB) -> ACEScg"
 /// @param error    set if the config cannot be read, or a space is not in it (the nearest name is told)
+/// @param nthreads 0 means OIIO's default
 /// @returns false on error; `image` is then as it was. Not checked: that the named space is true.
 VMLIGHT_API bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings,
-                                 std::string& note, std::string& error);
+                                 std::string& note, std::string& error, int nthreads = 0);
+
+/// Tag `spec`, read from the file `path`, as to_scene_linear() would tag its image: no pixel is looked at.
+VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
+                                       std::string& error);
 
 /// Tag `spec` as scene-linear colour of the working space: `colorInteropID`, and `chromaticities` of the ids
 /// lin_ap1_scene, lin_ap0_scene and lin_rec709_scene. What the spec said of its colour before is dropped.

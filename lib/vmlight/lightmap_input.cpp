@@ -49,7 +49,7 @@ bool VismapReader::open(const ImageBuf& image, std::string& error)
     if (!check_input(image, "visibility map", error))
         return false;
     if (!find_vismap_channels(image.spec(), m_index, error)) {
-        error = vmlight::named(image, error);
+        error = named(image, error);
         return false;
     }
     m_image = &image;
@@ -80,7 +80,7 @@ const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::strin
     scratch.resize(texels * (4 + channels));
     float* read = scratch.data() + 4 * texels;
     if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
-        error = named(oiio::reason(*m_image));
+        error = named(*m_image, oiio::reason(*m_image));
         return nullptr;
     }
     float* texel = scratch.data();
@@ -88,16 +88,6 @@ const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::strin
         for (int index : m_index)
             *texel++ = read[index - *first];
     return scratch.data();
-}
-
-void VismapReader::find_faults(ROI roi, const float* texels, Faults& faults) const
-{
-    const bool last = m_order == VismapOrder::visibility_last;
-    for (int y = roi.ybegin; y < roi.yend; ++y)
-        for (int x = roi.xbegin; x < roi.xend; ++x, texels += 4)
-            for (int c = 0; c < 4; ++c)
-                if (!std::isfinite(texels[last ? (c + 3) % 4 : c]))
-                    faults.add(x, y, c);
 }
 
 bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::string& error)

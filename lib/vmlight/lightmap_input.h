@@ -35,10 +35,7 @@ public:
     /// to `scratch`. nullptr, with the reason in `error`, if they cannot be read.
     const float* read(OIIO::ROI roi, std::vector<float>& scratch, std::string& error) const;
 
-    /// Add the values that are not finite; channels count as in kVismapChannels.
-    void find_faults(OIIO::ROI roi, const float* texels, Faults& faults) const;
-
-    std::string named(const std::string& reason) const { return vmlight::named(*m_image, reason); }
+    std::string name() const { return m_image->name(); }
 
 private:
     const OIIO::ImageBuf* m_image = nullptr;

@@ -23,6 +23,7 @@ public:
     void set(int x, int y) { m_words[index(x, y)] |= uint64_t(1) << (x % 64); }
     /// The 64 texels from (x - x % 64, y) on.
     uint64_t word(int x, int y) const { return m_words[index(x, y)]; }
+    void set_word(int x, int y, uint64_t bits) { m_words[index(x, y)] = bits; }
 
 private:
     size_t index(int x, int y) const { return size_t(y) * m_words_across + size_t(x / 64); }

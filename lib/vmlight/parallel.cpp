@@ -2,14 +2,51 @@
 #include <vmlight/parallel.h>
 
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/parallel.h>
+#include <OpenImageIO/thread.h>
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 
 namespace vmlight {
+namespace {
+
+// Who is at work. OIIO's own wait runs whatever task is queued while it waits; a task that needs what the waiting
+// thread is about to make would wait for itself. Here the caller works until nothing is left, turns away the helpers
+// that have not begun, and waits for the others, which are at work on the last items.
+class Crew
+{
+public:
+    bool enter()
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_inside += !m_closed;
+        return !m_closed;
+    }
+    void leave()
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        if (--m_inside == 0)
+            m_empty.notify_all();
+    }
+    void close()
+    {
+        std::unique_lock<std::mutex> lock(m_mutex);
+        m_closed = true;
+        m_empty.wait(lock, [this] { return m_inside == 0; });
+    }
+
+private:
+    std::mutex m_mutex;
+    std::condition_variable m_empty;
+    int m_inside = 0;
+    bool m_closed = false;
+};
+
+} // namespace
 
 int worker_count(int nthreads)
 {
@@ -55,13 +92,16 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
     // OIIO's own division of labour cuts the range into as many pieces as threads, which leaves a thread idle when
     // pieces differ in cost; here each worker takes the next item when it is free.
     const int workers = int(std::min<int64_t>(worker_count(nthreads), std::max<int64_t>(1, items)));
-    if (workers == 1)
-        run(0);
-    else
-        OIIO::parallel_for_chunked(0, workers, 1, [&](int64_t begin, int64_t end) {
-            for (int64_t worker = begin; worker < end; ++worker)
-                run(int(worker));
+    const auto crew = std::make_shared<Crew>();
+    for (int worker = 1; worker < workers; ++worker)
+        OIIO::default_thread_pool()->push([crew, worker, &run](int) {
+            if (crew->enter()) {
+                run(worker);
+                crew->leave();
+            }
         });
+    run(0);
+    crew->close();
     if (failure)
         std::rethrow_exception(failure);
     if (progress && items > 0)

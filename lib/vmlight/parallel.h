@@ -13,7 +13,8 @@ namespace vmlight {
 
 /// Call `work(item, worker)` once for each item in [0, items), with worker in [0, workers), where workers =
 /// worker_count(nthreads). A worker does one item at a time, so that `worker` may index scratch memory; which worker
-/// gets which item is not determined, so results must not depend on it.
+/// gets which item is not determined, so results must not depend on it. The calling thread works too, and never takes
+/// up other tasks of the pool while it waits: `work` may be done under a lock that such a task would want.
 ///
 /// @param nthreads 0 means OIIO's default ("threads" attribute); 1 runs on the calling thread
 /// @param progress called between items, from one thread at a time, with a share that grows and ends at 1; false from

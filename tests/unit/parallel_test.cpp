@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/parallel.h>
 
+#include <OpenImageIO/parallel.h>
+
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -103,5 +106,28 @@ TEST(Parallel, AnExceptionInTheWorkReachesTheCaller)
         }
         EXPECT_EQ(caught, "out of light") << threads;
         EXPECT_LT(done, 99999) << "the rest of the items are not begun";
+    }
+}
+
+TEST(Parallel, WhoWaitsDoesNotTakeUpOtherTasks)
+{
+    // Tasks that all need one thing, which the first to come makes with the help of others: were a waiting thread to
+    // take up another of these tasks, it would wait for itself.
+    for (int run = 0; run < 20; ++run) {
+        std::mutex making;
+        bool made = false;
+        std::atomic<int> done { 0 };
+        OIIO::parallel_for(
+            0, 64,
+            [&](int) {
+                const std::lock_guard<std::mutex> lock(making);
+                if (!made)
+                    parallel_items(50, 0,
+                                   [](int64_t, int) { std::this_thread::sleep_for(std::chrono::microseconds(20)); });
+                made = true;
+                ++done;
+            },
+            OIIO::paropt(0, OIIO::paropt::SplitDir::Y, 1));
+        EXPECT_EQ(done, 64);
     }
 }

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/pixel_source.h>
+
+#include <vmlight/cfem.h>
+#include <vmlight/channels.h>
+#include <vmlight/color.h>
+#include <vmlight/once_cache.h>
+#include <vmlight/stage_counts.h>
+#include <vmlight/stored_image.h>
+#include <vmlight/uvraster.h>
+
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
+
+#include <array>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+class CfemSource : public PixelSource
+{
+public:
+    CfemSource(const std::string& key, const CfemRecipe& recipe, PixelSourcePointer environment)
+        : PixelSource(key)
+        , m_recipe(recipe)
+        , m_environment(std::move(environment))
+        , m_color { recipe.colorconfig, recipe.colorspace, m_environment->spec().format }
+    {
+    }
+
+    bool describe(std::string& error)
+    {
+        OIIO::ImageSpec spec = m_environment->spec();
+        std::array<int, 3> channels;
+        if (!find_color_channels(spec, channels, error)) {
+            error = format("\"{}\": {}", m_recipe.environment, error);
+            return false;
+        }
+        if (!describe_scene_linear(spec, m_recipe.environment, m_color, error))
+            return false;
+        m_spec = describe_cfem(spec, m_recipe.cfem_params);
+        m_spec.tile_width = m_spec.tile_height = kTileSize;
+        m_spec.tile_depth = 1;
+        return true;
+    }
+
+    bool read(OIIO::ROI roi, float* dst, std::string& error) override
+    {
+        if (!m_make.run([&](std::string& reason) { return make(reason); }, error))
+            return false;
+        roi.chbegin = 0;
+        roi.chend = 3;
+        return m_cfem.get_pixels(roi, OIIO::TypeFloat, dst);
+    }
+
+    bool failed() const override { return m_make.failed(); }
+    size_t bytes() const override { return size_t(m_spec.image_bytes()); }
+
+private:
+    bool make(std::string& error)
+    {
+        OIIO::ImageBuf environment;
+        std::string note;
+        if (!read_all(environment, *m_environment, error)
+            || !to_scene_linear(environment, m_recipe.environment, m_color, note, error, 1))
+            return false;
+        if (!make_cfem(m_cfem, environment, m_recipe.cfem_params)) {
+            error = format("\"{}\": {}", m_recipe.environment, m_cfem.geterror());
+            return false;
+        }
+        ++stage_counts().cfems_made;
+        return true;
+    }
+
+    const CfemRecipe m_recipe;
+    const PixelSourcePointer m_environment;
+    const ColorSettings m_color;
+    Once m_make;
+    OIIO::ImageBuf m_cfem;
+};
+
+} // namespace
+
+bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error)
+{
+    const std::string config = colorconfig.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : colorconfig;
+    stamp = config + "\n"; // none, or one that is built into OpenColorIO
+    return config.empty() || OIIO::Strutil::starts_with(config, "ocio://") || stamp_file(stamp, config, error);
+}
+
+PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain)
+{
+    if (recipe.environment.empty())
+        error = "environment: not given";
+    if (!error.empty() || !check_params(recipe.cfem_params, error))
+        return nullptr;
+    PixelSourcePointer environment = open_source(recipe.environment, error, chain);
+    std::string config;
+    if (!environment || !stamp_config(config, recipe.colorconfig, error)) {
+        error = (environment ? "colorconfig: " : "environment: ") + error;
+        return nullptr;
+    }
+    const std::string key = recipe_key(recipe) + config + environment->key();
+    if (PixelSourcePointer known = find_source(key))
+        return known;
+    auto source = std::make_shared<CfemSource>(key, recipe, std::move(environment));
+    return source->describe(error) ? keep_source(source) : nullptr;
+}
+
+} // namespace vmlight

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/lightmap_shader.h>
+
+#include <vmlight/channels.h>
+#include <vmlight/rotation.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <array>
+#include <cmath>
+
+namespace vmlight {
+namespace {
+
+using OIIO::ImageSpec;
+
+// One kernel a model; check_params() has seen to it that the model is one of these.
+ShadeTexels kernel_of(const std::string&)
+{
+    return shade_paper;
+}
+
+void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
+{
+    if (const OIIO::ParamValue* value = src.find_attribute(name))
+        dst.extra_attribs.push_back(*value);
+}
+
+void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const float* texels, Faults& faults)
+{
+    const bool last = order == VismapOrder::visibility_last;
+    for (int y = roi.ybegin; y < roi.yend; ++y)
+        for (int x = roi.xbegin; x < roi.xend; ++x, texels += 4)
+            for (int c = 0; c < 4; ++c)
+                if (!std::isfinite(texels[last ? (c + 3) % 4 : c]))
+                    faults.add(x, y, c);
+}
+
+} // namespace
+
+ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, const LightmapParams& params)
+{
+    ImageSpec spec(vismap.width, vismap.height, 3, OIIO::TypeFloat);
+    OIIO::set_roi(spec, OIIO::get_roi(vismap));
+    OIIO::set_roi_full(spec, OIIO::get_roi_full(vismap));
+    spec.attribute("vmlight:stage", kLightmapStage);
+    spec.attribute("vmlight:version", VMLIGHT_VERSION);
+    append_params(spec, params);
+    for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
+        copy_attribute(spec, vismap, name);
+    for (const char* name : { "colorInteropID", "chromaticities" })
+        copy_attribute(spec, cfem, name);
+    return spec;
+}
+
+void ShadeFaults::merge(const ShadeFaults& other)
+{
+    vismap.merge(other.vismap);
+    albedo.merge(other.albedo);
+    result.merge(other.result);
+    if (!other.error.empty())
+        error = other.error;
+}
+
+bool LightmapShader::prepare(const OIIO::ImageBuf& cfem, const LightmapParams& params, std::string& error)
+{
+    Rotation rotation;
+    if (!lightmap_rotation(rotation, params, error) || !check_input(cfem, "cosine-filtered environment", error))
+        return false;
+    if (!prepare_cfem(m_lookup, cfem, error)) {
+        error = named(cfem, error);
+        return false;
+    }
+    m_kernel = kernel_of(params.model);
+    m_setup.cfem = &m_lookup;
+    m_setup.gain = float(std::exp2(params.exposure));
+    for (int i = 0; i < 9; ++i)
+        m_setup.rotation[i] = float(rotation[i / 3][i % 3]);
+    return true;
+}
+
+bool LightmapShader::use_albedo(const OIIO::ImageBuf& albedo, OIIO::ROI size, int nthreads, std::string& error)
+{
+    m_has_albedo = m_albedo.open(albedo, size, nthreads, error);
+    return m_has_albedo;
+}
+
+void LightmapShader::shade(OIIO::ROI roi, VismapOrder order, const float* vismap, float* rgb,
+                           std::vector<float>& scratch, ShadeFaults& faults) const
+{
+    ShadeFaults found;
+    bool sound = m_kernel(m_setup, order, vismap, size_t(roi.width()) * roi.height(), rgb);
+    if (!sound)
+        find_vismap_faults(roi, order, vismap, found.vismap);
+    if (m_has_albedo) {
+        m_albedo.multiply(roi, rgb, scratch, found.albedo, found.error);
+        sound = false;
+    }
+    // The kernel vouches for what it made, so that only doubtful regions, and those an albedo scaled, are read again.
+    if (!sound && !found.any())
+        find_not_finite(roi, rgb, 3, found.result);
+    if (found.any())
+        faults.merge(found);
+}
+
+std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::string& vismap_name,
+                                       const std::string& albedo_name) const
+{
+    const auto led_by = [](const std::string& name, const std::string& text) {
+        return name.empty() ? text : OIIO::Strutil::fmt::format("\"{}\": {}", name, text);
+    };
+    if (!faults.error.empty())
+        return faults.error;
+    if (faults.vismap.any())
+        return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", kVismapChannels));
+    if (faults.albedo.any())
+        return led_by(albedo_name, m_albedo.fault_text(faults.albedo));
+    return faults.result.text("lightmap", "too large for float", std::array { "R", "G", "B" });
+}
+
+} // namespace vmlight

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What readers read from: a file, or a recipe whose pixels are made when they are asked for. A recipe's inputs are
+/// such sources too, opened here and not through OIIO, so that stages share what they make and never wait for
+/// themselves.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/recipe.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vmlight {
+
+/// An image that is read by region.
+class PixelSource
+{
+public:
+    virtual ~PixelSource() = default;
+
+    /// Size, channels and metadata, known before any pixel is.
+    const OIIO::ImageSpec& spec() const { return m_spec; }
+    /// All that the pixels depend on: parameters, and name, size and time of each file. Equal keys, equal pixels.
+    const std::string& key() const { return m_key; }
+
+    /// Set `dst` to the float pixels of `roi`, all channels, rows without padding; `roi` lies in the data window. Any
+    /// thread. False, with the reason in `error`, if they cannot be made.
+    virtual bool read(OIIO::ROI roi, float* dst, std::string& error) = 0;
+
+    /// Whether what the pixels are made from could not be had, so that another open should try anew.
+    virtual bool failed() const { return false; }
+    /// Memory held for later reads, about.
+    virtual size_t bytes() const { return 0; }
+
+protected:
+    explicit PixelSource(std::string key)
+        : m_key(std::move(key))
+    {
+    }
+    OIIO::ImageSpec m_spec;
+
+private:
+    const std::string m_key;
+};
+using PixelSourcePointer = std::shared_ptr<PixelSource>;
+
+/// The recipes on the way from the one that a user opened to the one being opened.
+using RecipeChain = std::vector<std::string>;
+
+/// Open an image by name: a recipe is read and described, any other image is opened by OIIO. Nothing is computed.
+/// What is open already, unchanged, is shared.
+///
+/// @param chain    the recipes that led here, each the path of its file, with its query
+/// @returns nullptr, with the reason in `error`, if it cannot be read, an input is missing, or it reads itself
+VMLIGHT_API PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain = {});
+
+// The same, for a recipe in memory.
+VMLIGHT_API PixelSourcePointer open_source(const VismapRecipe& recipe, std::string& error,
+                                           const RecipeChain& chain = {});
+VMLIGHT_API PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain = {});
+VMLIGHT_API PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error,
+                                           const RecipeChain& chain = {});
+
+/// How much the process keeps of what no one has open: 1 GiB in 64 sources unless set.
+VMLIGHT_API void set_source_limits(size_t bytes, size_t sources);
+
+// ---- For the rooms of the stages --------------------------------------------------------------------------------
+
+/// The source with this key that is open or was lately, or nullptr. Those that failed are forgotten.
+PixelSourcePointer find_source(const std::string& key);
+/// Remember `source`. Returns the one to use: another thread may have been faster.
+PixelSourcePointer keep_source(PixelSourcePointer source);
+
+/// A file as it is now: two stamps differ if the file was changed. False, with the reason in `error`, if there is no
+/// such file.
+bool stamp_file(std::string& stamp, const std::string& path, std::string& error);
+/// False, with the reason in `error`, if the file is not as it was.
+bool check_stamp(const std::string& stamp, const std::string& path, std::string& error);
+
+/// The same for an OCIO config, "" being $OCIO.
+bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error);
+
+/// Every parameter of a recipe as text.
+template <class Recipe> std::string recipe_key(Recipe recipe)
+{
+    std::string key = std::string(Recipe::kStage) + "\n";
+    recipe.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        key += std::string(name) + "=" + value_text(value, allowed) + "\n";
+    });
+    return key;
+}
+
+/// `path` without ?query.
+inline std::string without_query(const std::string& path)
+{
+    return path.substr(0, path.find('?'));
+}
+
+} // namespace vmlight

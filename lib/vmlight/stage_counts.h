@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vmlight/export.h>
+
+#include <atomic>
+#include <cstdint>
+
+namespace vmlight {
+
+/// What readers did since the process began, for tests that hold them to doing it once.
+struct StageCounts
+{
+    std::atomic<int64_t> meshes_read { 0 };
+    std::atomic<int64_t> tiles_baked { 0 }; ///< those with a covered texel
+    std::atomic<int64_t> cfems_made { 0 };
+    std::atomic<int64_t> tiles_shaded { 0 };
+};
+VMLIGHT_API StageCounts& stage_counts();
+
+} // namespace vmlight

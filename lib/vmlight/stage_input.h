@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The face that a stage shows to OIIO: a recipe, opened as an image. open() reads the recipe and describes the image;
+/// the first tile that is asked for starts the work, of which all opens of the process share one copy.
+/// Hosts call these functions from many threads and expect no exception: none leaves.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/pixel_source.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <string>
+
+namespace vmlight {
+
+class StageInput : public OIIO::ImageInput
+{
+public:
+    /// @param stage    the format's name, which is its extension too: "vismap", "cfem" or "lightmap"
+    VMLIGHT_API explicit StageInput(const char* stage);
+    VMLIGHT_API ~StageInput() override;
+
+    VMLIGHT_API const char* format_name() const override;
+    VMLIGHT_API int supports(OIIO::string_view feature) const override;
+    /// Goes by the extension alone, so that open() gets to say what is wrong with the rest.
+    VMLIGHT_API bool valid_file(const std::string& name) const override;
+    /// Refuses names with another extension before all else: OIIO tries every reader on a file that its own reader
+    /// cannot read, and holds a lock meanwhile.
+    VMLIGHT_API bool open(const std::string& name, OIIO::ImageSpec& spec) override;
+    VMLIGHT_API bool close() override;
+
+    // Without the lock of OIIO's own: what open() found never changes.
+    VMLIGHT_API OIIO::ImageSpec spec(int subimage, int miplevel = 0) override;
+    VMLIGHT_API OIIO::ImageSpec spec_dimensions(int subimage, int miplevel = 0) override;
+
+    using ImageInput::read_native_tile;
+    using ImageInput::read_native_tiles;
+    VMLIGHT_API bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
+    VMLIGHT_API bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
+    VMLIGHT_API bool read_native_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend,
+                                       int zbegin, int zend, void* data) override;
+    VMLIGHT_API bool read_native_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend,
+                                       int zbegin, int zend, int chbegin, int chend, void* data) override;
+
+private:
+    template <class Work> bool guarded(Work&& work);
+
+    const char* const m_stage;
+    PixelSourcePointer m_source;
+};
+
+} // namespace vmlight

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/visibility.h>
+
+namespace vmlight {
+
+using Imath::V3d;
+
+Visibility Eye::see(SurfacePoint point, int x, int y)
+{
+    const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
+    m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
+    DirectionSums all = sum_directions(m_fan, point.normal);
+    if (all.rays == 0) {
+        // A few rays that all fall under the surface say nothing; around its own normal none does.
+        point.normal = point.geometric_normal;
+        m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
+        all = sum_directions(m_fan, point.normal);
+    }
+    m_rays += all.rays;
+    m_occluder.clear_blocked(m_fan, point.origin, m_length);
+    const DirectionSums seen = sum_directions(m_fan, point.normal);
+
+    Visibility result;
+    result.visibility = double(seen.rays) / double(all.rays);
+    if (seen.rays == 0)
+        return result;
+    if (m_params.measure == "uniform") {
+        result.direction = seen.weight > 0 ? seen.weighted_sum * (result.visibility / seen.weight) : V3d(0);
+    } else {
+        result.direction = seen.sum / double(all.rays);
+        // The mean of all directions is known: (2/3) n. What the samples miss of it, they miss in the same
+        // proportion of the part that is seen (a control variate): exact where all or nothing is. Measured, error
+        // of B at 16, 64, 256 rays of `fibonacci`: wall -9 -12 -6 %, disc overhead -17 -25 -23 %, ball above
+        // -12 -14 -6 %, low wall -10 -15 -5 %, corner -3 -4 -2 %, streets between boxes within 1 %, floor of a
+        // pit +9 +12 +8 %; `halton` gains more, `sobol` less.
+        if (all.rays == m_pattern.count())
+            result.direction += (V3d(point.normal) * (2.0 / 3) - all.sum / double(all.rays)) * result.visibility;
+    }
+    const double length = result.direction.length();
+    if (length > result.visibility)
+        result.direction *= result.visibility / length;
+    return result;
+}
+
+} // namespace vmlight

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap_baker.h>
+
+#include <vmlight/channels.h>
+#include <vmlight/color.h>
+#include <vmlight/occluder.h>
+#include <vmlight/parallel.h>
+#include <vmlight/sampling.h>
+#include <vmlight/surface.h>
+#include <vmlight/visibility.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+int width_of(const VismapParams& params)
+{
+    return params.width ? params.width : params.resolution.width;
+}
+
+int height_of(const VismapParams& params)
+{
+    return params.height ? params.height : params.resolution.height;
+}
+
+} // namespace
+
+OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params)
+{
+    OIIO::ImageSpec spec(width_of(params), height_of(params), 4, OIIO::TypeDesc::FLOAT);
+    spec.channelnames.assign(kVismapChannels.begin(), kVismapChannels.end());
+    if (params.coverage) {
+        spec.nchannels = 5;
+        spec.channelnames.push_back(kCoverageChannel);
+    }
+    spec.tile_width = spec.tile_height = kTileSize;
+    spec.tile_depth = 1;
+    tag_data(spec);
+    append_params(spec, params);
+    spec.attribute("vmlight:stage", kVismapStage);
+    spec.attribute("vmlight:version", VMLIGHT_VERSION);
+    spec.attribute("vmlight:mesh", mesh_name);
+    return spec;
+}
+
+void BakeCounts::add(const BakeCounts& other)
+{
+    covered += other.covered;
+    overlapping += other.overlapping;
+    dark += other.dark;
+    rays += other.rays;
+    tiles += other.tiles;
+}
+
+struct VismapBaker::Scene
+{
+    Scene(const Mesh& the_mesh, const VismapParams& the_params)
+        : mesh(the_mesh)
+        , params(the_params)
+        , frame(SceneFrame::around(the_mesh))
+        , pattern(params.sampler, params.samples, params.measure == "uniform")
+        , raster(the_mesh, width_of(params), height_of(params))
+    {
+    }
+    const Mesh& mesh;
+    const VismapParams params;
+    const SceneFrame frame;
+    const SamplePattern pattern;
+    const UvRaster raster;
+    Occluder occluder;
+};
+
+class VismapBaker::Scratch
+{
+public:
+    explicit Scratch(const Scene& scene)
+        : eye(scene.occluder, scene.pattern, scene.params, scene.frame.scale)
+        , surface(scene.mesh, scene.frame)
+    {
+    }
+    TileCover cover;
+    Eye eye;
+    Surface surface;
+};
+
+VismapBaker::VismapBaker() = default;
+VismapBaker::~VismapBaker() = default;
+
+void VismapBaker::FreeScratch::operator()(Scratch* scratch) const
+{
+    delete scratch;
+}
+
+bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
+                          int nthreads, std::string& error)
+{
+    if (!check_params(params, error))
+        return false;
+    if (mesh.triangles.empty()) {
+        error = format("\"{}\": no triangle in it", mesh.name);
+        return false;
+    }
+    if (mesh.uvs.empty()) {
+        error
+            = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", mesh.name);
+        return false;
+    }
+    auto scene = std::make_unique<Scene>(mesh, params);
+    std::vector<const Mesh*> casters { &mesh };
+    for (const Mesh& occluder : occluders)
+        casters.push_back(&occluder);
+    if (!scene->occluder.build(casters, scene->frame, nthreads, error))
+        return false;
+    m_scene = std::move(scene);
+    return true;
+}
+
+int VismapBaker::width() const
+{
+    return width_of(m_scene->params);
+}
+
+int VismapBaker::height() const
+{
+    return height_of(m_scene->params);
+}
+
+int VismapBaker::channels() const
+{
+    return m_scene->params.coverage ? 5 : 4;
+}
+
+int VismapBaker::tiles_across() const
+{
+    return m_scene->raster.tiles_across();
+}
+
+int VismapBaker::tiles_down() const
+{
+    return m_scene->raster.tiles_down();
+}
+
+const UvReport& VismapBaker::uv_report() const
+{
+    return m_scene->raster.report();
+}
+
+VismapBaker::ScratchPointer VismapBaker::scratch() const
+{
+    return ScratchPointer(new Scratch(*m_scene));
+}
+
+void VismapBaker::cover_tile(int tile, Scratch& scratch, TileBits& covered) const
+{
+    m_scene->raster.cover(tile, scratch.cover);
+    covered.fill(0);
+    for (int i = 0; i < kTileSize * kTileSize && scratch.cover.covered; ++i)
+        covered[size_t(i / kTileSize)] |= uint64_t(scratch.cover.triangle[size_t(i)] != TileCover::kNone)
+            << i % kTileSize;
+}
+
+BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered) const
+{
+    const TileCover& cover = scratch.cover;
+    cover_tile(tile, scratch, covered);
+    BakeCounts counts;
+    counts.covered = cover.covered;
+    counts.overlapping = cover.overlapping;
+    counts.tiles = cover.covered > 0;
+    if (!cover.covered)
+        return counts;
+    const int tile_x = tile % tiles_across() * kTileSize, tile_y = tile / tiles_across() * kTileSize;
+    const int channel_count = channels();
+    const int64_t rays_before = scratch.eye.rays();
+    // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).
+    for (int i = 0; i < kTileSize * kTileSize; ++i) {
+        const int block = i / 64, x = block % 8 * 8 + i % 8, y = block / 8 * 8 + i / 8 % 8;
+        const size_t texel = size_t(y) * kTileSize + x;
+        const uint32_t triangle = cover.triangle[texel];
+        if (triangle == TileCover::kNone)
+            continue;
+        const SurfacePoint point = scratch.surface.at(triangle, cover.weight1[texel], cover.weight2[texel]);
+        const Visibility seen = scratch.eye.see(point, tile_x + x, tile_y + y);
+        counts.dark += seen.visibility < 0.01;
+        float* out = texels + size_t(y) * pitch + size_t(x) * channel_count;
+        out[0] = float(seen.visibility);
+        for (int c = 0; c < 3; ++c)
+            out[1 + c] = float(seen.direction[c]);
+        if (channel_count == 5)
+            out[4] = 1;
+    }
+    counts.rays = scratch.eye.rays() - rays_before;
+    return counts;
+}
+
+bool VismapBaker::bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads,
+                           const Progress& progress) const
+{
+    struct Worker
+    {
+        ScratchPointer scratch;
+        BakeCounts counts;
+    };
+    std::vector<Worker> workers(static_cast<size_t>(worker_count(nthreads)));
+    for (Worker& worker : workers)
+        worker.scratch = scratch();
+    const size_t pitch = size_t(width()) * channels();
+    const auto bake = [&](int64_t tile, int index) {
+        Worker& worker = workers[size_t(index)];
+        const int x = int(tile % tiles_across()) * kTileSize, y = int(tile / tiles_across()) * kTileSize;
+        TileBits bits;
+        float* first = texels + size_t(y) * pitch + size_t(x) * channels();
+        worker.counts.add(bake_tile(int(tile), *worker.scratch, first, pitch, bits));
+        for (int row = 0; row < std::min(kTileSize, height() - y); ++row)
+            covered.set_word(x, y + row, bits[size_t(row)]);
+    };
+    if (!parallel_items(int64_t(tiles_across()) * tiles_down(), nthreads, bake, progress))
+        return false;
+    for (const Worker& worker : workers)
+        counts.add(worker.counts);
+    return true;
+}
+
+} // namespace vmlight

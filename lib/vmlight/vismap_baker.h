@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The work behind a visibility map, tile by tile: what make_vismap() does for a whole map, a reader does for the tiles
+/// that are asked for. Neither the order of tiles nor what else is baked changes a bit.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/margin.h>
+#include <vmlight/mesh.h>
+#include <vmlight/progress.h>
+#include <vmlight/uvraster.h>
+#include <vmlight/vismap.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// The map that `params` ask for: size, channels and metadata, but for what takes the mesh itself to know.
+OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
+
+/// What was baked.
+struct BakeCounts
+{
+    int64_t covered = 0, overlapping = 0, dark = 0, rays = 0;
+    int64_t tiles = 0; ///< with a covered texel
+    void add(const BakeCounts& other);
+};
+
+/// Which texels of a tile are covered: bit x of word y.
+using TileBits = std::array<uint64_t, kTileSize>;
+
+class VismapBaker
+{
+public:
+    VMLIGHT_API VismapBaker();
+    VMLIGHT_API ~VismapBaker();
+
+    /// Build all that tiles share: the ray tracer's scene, the UV raster, the directions.
+    ///
+    /// @param mesh     must outlive the baker; `occluders` need not
+    /// @returns false, with the reason in `error`, if a parameter is out of range, the mesh has no triangle or no uvs,
+    ///          or memory runs out
+    VMLIGHT_API bool prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
+                             int nthreads, std::string& error);
+
+    // After prepare().
+    VMLIGHT_API int width() const;
+    VMLIGHT_API int height() const;
+    VMLIGHT_API int channels() const;
+    VMLIGHT_API int tiles_across() const;
+    VMLIGHT_API int tiles_down() const;
+    VMLIGHT_API const UvReport& uv_report() const;
+
+    /// What one thread needs while it bakes.
+    class Scratch;
+    struct FreeScratch
+    {
+        VMLIGHT_API void operator()(Scratch*) const;
+    };
+    using ScratchPointer = std::unique_ptr<Scratch, FreeScratch>;
+    VMLIGHT_API ScratchPointer scratch() const;
+
+    /// Which texels tile number `tile` (row by row) covers: no ray is traced. Any thread, with a scratch of its own.
+    VMLIGHT_API void cover_tile(int tile, Scratch& scratch, TileBits& covered) const;
+
+    /// Bake tile number `tile`. Any thread, with a scratch of its own.
+    ///
+    /// @param texels   the tile's first texel, of channels() floats; rows are `pitch` floats apart. Texels that no
+    ///                 triangle covers are left as they are: there is no margin yet
+    VMLIGHT_API BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered) const;
+
+    /// Bake every tile into the whole map. False if `progress` stopped it.
+    VMLIGHT_API bool bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads,
+                              const Progress& progress = {}) const;
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> m_scene;
+};
+
+} // namespace vmlight

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The readers in a host that knows nothing of them: oiiotool, with the plugins on OIIO_LIBRARY_PATH.
+
+Run as: reader_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLIGHT_SOURCE (the repository),
+OIIO_LIBRARY_PATH (the plugins' folder) and oiiotool on the path. Each TestCase is one CTest test.
+"""
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = os.environ["VMLIGHT_BIN"]
+SOURCE = os.environ["VMLIGHT_SOURCE"]
+PLUGINS = os.environ["OIIO_LIBRARY_PATH"]
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="vmlight ü ")
+        self.environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
+        for name in ("spot.obj", "studio_small_03.hdr"):
+            shutil.copy(os.path.join(SOURCE, "tests/data", name), self.folder)
+        self.file("hero.vismap", 'mesh = "spot.obj"\nresolution = [200, 150]\nsamples = 8\n')
+        self.file("studio.cfem", 'environment = "studio_small_03.hdr"\nresolution = 64\n')
+        self.file("hero.lightmap", 'vismap = "hero.vismap"\ncfem = "studio.cfem"\nrotate = [0, 30, 0]\n')
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def file(self, name, content):
+        with open(self.path(name), "wb") as out:
+            out.write(content.encode() if isinstance(content, str) else content)
+        return name
+
+    def run_tool(self, tool, *words):
+        return subprocess.run([tool, *words], capture_output=True, text=True, errors="replace", cwd=self.folder,
+                              env=self.environment, timeout=120)
+
+    def done(self, tool, *words):
+        result = self.run_tool(tool, *words)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return result.stdout + result.stderr
+
+    def refused(self, text, *words):
+        """The host ends by its own will (a signal would be a negative code), and its message names the fault."""
+        result = self.run_tool("oiiotool", *words)
+        self.assertGreater(result.returncode, 0, (words, result.stdout, result.stderr))
+        self.assertLess(result.returncode, 128, (words, result.stdout, result.stderr))
+        self.assertIn(text, result.stdout + result.stderr)
+
+    def make(self, tool, *words):
+        self.done(os.path.join(BIN, tool), *words, "--quiet")
+
+    def assert_same_pixels(self, a, b):
+        self.done("oiiotool", a, b, "--fail", "0", "--diff")
+
+
+class Pixels(Case):
+    def test_a_recipe_and_the_executable_give_the_same_bits(self):
+        self.make("makevismap", "spot.obj", "-o", "vm.exr", "--resolution", "200x150", "--samples", "8")
+        self.make("makecfem", "studio_small_03.hdr", "-o", "cfem.exr", "--resolution", "64")
+        self.make("makelightmap", "vm.exr", "cfem.exr", "-o", "lit.exr", "--rotate", "0,30,0")
+        self.assert_same_pixels("hero.vismap", "vm.exr")
+        self.assert_same_pixels("studio.cfem", "cfem.exr")
+        self.assert_same_pixels("hero.lightmap", "lit.exr")
+        # Converted by the host, and from stored inputs.
+        self.done("oiiotool", "hero.lightmap", "-o", "converted.exr")
+        self.assert_same_pixels("converted.exr", "lit.exr")
+        self.file("stored.lightmap", 'vismap = "vm.exr"\ncfem = "cfem.exr"\nrotate = [0, 30, 0]\n')
+        self.assert_same_pixels("stored.lightmap", "lit.exr")
+        self.file("env.lightmap", 'vismap = "vm.exr"\nenvironment = "studio_small_03.hdr"\ncfem_resolution = 64\n')
+        self.assert_same_pixels("env.lightmap?rotate=0,30,0", "lit.exr")
+
+    def test_an_executable_reads_recipes_where_it_reads_images(self):
+        self.make("makelightmap", "hero.vismap", "studio.cfem", "-o", "lit.exr", "--rotate", "0,30,0")
+        self.assert_same_pixels("hero.lightmap", "lit.exr")
+
+
+class Info(Case):
+    def test_describing_computes_nothing(self):
+        # What takes the mesh or the environment's pixels to know cannot be known here.
+        self.file("broken.obj", "this is no mesh\n")
+        self.done("oiiotool", "--pattern", "constant:color=1,1,1", "64x32", "3", "-d", "float", "--compression", "none",
+                  "-o", "whole.exr")
+        with open(self.path("whole.exr"), "rb") as data:
+            self.file("cut.exr", data.read()[:-3000])
+        self.file("x.vismap", 'mesh = "broken.obj"\nresolution = 8192\nsamples = 100000\n')
+        self.file("x.cfem", 'environment = "cut.exr"\n')
+        self.file("x.lightmap", 'vismap = "x.vismap"\ncfem = "x.cfem"\nexposure = 1.5\n')
+        info = self.done("oiiotool", "--info", "-v", "x.vismap", "x.cfem", "x.lightmap")
+        for text in ("8192 x 8192, 4 channel, float vismap", "256 x  128, 3 channel, float cfem",
+                     "8192 x 8192, 3 channel, float lightmap", "tile size: 64 x 64",
+                     "channel list: visibility, direction.x, direction.y, direction.z", 'colorInteropID: "data"',
+                     'colorInteropID: "lin_rec709_scene"', 'vmlight:stage: "vismap"', 'vmlight:stage: "cfem"',
+                     'vmlight:stage: "lightmap"', 'vmlight:mesh: "broken.obj"', 'vmlight:samples: "100000"',
+                     'vmlight:exposure: "1.5"'):
+            self.assertIn(text, info)
+        self.assertNotIn(self.folder, info.replace("Reading ", ""), "a path in the metadata")
+        self.refused("broken.obj", "x.vismap?resolution=64", "-o", "y.exr")
+        self.refused("cut.exr", "x.cfem", "-o", "y.exr")
+
+
+class Faults(Case):
+    def test_foreign_files_are_left_to_their_readers(self):
+        self.file("broken.png", b"\x89PNG\r\n\x1a\n and no more")
+        self.file("empty.png", b"")
+        for name in ("broken.png", "empty.png"):
+            self.refused(name, "--info", name)
+
+    def test_a_broken_recipe_is_named(self):
+        self.file("empty.lightmap", b"")
+        self.file("noise.lightmap", random.Random(1).randbytes(4000))
+        self.file("word.lightmap", "rotation = [0, 90, 0]\n")
+        os.mkdir(self.path("folder.lightmap"))
+        for name, text in (("empty.lightmap", "empty.lightmap"), ("noise.lightmap", "noise.lightmap"),
+                           ("folder.lightmap", "folder.lightmap"), ("word.lightmap", 'unknown parameter "rotation"'),
+                           ("hero.lightmap?rotate=abc", "hero.lightmap?rotate=abc")):
+            self.refused(text, name, "-o", "x.exr")
+            self.assertFalse(os.path.exists(self.path("x.exr")))
+
+    def test_a_recipe_that_reads_itself_is_named(self):
+        self.file("a.lightmap", 'vismap = "hero.vismap"\nenvironment = "b.cfem"\n')
+        self.file("b.cfem", 'environment = "a.lightmap"\n')
+        self.refused('a.lightmap" reads itself', "a.lightmap", "-o", "x.exr")
+        self.refused('b.cfem" reads itself', "b.cfem", "-o", "x.exr")
+
+    def test_a_missing_input_is_named(self):
+        os.remove(self.path("spot.obj"))
+        self.refused("spot.obj", "hero.lightmap", "-o", "x.exr")
+
+
+class Symbols(unittest.TestCase):
+    def test_a_plugin_shows_its_own_symbols_only(self):
+        for stage in ("vismap", "cfem", "lightmap"):
+            shown = subprocess.run(["nm", "-D", "--defined-only", os.path.join(PLUGINS, stage + ".imageio.so")],
+                                   check=True, capture_output=True, text=True).stdout.splitlines()
+            self.assertEqual(sorted(line.split()[-1] for line in shown),
+                             sorted(stage + name for name in ("_imageio_version", "_imageio_library_version",
+                                                              "_input_imageio_create", "_input_extensions")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[1:], verbosity=2)
