@@ -15,11 +15,12 @@ using OIIO::Strutil::fmt::format;
 bool parse_frames(std::vector<int>& dst, const std::string& text, std::string& error)
 {
     // OIIO reads what it can of a range and ignores the rest, and lists every frame before it returns: only the
-    // characters of a range are let through, and numbers below a million.
+    // characters of a range are let through, numbers below a million, and no step of 0.
     bool plausible = !text.empty() && text.find_first_not_of("0123456789-,x") == std::string::npos;
     for (size_t begin = 0, end; plausible && begin < text.size(); begin = end + 1) {
         end = std::min(text.find_first_of("-,x", begin), text.size());
-        plausible = end - begin <= 6;
+        const bool is_step = begin > 0 && text[begin - 1] == 'x';
+        plausible = end - begin <= 6 && !(is_step && text.find_first_not_of('0', begin) >= end);
     }
     std::vector<int> frames;
     if (!plausible || !OIIO::Filesystem::enumerate_sequence(text, frames) || frames.empty()) {

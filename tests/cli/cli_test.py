@@ -148,7 +148,8 @@ class Usage(Case):
         self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "1-x")
         self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "")
         self.refused(2, "is not FIRST:LAST or one number", *lightmap, "-o", "x.#.exr", "--rotate-y", "0:b")
-        self.refused(2, "up to 999999", *lightmap, "-o", "x.#.exr", "--frames", "1-2000000000")
+        for endless in "1-2000000000", "1-3x0", "1-3x", "1-3x00,5":
+            self.refused(2, "up to 999999", *lightmap, "-o", "x.#.exr", "--frames", endless)
         self.refused(1, "from 0 to 90 degrees needs --frames", *lightmap, "-o", "x.exr", "--rotate-y", "0:90")
         self.refused(1, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
 
