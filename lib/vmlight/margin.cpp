@@ -56,8 +56,8 @@ void average_neighbours(float* pixels, int channels, const Coverage& coverage, c
         if (coverage.get(n.x, n.y))
             filled[count++] = at(n);
     });
-    // Where the margins of two islands meet, their directions may cancel, and what is left would be lit from anywhere:
-    // a dark line between bright islands. Neighbours that look away from the most decided one are left out.
+    // Where the margins of two islands meet, their directions may cancel, and what is left would be lit from anywhere.
+    // Neighbours that look away from the most decided one are left out.
     const float* leader = *std::max_element(filled.begin(), filled.begin() + count,
                                             [](const float* a, const float* b) { return dot(a, a) < dot(b, b); });
     double sum[4] = {};
