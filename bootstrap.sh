@@ -17,7 +17,7 @@ END
 # What builds the library, what tests it, and what shows its pictures. (assimp's CMake files want zlib's, unsaid by Debian.)
 packages=(
     ca-certificates cmake g++ ninja-build
-    libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev
+    libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev
     libgtest-dev libbenchmark-dev
     python3 openimageio-tools opencolorio-tools
 )

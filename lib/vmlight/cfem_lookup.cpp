@@ -4,6 +4,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/faults.h>
 #include <vmlight/latlong.h>
+#include <vmlight/oiio.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -27,7 +28,7 @@ bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int
         const OIIO::ROI roi(spec.x, spec.x + dst.width, spec.y + y, spec.y + y + 1, spec.z, spec.z + 1, *first,
                             *last + 1);
         if (!cfem.get_pixels(roi, OIIO::TypeFloat, row.data())) {
-            error = cfem.geterror();
+            error = oiio::reason(cfem);
             return false;
         }
         float* texel = &dst.texels[4 * (size_t(y + 1) * dst.pitch + 1)];

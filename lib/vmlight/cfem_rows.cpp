@@ -2,6 +2,7 @@
 #include <vmlight/cfem_rows.h>
 
 #include <vmlight/channels.h>
+#include <vmlight/oiio.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -22,7 +23,7 @@ bool EnvironmentRows::open()
 {
     const OIIO::ImageSpec& spec = m_env.spec();
     if (!m_env.initialized() || spec.width < 1 || spec.height < 1) {
-        m_error = m_env.has_error() ? m_env.geterror() : "environment has no pixels";
+        m_error = m_env.has_error() ? oiio::reason(m_env) : "environment has no pixels";
         return false;
     }
     if (m_env.deep() || spec.depth > 1) {
@@ -83,7 +84,7 @@ bool EnvironmentRows::load(int row)
     roi.yend = roi.ybegin + 1;
     const bool read = m_env.get_pixels(roi, OIIO::TypeFloat, m_row.data());
     if (!read || m_env.has_error()) {
-        const std::string reason = m_env.geterror();
+        const std::string reason = oiio::reason(m_env);
         m_error = reason.empty() ? format("cannot read row {} of the environment", row) : reason;
         return false;
     }

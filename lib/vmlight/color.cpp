@@ -3,6 +3,7 @@
 
 #include <vmlight/channels.h>
 #include <vmlight/color_space.h>
+#include <vmlight/oiio.h>
 #include <vmlight/params.h>
 
 #include <OpenImageIO/color.h>
@@ -47,7 +48,7 @@ bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std
 {
     ColorConfig config(config_name);
     if (config.has_error()) {
-        error = format("cannot read the OCIO config \"{}\": {}", config_name, config.geterror());
+        error = format("cannot read the OCIO config \"{}\": {}", config_name, oiio::reason(config));
         return false;
     }
     if (!is_any_of("scene_linear", config.getRoles())) {
@@ -98,7 +99,7 @@ bool decide_by_config(Decision& decision, const OIIO::ImageBuf& image, const std
     OIIO::ColorProcessorHandle processor = config.createColorProcessor(from, working);
     if (!processor) {
         error = format("the OCIO config \"{}\" cannot convert {} to {}: {}", config_name, from, working,
-                       config.geterror());
+                       oiio::reason(config));
         return false;
     }
     decision.note = from + " -> " + working;
@@ -157,13 +158,13 @@ bool make_float(OIIO::ImageBuf& image, std::string& error)
 {
     const bool stored = image.storage() == OIIO::ImageBuf::LOCALBUFFER || image.storage() == OIIO::ImageBuf::APPBUFFER;
     if (!stored && !image.read(image.subimage(), image.miplevel(), true, OIIO::TypeFloat)) {
-        error = image.geterror();
+        error = oiio::reason(image);
         return false;
     }
     if (image.spec().format != OIIO::TypeFloat) {
         OIIO::ImageBuf floats;
         if (!floats.copy(image, OIIO::TypeFloat)) {
-            error = floats.geterror();
+            error = oiio::reason(floats);
             return false;
         }
         image = std::move(floats);
@@ -215,7 +216,7 @@ bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const Color
     std::array<int, 3> index;
     image.spec(); // opens a file that was only named
     if (!image.initialized()) {
-        error = image.has_error() ? image.geterror() : format("\"{}\": no image", path);
+        error = image.has_error() ? oiio::reason(image) : format("\"{}\": no image", path);
         return false;
     }
     if (image.deep()) {

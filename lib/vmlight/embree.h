@@ -46,11 +46,11 @@ private:
 #endif
 
 /// Denormals count as zero while this lives, as Embree advises; the thread's own setting comes back with its end, so
-/// that a host never sees the difference.
+/// that a host never sees the difference. Processors other than x86 stay as they are set.
 class FlushDenormals
 {
-public:
 #if defined(__SSE__)
+public:
     FlushDenormals()
         : m_saved(_mm_getcsr())
     {
@@ -63,6 +63,9 @@ public:
 
 private:
     unsigned m_saved;
+#else
+public:
+    FlushDenormals() { } // not defaulted: an object of this class is no unused variable
 #endif
 };
 

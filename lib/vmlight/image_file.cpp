@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image_file.h>
 
+#include <vmlight/oiio.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
@@ -108,7 +110,7 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
     }
     dst.reset(path);
     if (!dst.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-        error = format("\"{}\": {}", path, dst.geterror());
+        error = format("\"{}\": {}", path, oiio::reason(dst));
         dst.clear();
         return false;
     }
@@ -162,7 +164,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!file.sound())
         return failed(file.reason());
     if (!out->set_ioproxy(&file) || !out->open(temporary, spec))
-        return failed(out->geterror());
+        return failed(oiio::reason(*out));
     const auto* pixels = image.localpixels();
     Watch watch { progress, file };
     const bool written = out->write_image(OIIO::TypeDesc::FLOAT, pixels, OIIO::AutoStride, OIIO::AutoStride,
@@ -171,7 +173,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (watch.stopped)
         return failed("interrupted");
     if (file.sound() && (!written || !closed))
-        return failed(out->geterror());
+        return failed(oiio::reason(*out));
     file.flush_to_disk();
     if (!file.sound())
         return failed(file.reason());

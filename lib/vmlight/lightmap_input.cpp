@@ -2,8 +2,8 @@
 #include <vmlight/lightmap_input.h>
 
 #include <vmlight/channels.h>
+#include <vmlight/oiio.h>
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -16,19 +16,6 @@ using OIIO::ImageBuf;
 using OIIO::ROI;
 using OIIO::Strutil::fmt::format;
 
-namespace {
-
-bool resize(ImageBuf& dst, const ImageBuf& src, ROI roi, int nthreads)
-{
-#if OIIO_VERSION >= 30000
-    return OIIO::ImageBufAlgo::resize(dst, src, { { "filtername", "triangle" } }, roi, nthreads);
-#else
-    return OIIO::ImageBufAlgo::resize(dst, src, "triangle", 0.0f, roi, nthreads);
-#endif
-}
-
-} // namespace
-
 std::string named(const ImageBuf& image, const std::string& reason)
 {
     return image.name().empty() ? reason : format("\"{}\": {}", image.name(), reason);
@@ -37,7 +24,7 @@ std::string named(const ImageBuf& image, const std::string& reason)
 bool check_input(const ImageBuf& image, const char* what, std::string& error)
 {
     if (!image.initialized()) {
-        const std::string reason = image.geterror();
+        const std::string reason = oiio::reason(image);
         error = named(image, reason.empty() ? format("no {}: the image is empty", what) : reason);
         return false;
     }
@@ -93,7 +80,7 @@ const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::strin
     scratch.resize(texels * (4 + channels));
     float* read = scratch.data() + 4 * texels;
     if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
-        error = named(m_image->geterror());
+        error = named(oiio::reason(*m_image));
         return nullptr;
     }
     float* texel = scratch.data();
@@ -139,8 +126,8 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
         return false;
     }
     m_resized.reset(OIIO::ImageSpec(roi.width(), roi.height(), image.nchannels(), OIIO::TypeFloat));
-    if (!resize(m_resized, image, m_resized.roi(), nthreads)) {
-        error = named(image, m_resized.geterror());
+    if (!oiio::resize(m_resized, image, m_resized.roi(), nthreads)) {
+        error = named(image, oiio::reason(m_resized));
         return false;
     }
     m_image = &m_resized;
@@ -159,7 +146,7 @@ bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, Faults& faults, st
     scratch.resize(texels * (3 + channels));
     float* read = scratch.data() + 3 * texels;
     if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
-        error = named(*m_original, m_image->geterror());
+        error = named(*m_original, oiio::reason(*m_image));
         return false;
     }
     const bool gray = m_index[0] == m_index[1];

@@ -3,6 +3,8 @@
 /// mip levels at the rim of an island never mix in the background.
 #pragma once
 
+#include <vmlight/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,7 +15,7 @@ namespace vmlight {
 class Coverage
 {
 public:
-    Coverage(int width, int height);
+    VMLIGHT_API Coverage(int width, int height);
 
     int width() const { return m_width; }
     int height() const { return m_height; }
@@ -34,6 +36,6 @@ private:
 /// (the last three of the four) is not opposed to the longest. Values stay within the convex hull of the covered ones,
 /// so that |B| <= V holds in the margin too. Cost grows with the texels filled.
 /// `pixels` has `channels` floats a texel, rows without padding.
-void fill_margin(float* pixels, int channels, Coverage& coverage, int rings);
+VMLIGHT_API void fill_margin(float* pixels, int channels, Coverage& coverage, int rings);
 
 } // namespace vmlight

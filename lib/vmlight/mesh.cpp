@@ -12,8 +12,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace vmlight {
 namespace {
@@ -102,6 +104,39 @@ void Reading::append(const aiScene& scene, const aiNode& node, const Imath::M44d
         append(scene, *node.mChildren[i], to_object);
 }
 
+// Multiply the positions of each part by 2^exponents of it, or by 2^-exponents.
+void scale_parts(aiScene& scene, const std::vector<int>& exponents, int sign)
+{
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        aiMesh& part = *scene.mMeshes[m];
+        for (unsigned i = 0; i < part.mNumVertices; ++i)
+            part.mVertices[i] *= std::ldexp(1.0f, sign * exponents[m]);
+    }
+}
+
+// Assimp 5.4 drops polygons of five and more corners whose ears have areas of less than 1e-6: they are cut in meshes
+// that are blown up to 2^30, by powers of two, so that not a bit is lost.
+const aiScene* read_triangles(Assimp::Importer& importer, const std::string& path)
+{
+    if (!importer.ReadFile(path, 0))
+        return nullptr;
+    aiScene& scene = const_cast<aiScene&>(*importer.GetScene());
+    std::vector<int> exponents;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& part = *scene.mMeshes[m];
+        float reach = 0;
+        for (unsigned i = 0; i < part.mNumVertices; ++i)
+            for (int k = 0; k < 3; ++k)
+                reach = std::max(reach, std::abs(part.mVertices[i][k]));
+        exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), 0, 126) : 0);
+    }
+    scale_parts(scene, exponents, 1);
+    if (!importer.ApplyPostProcessing(aiProcess_Triangulate))
+        return nullptr;
+    scale_parts(scene, exponents, -1);
+    return &scene;
+}
+
 bool is_z_up(const aiScene& scene, const std::string& up)
 {
     int axis = 1;
@@ -128,7 +163,7 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
     Assimp::Importer importer;
     // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
     // relative distance, which collapses small meshes: both are done here, on equal bits.
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const aiScene* scene = read_triangles(importer, path);
     if (!scene || !scene->mRootNode) {
         error = format("\"{}\": not a mesh that can be read: {}", path, importer.GetErrorString());
         return false;

@@ -2,8 +2,9 @@
 /// "Is this ray blocked?": the triangles that cast, behind one question.
 #pragma once
 
-#include <Imath/ImathVec.h>
+#include <vmlight/export.h>
 
+#include <Imath/ImathVec.h>
 #include <vmlight/mesh.h>
 #include <vmlight/ray_fan.h>
 
@@ -21,7 +22,7 @@ struct SceneFrame
     Imath::V3d centre { 0 };
     double scale = 1;
 
-    static SceneFrame around(const Mesh& mesh);
+    VMLIGHT_API static SceneFrame around(const Mesh& mesh);
     Imath::V3f to_scene(const Imath::V3d& p) const { return Imath::V3f((p - centre) * scale); }
 };
 
@@ -29,18 +30,19 @@ struct SceneFrame
 class Occluder
 {
 public:
-    Occluder();
-    ~Occluder();
+    VMLIGHT_API Occluder();
+    VMLIGHT_API ~Occluder();
     Occluder(const Occluder&) = delete;
     Occluder& operator=(const Occluder&) = delete;
 
     /// Take the triangles of all `meshes` and build the scene. False, with the reason in `error`, if Embree fails
     /// (memory). Robust traversal: no leaks between triangles that share vertices.
-    bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error);
+    VMLIGHT_API bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
+                           std::string& error);
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`. Rays start
     /// at `origin` itself: see offset_origin(). Not checked: that build() succeeded.
-    void clear_blocked(RayFan& fan, const Imath::V3f& origin, float length) const;
+    VMLIGHT_API void clear_blocked(RayFan& fan, const Imath::V3f& origin, float length) const;
 
 private:
     struct Scene;
@@ -51,7 +53,7 @@ private:
 /// surface by rounding: 256 ulps a component, and 2^-16 of the scene's unit for components below 1/32. Right only in a
 /// SceneFrame: elsewhere it leaks or hits falsely (measured over scales of 1e-6 to 1e6 and offsets of up to 1e7).
 /// Source: C. Waechter, N. Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, ch. 6.
-Imath::V3f offset_origin(const Imath::V3f& p, const Imath::V3f& geometric_normal);
+VMLIGHT_API Imath::V3f offset_origin(const Imath::V3f& p, const Imath::V3f& geometric_normal);
 
 /// How far offset_origin() may move a point of the baked mesh: 256 ulps of 1, with room to spare.
 constexpr float kOffsetLength = 1.0f / 16384;

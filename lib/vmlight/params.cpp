@@ -19,7 +19,7 @@ bool whole_number_text(string_view text, double& value)
     char* end = nullptr;
     if (trimmed.empty() || OIIO::Strutil::icontains(trimmed, "x")) // no hexadecimal
         return false;
-    value = OIIO::Strutil::strtod(trimmed.c_str(), &end);
+    value = OIIO::Strutil::strtod(trimmed.c_str(), &end) + 0.0; // -0 is 0
     return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
 }
 
@@ -110,6 +110,33 @@ bool parse_value(std::string& dst, string_view text, const Text&, std::string&)
     return true;
 }
 
+bool parse_value(std::string& dst, string_view text, const Path&, std::string& error)
+{
+    if (text.find('\0') != string_view::npos) {
+        error = "a name cannot hold a zero byte";
+        return false;
+    }
+    dst = std::string(text);
+    return true;
+}
+
+bool parse_value(std::vector<std::string>& dst, string_view text, const Paths&, std::string& error)
+{
+    std::vector<std::string> paths;
+    if (!text.empty())
+        paths = OIIO::Strutil::splits(text, "\n");
+    for (std::string& path : paths) {
+        if (!parse_value(path, path, Path {}, error))
+            return false;
+        if (path.empty()) {
+            error = "one of its names is empty";
+            return false;
+        }
+    }
+    dst = paths;
+    return true;
+}
+
 bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
 {
     std::string spaced(text);
@@ -166,6 +193,16 @@ std::string value_text(const std::string& value, const Text&)
     return value;
 }
 
+std::string value_text(const std::string& value, const Path&)
+{
+    return value;
+}
+
+std::string value_text(const std::vector<std::string>& value, const Paths&)
+{
+    return OIIO::Strutil::join(value, "\n");
+}
+
 std::string value_text(const std::vector<double>& value, const Numbers&)
 {
     std::string text;
@@ -197,7 +234,17 @@ std::string allowed_text(const Choices& allowed)
 
 std::string allowed_text(const Text&)
 {
-    return "";
+    return "TEXT";
+}
+
+std::string allowed_text(const Path&)
+{
+    return "FILE";
+}
+
+std::string allowed_text(const Paths&)
+{
+    return "FILE";
 }
 
 std::string allowed_text(const Numbers& allowed)

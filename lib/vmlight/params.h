@@ -39,6 +39,13 @@ struct Choices
 /// Any text.
 struct Text
 { };
+/// The name of a file or image; "" is none.
+struct Path
+{ };
+/// Names of files or images. As a text one a line, so that every name that holds no line break survives; a flag or
+/// ?query key that comes more than once adds a line each time.
+struct Paths
+{ };
 /// Either nothing or exactly `count` finite numbers, separated by commas or blanks.
 struct Numbers
 {
@@ -55,6 +62,9 @@ VMLIGHT_API bool parse_value(double& dst, OIIO::string_view text, const Range& a
 VMLIGHT_API bool parse_value(Size& dst, OIIO::string_view text, const SizeRange& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Choices& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Text& allowed, std::string& error);
+VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Path& allowed, std::string& error);
+VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const Paths& allowed,
+                             std::string& error);
 VMLIGHT_API bool parse_value(std::vector<double>& dst, OIIO::string_view text, const Numbers& allowed,
                              std::string& error);
 VMLIGHT_API bool parse_value(bool& dst, OIIO::string_view text, const Flag& allowed, std::string& error);
@@ -65,6 +75,8 @@ VMLIGHT_API std::string value_text(double value, const Range& allowed);
 VMLIGHT_API std::string value_text(const Size& value, const SizeRange& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Choices& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Text& allowed);
+VMLIGHT_API std::string value_text(const std::string& value, const Path& allowed);
+VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Paths& allowed);
 VMLIGHT_API std::string value_text(const std::vector<double>& value, const Numbers& allowed);
 VMLIGHT_API std::string value_text(bool value, const Flag& allowed);
 
@@ -73,11 +85,15 @@ VMLIGHT_API std::string allowed_text(const Range& allowed);
 VMLIGHT_API std::string allowed_text(const SizeRange& allowed);
 VMLIGHT_API std::string allowed_text(const Choices& allowed);
 VMLIGHT_API std::string allowed_text(const Text& allowed);
+VMLIGHT_API std::string allowed_text(const Path& allowed);
+VMLIGHT_API std::string allowed_text(const Paths& allowed);
 VMLIGHT_API std::string allowed_text(const Numbers& allowed);
 VMLIGHT_API std::string allowed_text(const Flag& allowed);
 
 /// The name among `names` that differs from `name` by the fewest edits, or "" if none is near.
 VMLIGHT_API std::string nearest_name(OIIO::string_view name, const std::vector<std::string>& names);
+
+// A struct's visit() may make up the names it hands out: what needs a name after its call must copy it.
 
 /// Names of all parameters of `params`, in order.
 template <class Params> std::vector<std::string> param_names(Params params)

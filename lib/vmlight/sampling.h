@@ -39,7 +39,7 @@ VMLIGHT_API Point32 texel_hash(uint32_t x, uint32_t y, uint32_t seed);
 struct TangentFrame
 {
     Imath::V3f tangent, bitangent, normal;
-    explicit TangentFrame(const Imath::V3f& n);
+    VMLIGHT_API explicit TangentFrame(const Imath::V3f& n);
 };
 
 /// The directions of every texel: `count` points, sorted along a space-filling curve so that the eight rays of a packet
@@ -49,13 +49,14 @@ class SamplePattern
 public:
     /// `sampler` is "halton", "sobol" or "fibonacci"; `uniform` spreads directions evenly over the hemisphere instead
     /// of with the cosine.
-    SamplePattern(const std::string& sampler, int count, bool uniform);
+    VMLIGHT_API SamplePattern(const std::string& sampler, int count, bool uniform);
 
     int count() const { return m_count; }
 
     /// Fill `fan` with the texel's directions: unit vectors around frame.normal. Lane bits are set for directions
     /// strictly above the surface, that is on the side of `geometric_normal`.
-    void directions(RayFan& fan, const TangentFrame& frame, const Imath::V3f& geometric_normal, Point32 texel) const;
+    VMLIGHT_API void directions(RayFan& fan, const TangentFrame& frame, const Imath::V3f& geometric_normal,
+                                Point32 texel) const;
 
     /// The same by plain scalar code: the reference that the vector code is tested against, to 4e-7 a component.
     VMLIGHT_API void directions_scalar(RayFan& fan, const TangentFrame& frame, const Imath::V3f& geometric_normal,
@@ -77,7 +78,7 @@ struct DirectionSums
     double weight = 0;
     int64_t rays = 0;
 };
-DirectionSums sum_directions(const RayFan& fan, const Imath::V3f& weight_axis);
-DirectionSums sum_directions_scalar(const RayFan& fan, const Imath::V3f& weight_axis);
+VMLIGHT_API DirectionSums sum_directions(const RayFan& fan, const Imath::V3f& weight_axis);
+VMLIGHT_API DirectionSums sum_directions_scalar(const RayFan& fan, const Imath::V3f& weight_axis);
 
 } // namespace vmlight

@@ -6,6 +6,7 @@
 #include <OpenImageIO/argparse.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/sysutil.h>
 #include <OpenImageIO/timer.h>
 
 #include <atomic>
@@ -77,6 +78,9 @@ struct StageMain::State
     std::string name, purpose, example;
     std::vector<std::string> operand_names, operands;
     std::vector<Option> options;
+    std::vector<std::pair<const Option*, std::string>> given;
+    RecipeDoor door;
+    bool prints_recipe = false;
     std::string heading, output;
     OutputParams common;
 
@@ -93,6 +97,8 @@ struct StageMain::State
     }
     bool split_arguments(int argc, const char** argv, std::vector<std::string>& words, std::string& error) const;
     bool parse(const std::vector<std::string>& words, bool& helped, std::string& error);
+    bool given_recipe() const { return !operands.empty() && recipe_stage(operands[0]) == door.stage; }
+    Exit settle(int argc, const char** argv, bool& helped, std::string& error);
 };
 
 // ArgParse takes neither --flag=value nor tells an unknown flag from a missing one's nearest name: both are done first.
@@ -136,7 +142,8 @@ bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped
 {
     OIIO::ArgParse parser;
     parser.intro(format("{}: {}\n(vmlight {})", name, purpose, VMLIGHT_VERSION));
-    parser.usage(format("{} {} -o OUTPUT.exr [options]", name, OIIO::Strutil::join(operand_names, " ")));
+    parser.usage(format("{0} {1} -o OUTPUT.exr [options]\n       {0} RECIPE.{2} -o OUTPUT.exr [options]", name,
+                        OIIO::Strutil::join(operand_names, " "), door.stage));
     parser.epilog(format("Example:\n{}\nExit code 0: done, 1: the work failed, 2: wrong usage.\n", example));
     parser.exit_on_error(false);
     parser.add_help(true);
@@ -151,10 +158,8 @@ bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped
         const std::string metavar = OIIO::Strutil::replace(option.metavar, " ", "_", true);
         parser.arg((option.metavar.empty() ? flag : flag + " %s:" + metavar).c_str())
             .help(option.help)
-            .action([&error, &option](OIIO::cspan<const char*> argv) {
-                std::string reason;
-                if (error.empty() && !option.take(argv.size() > 1 ? argv[1] : "true", reason))
-                    error = reason;
+            .action([this, &option](OIIO::cspan<const char*> argv) {
+                given.emplace_back(&option, argv.size() > 1 ? argv[1] : "true");
             });
     }
     std::vector<const char*> pointers;
@@ -162,15 +167,39 @@ bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped
         pointers.push_back(word.c_str());
     const int result = parser.parse_args(int(pointers.size()), pointers.data());
     helped = parser.aborted();
-    if (error.empty() && result < 0 && !helped)
+    if (helped)
+        return true;
+    const size_t wanted = given_recipe() ? 1 : operand_names.size();
+    if (result < 0)
         error = parser.geterror();
-    if (error.empty() && !helped && operands.size() != operand_names.size())
-        error = operands.size() < operand_names.size()
-            ? format("{} is missing", operand_names[operands.size()])
-            : format("\"{}\" is one argument too many", operands[operand_names.size()]);
-    if (error.empty() && !helped && output.empty())
-        error = "-o OUTPUT.exr is missing";
+    else if (operands.size() != wanted)
+        error = operands.size() < wanted ? format("{} is missing", operand_names[operands.size()])
+                                         : format("\"{}\" is one argument too many", operands[wanted]);
     return error.empty();
+}
+
+// The recipe or the operands first, then the flags, which override them.
+Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::string& error)
+{
+    std::vector<std::string> words;
+    if (!split_arguments(argc, argv, words, error) || !parse(words, helped, error))
+        return Exit::Usage;
+    if (helped)
+        return Exit::Done;
+    if (given_recipe()) {
+        if (!door.read(operands[0], error))
+            return Exit::Failed;
+    } else if (door.fill) {
+        door.fill(operands);
+    }
+    for (const auto& [option, text] : given)
+        if (!option->take(text, error))
+            return Exit::Usage;
+    if (prints_recipe && door.unsaid)
+        error = door.unsaid();
+    if (!prints_recipe && output.empty())
+        error = "-o OUTPUT.exr is missing";
+    return error.empty() ? Exit::Done : Exit::Usage;
 }
 
 StageMain::StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example)
@@ -186,6 +215,21 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
 }
 
 StageMain::~StageMain() = default;
+
+bool StageMain::has_option(const std::string& name) const
+{
+    return std::any_of(m_state->options.begin(), m_state->options.end(),
+                       [&](const Option& option) { return option.name == name; });
+}
+
+void StageMain::take_recipe(RecipeDoor door)
+{
+    m_state->door = std::move(door);
+    const auto take = [this](OIIO::string_view, std::string&) { return m_state->prints_recipe = true; };
+    m_state->options.insert(
+        m_state->options.begin() + 1,
+        { "Output:", "print_recipe", "", "Write the recipe of this command line to stdout, and do no more", take });
+}
 
 void StageMain::group(const std::string& heading)
 {
@@ -208,35 +252,36 @@ void StageMain::option(const std::string& name, const std::string& metavar, cons
 int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)
 {
     OIIO::Filesystem::convert_native_arguments(argc, argv);
+    // Debian builds OIIO 3 to tell its inner doings on stderr: only for who asks.
+    if (OIIO::Sysutil::getenv("OPENIMAGEIO_DEBUG").empty())
+        OIIO::attribute("debug", 0);
     State& state = *m_state;
     std::string error;
-    std::vector<std::string> words;
-    bool helped = false;
-    if (!state.split_arguments(argc, argv, words, error) || !state.parse(words, helped, error)) {
-        state.message("ERROR", error + " (see " + state.name + " --help)");
-        return int(Exit::Usage);
-    }
-    if (helped)
-        return int(Exit::Done);
-    if (state.common.threads > 0)
-        OIIO::attribute("threads", state.common.threads);
-    catch_interrupts(state.name);
-    bool good = false;
+    Exit exit = Exit::Failed;
     try {
-        good = work(error);
+        bool helped = false;
+        exit = state.settle(argc, argv, helped, error);
+        if (exit == Exit::Done && !helped && state.prints_recipe) {
+            const std::string text = state.door.text();
+            if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
+                error = "cannot write to stdout";
+                exit = Exit::Failed;
+            }
+        } else if (exit == Exit::Done && !helped) {
+            if (state.common.threads > 0)
+                OIIO::attribute("threads", state.common.threads);
+            catch_interrupts(state.name);
+            exit = Exit::Failed;
+            exit = work(error) ? Exit::Done : Exit::Failed;
+        }
     } catch (const std::bad_alloc&) {
         error = "out of memory";
     } catch (const std::exception& exception) {
         error = exception.what();
     }
-    if (!good)
-        state.message("ERROR", error);
-    return int(good ? Exit::Done : Exit::Failed);
-}
-
-const std::string& StageMain::operand(size_t index) const
-{
-    return m_state->operands[index];
+    if (exit != Exit::Done)
+        state.message("ERROR", exit == Exit::Usage ? error + " (see " + state.name + " --help)" : error);
+    return int(exit);
 }
 
 const std::string& StageMain::output() const
@@ -244,9 +289,16 @@ const std::string& StageMain::output() const
     return m_state->output;
 }
 
-int StageMain::threads() const
+MakeOptions StageMain::make_options()
 {
-    return m_state->common.threads;
+    MakeOptions options;
+    if (m_state->given_recipe())
+        options.chain.push_back(m_state->operands[0]);
+    options.threads = m_state->common.threads;
+    options.progress = [this](const std::string& step) { return progress(step); };
+    options.say = [this](const std::string& line) { say(line); };
+    options.warn = [this](const std::string& line) { warn(line); };
+    return options;
 }
 
 Progress StageMain::progress(const std::string& step)

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <vmlight/export.h>
+#include <vmlight/make_stage.h>
 #include <vmlight/params.h>
 #include <vmlight/progress.h>
+#include <vmlight/recipe.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -34,23 +36,52 @@ public:
     StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example);
     ~StageMain();
 
-    /// A flag for each parameter: `--max-distance 2` for `max_distance`, with `prefix` before its name.
-    /// `params` must outlive run().
+    /// A flag for each parameter that has none yet: `--max-distance 2` for `max_distance`, with `prefix` before its
+    /// name. `params` must outlive run().
     template <class Params> void params(const char* heading, Params& params, const std::string& prefix = "")
     {
         group(heading);
         Params defaults = params;
         defaults.visit([&](const char* field, auto& value, const auto& allowed, const char* help) {
+            using Allowed = std::decay_t<decltype(allowed)>;
             const std::string name = field, text = value_text(value, allowed);
-            const bool is_flag = std::is_same_v<std::decay_t<decltype(allowed)>, Flag>;
-            option(prefix + name, is_flag ? "" : allowed_text(allowed),
-                   text.empty() || is_flag ? help : help + (" [" + text + "]"),
-                   [&params, name](OIIO::string_view given, std::string& error) {
-                       return set_param(params, name, given, error);
-                   });
+            if (has_option(prefix + name))
+                return;
+            if constexpr (std::is_same_v<Allowed, Paths>) {
+                // What the flag's first coming takes the place of, the next ones add to.
+                auto lines = std::make_shared<std::string>();
+                option(prefix + name, allowed_text(allowed), std::string(help) + "; may come more than once",
+                       [&params, name, lines](OIIO::string_view given, std::string& error) {
+                           *lines += (lines->empty() ? "" : "\n") + std::string(given);
+                           return set_param(params, name, *lines, error);
+                       });
+            } else {
+                const bool is_flag = std::is_same_v<Allowed, Flag>;
+                option(prefix + name, is_flag ? "" : allowed_text(allowed),
+                       text.empty() || is_flag ? help : help + (" [" + text + "]"),
+                       [&params, name](OIIO::string_view given, std::string& error) {
+                           return set_param(params, name, given, error);
+                       });
+            }
         });
     }
+    /// Take a recipe in place of the operands, and print one (--print-recipe). Flags for what of `recipe` has none yet.
+    ///
+    /// @param recipe   the stage; must outlive run(). Flags override what its file or the operands say
+    /// @param fill     puts the operands, of which none is a recipe of this stage, into `recipe`
+    /// @param unsaid   nullptr, or which of the given flags a recipe cannot hold; "" if none
+    template <class Recipe>
+    void recipe(const char* heading, Recipe& recipe, std::function<void(const std::vector<std::string>& operands)> fill,
+                std::function<std::string()> unsaid = {})
+    {
+        params(heading, recipe);
+        take_recipe(
+            { Recipe::kStage, std::move(fill), std::move(unsaid),
+              [&recipe](const std::string& name, std::string& error) { return read_recipe(recipe, name, error); },
+              [&recipe] { return recipe_text(recipe); } });
+    }
     /// Takes the flag's value ("true" for one without); false and `error` refuse it. A flag may come more than once.
+    /// All are taken in their order, when the operands are in their places.
     using Take = std::function<bool(OIIO::string_view text, std::string& error)>;
     void group(const std::string& heading);
     void option(const std::string& name, const std::string& metavar, const std::string& help, Take take);
@@ -62,9 +93,9 @@ public:
     int run(int argc, const char** argv, const std::function<bool(std::string& error)>& work);
 
     // For `work`.
-    const std::string& operand(size_t index) const;
     const std::string& output() const;
-    int threads() const;
+    /// Threads, progress and messages as the user asked for; and the recipe, if one was given.
+    MakeOptions make_options();
     /// A progress line for one step of the work, on stderr; stops the work when the user interrupts.
     Progress progress(const std::string& step);
     /// One line on stdout, unless --quiet.
@@ -77,6 +108,16 @@ public:
 
 private:
     struct State;
+    struct RecipeDoor
+    {
+        std::string stage;
+        std::function<void(const std::vector<std::string>&)> fill;
+        std::function<std::string()> unsaid;
+        std::function<bool(const std::string& name, std::string& error)> read;
+        std::function<std::string()> text;
+    };
+    bool has_option(const std::string& name) const;
+    void take_recipe(RecipeDoor door);
     std::unique_ptr<State> m_state;
 };
 

@@ -2,6 +2,7 @@
 /// Points of a mesh's surface that rays can start from.
 #pragma once
 
+#include <vmlight/export.h>
 #include <vmlight/mesh.h>
 #include <vmlight/occluder.h>
 
@@ -33,7 +34,7 @@ public:
     /// The position is kept off the triangle's edges by kOffsetLength (a quarter of a small triangle's height): rays
     /// from an edge could slip behind a neighbour that meets it at a sharp angle.
     /// Not checked: that the triangle has an area.
-    SurfacePoint at(uint32_t triangle, float weight1, float weight2);
+    VMLIGHT_API SurfacePoint at(uint32_t triangle, float weight1, float weight2);
 
 private:
     void take(uint32_t triangle);

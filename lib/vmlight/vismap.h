@@ -21,9 +21,10 @@ struct VismapParams
     /// One number is a square map; width and height, if not 0, replace its sides.
     Size resolution { 1024, 1024 };
     int width = 0, height = 0;
-    /// The paper's model gains nothing beyond 64 rays and a lobe model nothing beyond 128 (measured: README).
+    /// Measured on six scenes: at 64 rays the paper's model is within 2.2 % of the shading error it has at 4096 rays, a
+    /// model that also uses |B| is within 2 % at 128.
     int samples = 128;
-    /// `fibonacci` has the least error at a fixed number of rays (measured: README); `halton` is the paper's.
+    /// `fibonacci` has the least error at a fixed number of rays (README, "What it costs"); `halton` is the paper's.
     std::string sampler = "fibonacci";
     /// Same seed, same pixels, for any number of threads.
     int seed = 0;

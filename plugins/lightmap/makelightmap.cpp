@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "light_input.h"
-
+#include <vmlight/channels.h>
 #include <vmlight/frames.h>
 #include <vmlight/image_file.h>
-#include <vmlight/lightmap.h>
 #include <vmlight/stage_main.h>
 
 #include <OpenImageIO/strutil.h>
@@ -21,16 +19,15 @@ struct Animation
     bool asked = false;
     Ramp rotate_y;
 
+    bool turns() const { return rotate_y.first != 0 || rotate_y.last != 0; }
+
     // The turn about y comes after the object's own rotation; both become one matrix.
     LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const
     {
-        LightmapParams frame = params;
-        LightmapParams own = params;
+        LightmapParams frame = params, own = params;
         own.env_rotate.clear();
         Rotation rotation;
-        if (rotate_y.first == 0 && rotate_y.last == 0)
-            return frame;
-        if (!lightmap_rotation(rotation, own, error))
+        if (!turns() || !lightmap_rotation(rotation, own, error))
             return frame;
         rotation = rotation_from_angles(0, rotate_y.at(index, frames.size()), 0) * rotation;
         frame.rotate.clear();
@@ -44,13 +41,13 @@ struct Animation
 
 int main(int argc, const char** argv)
 {
-    LightmapParams params;
-    LightInput light;
+    LightmapRecipe recipe;
     Animation animation;
     StageMain stage("makelightmap", "light a visibility map", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
                     "  makelightmap hero_vismap.exr studio_cfem.exr --rotate 0,90,0 -o hero_lit.exr\n"
-                    "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr");
-    stage.params("Light:", params);
+                    "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
+                    "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr");
+    stage.params("Light:", recipe.lightmap_params);
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, 1-48: -o holds #### for the number", [&](auto text, auto& error) {
         animation.asked = true;
@@ -58,37 +55,48 @@ int main(int argc, const char** argv)
     });
     stage.option("rotate_y", "FIRST:LAST", "Degrees about y at the first and at the last frame, after the other turns",
                  [&](auto text, auto& error) { return parse_ramp(animation.rotate_y, std::string(text), error); });
-    light.declare(stage);
+    stage.params("Filter, if an environment is given:", recipe.cfem_params, "cfem_");
+    stage.group("Inputs:");
+    stage.option("is_cfem", "", "The second image is filtered already, though nothing in it says so", [&](auto, auto&) {
+        if (recipe.cfem.empty())
+            recipe.cfem.swap(recipe.environment);
+        return true;
+    });
+    stage.recipe(
+        "Inputs:", recipe,
+        [&](const auto& operands) {
+            recipe.vismap = operands[0];
+            (image_stage(operands[1]) == kCfemStage ? recipe.cfem : recipe.environment) = operands[1];
+        },
+        [&] { return animation.asked || animation.turns() ? "a recipe holds neither --frames nor --rotate-y" : ""; });
 
     return stage.run(argc, argv, [&](std::string& error) {
-        const bool numbered = stage.output().find('#') != std::string::npos;
+        const MakeOptions options = stage.make_options();
+        LightmapInputs inputs;
         error = output_fault(stage.output());
-        if (error.empty() && animation.frames.size() > 1 && !numbered)
+        if (error.empty() && animation.frames.size() > 1 && stage.output().find('#') == std::string::npos)
             error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
                            animation.frames.size());
         if (error.empty() && !animation.asked && animation.rotate_y.first != animation.rotate_y.last)
             error = format("rotate_y: from {} to {} degrees needs --frames", animation.rotate_y.first,
                            animation.rotate_y.last);
-        if (!error.empty() || !light.read(stage, error))
+        if (!error.empty() || !read_lightmap_inputs(inputs, recipe, options, error))
             return false;
         const OIIO::Timer timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
-            const LightmapParams frame = animation.at(params, i, error);
-            OIIO::ImageBuf lightmap;
-            if (!error.empty())
-                return false;
-            if (!make_lightmap(lightmap, light.vismap, light.cfem, frame, light.albedo(), stage.threads(),
-                               stage.progress("light"))) {
-                error = lightmap.geterror();
-                return false;
-            }
+            const LightmapParams frame = animation.at(recipe.lightmap_params, i, error);
             const std::string path = animation.asked ? frame_path(stage.output(), animation.frames[i]) : stage.output();
-            if (!stage.write(lightmap, path, error))
+            OIIO::ImageBuf lightmap;
+            if (error.empty()
+                && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
+                                  options.progress("light")))
+                error = lightmap.geterror();
+            if (!error.empty() || !stage.write(lightmap, path, error))
                 return false;
         }
         stage.say(format("light: {} of {}x{} in {:.3f} s",
                          animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
-                         light.vismap.spec().width, light.vismap.spec().height, timer()));
+                         inputs.vismap.spec().width, inputs.vismap.spec().height, timer()));
         return true;
     });
 }

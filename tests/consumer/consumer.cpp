@@ -5,7 +5,9 @@
 #include <vmlight/color.h>
 #include <vmlight/latlong.h>
 #include <vmlight/lightmap.h>
+#include <vmlight/make_stage.h>
 #include <vmlight/mesh.h>
+#include <vmlight/recipe.h>
 #include <vmlight/rotation.h>
 #include <vmlight/vismap.h>
 
@@ -47,6 +49,11 @@ int main()
     std::array<int, 4> index;
     if (vmlight::find_vismap_channels(environment.spec(), index, error))
         return failed("find_vismap_channels", "takes an environment for a visibility map");
+    vmlight::LightmapRecipe recipe;
+    if (vmlight::read_recipe(recipe, "x.lightmap?rotat=1,2,3", error))
+        return failed("read_recipe", "takes a key that is none");
+    if (vmlight::make_image(cfem, recipe))
+        return failed("make_image", "makes a lightmap of nothing");
     std::printf("consumer: %s; %s\n", note.c_str(), error.c_str());
     return 0;
 }

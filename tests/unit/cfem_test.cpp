@@ -114,7 +114,7 @@ TEST(Cfem, OppositeDirectionsDifferByTheFirstMoment)
     // C(n) - C(-n) = n.M / pi, for any light: M summed here from the pixels' closed forms.
     Map map = random_map(40, 20, 1);
     map.at(39, 3)[1] = 1e5f;
-    V3d moment[3] = {};
+    V3d moment[3] = { V3d(0), V3d(0), V3d(0) };
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 40; ++x)
             for (int k = 0; k < 3; ++k)

@@ -255,6 +255,14 @@ TEST_F(MeshFiles, PolygonsAreCutIntoTrianglesWhateverTheirSize)
     }
 }
 
+TEST_F(MeshFiles, ASmallPolygonOfALargeMeshIsCutToo)
+{
+    const Mesh mesh = read("a.obj",
+                           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+                           "v 0 0 1\nv 2e-5 0 1\nv 3e-5 1e-5 1\nv 1e-5 3e-5 1\nv 0 2e-5 1\nf 5 6 7 8 9\n");
+    EXPECT_EQ(mesh.triangles.size(), 5u);
+}
+
 TEST_F(MeshFiles, SmallMeshesKeepTheirVertices)
 {
     const Mesh mesh = read("a.obj",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem.h>
 #include <vmlight/lightmap.h>
+#include <vmlight/recipe.h>
 
 #include <gtest/gtest.h>
 
@@ -89,4 +90,21 @@ TEST(Params, ValuesSetInCodeAreCheckedToo)
     params.resolution.width = 0;
     EXPECT_FALSE(check_params(params, error));
     EXPECT_EQ(error, "resolution: \"0x128\" is not WIDTHxHEIGHT from 1x1 to 16384x16384");
+}
+
+TEST(Params, ListsOfNamesAreOneALine)
+{
+    VismapRecipe recipe;
+    std::string error;
+    ASSERT_TRUE(set_param(recipe, "occluder", "a, b.obj\nc;d.obj", error)) << error;
+    EXPECT_EQ(recipe.occluder, (std::vector<std::string> { "a, b.obj", "c;d.obj" }));
+    EXPECT_EQ(value_text(recipe.occluder, Paths {}), "a, b.obj\nc;d.obj");
+    EXPECT_FALSE(set_param(recipe, "occluder", "a\n\nb", error));
+    EXPECT_EQ(error, "occluder: one of its names is empty");
+    EXPECT_EQ(recipe.occluder.size(), 2u);
+    ASSERT_TRUE(set_param(recipe, "occluder", "", error)) << error;
+    EXPECT_TRUE(recipe.occluder.empty());
+    EXPECT_FALSE(set_param(recipe, "mesh", OIIO::string_view("a\0b", 3), error));
+    EXPECT_EQ(error, "mesh: a name cannot hold a zero byte");
+    EXPECT_EQ(allowed_text(Paths {}), "FILE");
 }

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/make_stage.h>
+
+#include <vmlight/channels.h>
+#include <vmlight/color.h>
+#include <vmlight/image_file.h>
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/timer.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Each recipe reads its inputs by recursion.
+constexpr size_t kLongestChain = 64;
+// No stage makes one.
+constexpr const char* kEnvironment = "environment";
+
+void tell(const std::function<void(const std::string&)>& listener, const std::string& line)
+{
+    if (listener)
+        listener(line);
+}
+
+Progress step(const MakeOptions& options, const char* name)
+{
+    return options.progress ? options.progress(name) : Progress {};
+}
+
+bool failed(OIIO::ImageBuf& dst, const std::string& reason)
+{
+    dst.reset();
+    dst.errorfmt("{}", reason);
+    return false;
+}
+
+// The same file by another path is the same recipe.
+std::string identity(const std::string& name)
+{
+    const std::string path = recipe_path(name);
+    std::error_code ignored;
+    const auto whole = std::filesystem::weakly_canonical(path, ignored);
+    return (ignored ? path : whole.string()) + name.substr(path.size());
+}
+
+std::string chain_fault(const std::vector<std::string>& chain, const std::string& name)
+{
+    const auto same = [&](const std::string& other) { return identity(other) == identity(name); };
+    const auto first = std::find_if(chain.begin(), chain.end(), same);
+    std::string path;
+    for (auto at = first; at != chain.end(); ++at)
+        path += format("\"{}\" -> ", *at);
+    if (first != chain.end())
+        return format("\"{}\" reads itself: {}\"{}\"", name, path, name);
+    return chain.size() >= kLongestChain
+        ? format("\"{}\": more than {} recipes, each within the last", name, kLongestChain)
+        : "";
+}
+
+template <class Recipe> std::string value_of(Recipe recipe, const std::string& key)
+{
+    std::string text;
+    recipe.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        if (key == name)
+            text = value_text(value, allowed);
+    });
+    return text;
+}
+
+// Where the user can mend it: unless a flag or a caller has put another value in the recipe's place.
+template <class Recipe>
+std::string placed(const Recipe& recipe, const std::string& key, const MakeOptions& options, const std::string& reason)
+{
+    Recipe read;
+    std::string ignored;
+    if (options.chain.empty() || !read_recipe(read, options.chain.back(), ignored)
+        || value_of(read, key) != value_of(recipe, key))
+        return reason;
+    return recipe_place(options.chain.back(), key) + ": " + reason;
+}
+
+template <class Recipe> std::string missing(const Recipe& recipe, const char* key, const MakeOptions& options)
+{
+    if (!value_of(recipe, key).empty())
+        return "";
+    return (options.chain.empty() ? "" : format("\"{}\": ", options.chain.back())) + format("{} is missing", key);
+}
+
+template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const std::string& name, const MakeOptions& options)
+{
+    Recipe recipe;
+    std::string error;
+    if (!read_recipe(recipe, name, error))
+        return failed(dst, error);
+    MakeOptions inner = options;
+    inner.chain.push_back(name);
+    return make_image(dst, recipe, inner);
+}
+
+// An image, or what its recipe makes. `wanted` is what a recipe there must be; "" is any.
+bool read_input(OIIO::ImageBuf& dst, const std::string& name, const std::string& wanted, const MakeOptions& options,
+                std::string& error)
+{
+    const std::string found = recipe_stage(name);
+    if (found.empty())
+        return read_image(dst, name, error);
+    error = chain_fault(options.chain, name);
+    if (!error.empty())
+        return false;
+    if (!wanted.empty() && found != wanted) {
+        error = format("\"{}\": the recipe of a {}, not of {} {}", name, found, wanted == kEnvironment ? "an" : "a",
+                       wanted);
+        return false;
+    }
+    const bool good = found == VismapRecipe::kStage ? make_named<VismapRecipe>(dst, name, options)
+        : found == CfemRecipe::kStage               ? make_named<CfemRecipe>(dst, name, options)
+                                                    : make_named<LightmapRecipe>(dst, name, options);
+    if (!good)
+        error = dst.geterror();
+    return good;
+}
+
+double percent(int64_t part, int64_t whole)
+{
+    return whole ? 100.0 * double(part) / double(whole) : 0.0;
+}
+
+void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec)
+{
+    const UvReport& uv = report.uv;
+    tell(options.say,
+         format("uv: {} triangles cover {:.1f} % of {}x{} texels; {} texels overlap; triangles: {} reach out of "
+                "[0,1], {} mirrored, {} without area in uv, {} in space, {} without uv",
+                uv.triangles, percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
+                uv.outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
+    tell(options.say,
+         format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
+                double(report.rays) * 1e-6, report.bake_seconds,
+                double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,
+                report.margin_seconds));
+    if (report.overlapping > 0)
+        tell(options.warn,
+             format("{} texels ({:.2f} % of those covered) belong to more than one triangle: the first triangle of the "
+                    "file has them",
+                    report.overlapping, percent(report.overlapping, report.covered)));
+    if (uv.outside > 0)
+        tell(options.warn,
+             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked", uv.outside,
+                    uv.triangles));
+    if (uv.without_uv > 0)
+        tell(options.warn,
+             format("{} of {} triangles have no uv: they cast, and are not baked", uv.without_uv, uv.triangles));
+    if (report.covered == 0)
+        tell(options.warn, "no texel centre is covered: the map is empty");
+    else if (report.dark > report.covered / 2)
+        tell(options.warn,
+             format("{:.0f} % of the covered texels see nothing: do the normals point inwards?",
+                    percent(report.dark, report.covered)));
+}
+
+// Read `recipe.environment` in scene-linear light and filter it.
+template <class Recipe>
+bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOptions& options, std::string& error)
+{
+    const std::string& name = recipe.environment;
+    const auto refuse = [&](const std::string& reason) {
+        error = placed(recipe, "environment", options, reason);
+        return false;
+    };
+    OIIO::ImageBuf environment;
+    std::string note;
+    if (!read_input(environment, name, kEnvironment, options, error))
+        return refuse(error);
+    const int width = environment.spec().width, height = environment.spec().height;
+    const std::string stage = environment.spec().get_string_attribute("vmlight:stage");
+    constexpr bool to_be_lit_by = std::is_same_v<Recipe, LightmapRecipe>;
+    if (to_be_lit_by && stage == kCfemStage)
+        return refuse(format("\"{}\": filtered already: give it as cfem", name));
+    if (to_be_lit_by && !stage.empty())
+        return refuse(format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", name, stage));
+    if (!to_scene_linear(environment, name, { recipe.colorconfig, recipe.colorspace }, note, error))
+        return false;
+    const OIIO::Timer timer;
+    if (!make_cfem(dst, environment, recipe.cfem_params, options.threads, step(options, "filter"))) {
+        error = format("\"{}\": {}", name, dst.geterror());
+        return false;
+    }
+    tell(options.say, "colour: " + note);
+    tell(options.say,
+         format("filter: {}x{} to {}x{} in {:.3f} s", width, height, dst.spec().width, dst.spec().height, timer()));
+    if (const int mended = dst.spec().get_int_attribute("vmlight:sanitized"))
+        tell(options.warn, format("{} bad values of the environment were mended", mended));
+    return true;
+}
+
+bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    std::array<int, 4> channels;
+    if (read_input(dst, recipe.vismap, kVismapStage, options, error)) {
+        if (find_vismap_channels(dst.spec(), channels, error))
+            return true;
+        error = format("\"{}\": {}", recipe.vismap, error);
+    }
+    error = placed(recipe, "vismap", options, error);
+    return false;
+}
+
+bool read_cfem(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    if (read_input(dst, recipe.cfem, kCfemStage, options, error)) {
+        const std::string stage = dst.spec().get_string_attribute("vmlight:stage");
+        if (stage.empty() || stage == kCfemStage)
+            return true;
+        error = format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", recipe.cfem, stage);
+    }
+    error = placed(recipe, "cfem", options, error);
+    return false;
+}
+
+bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    std::string note;
+    if (!read_input(dst, recipe.albedo, "", options, error)) {
+        error = placed(recipe, "albedo", options, error);
+        return false;
+    }
+    if (!to_scene_linear(dst, recipe.albedo, { recipe.colorconfig, recipe.albedo_colorspace }, note, error))
+        return false;
+    tell(options.say, "albedo: " + note);
+    return true;
+}
+
+} // namespace
+
+bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options)
+{
+    std::string error = missing(recipe, "mesh", options);
+    if (!error.empty())
+        return failed(dst, error);
+    Mesh mesh;
+    std::vector<Mesh> occluders(recipe.occluder.size());
+    if (!read_mesh(mesh, recipe.mesh, recipe.mesh_params, error))
+        return failed(dst, placed(recipe, "mesh", options, error));
+    for (size_t i = 0; i < occluders.size(); ++i)
+        if (!read_mesh(occluders[i], recipe.occluder[i], recipe.mesh_params, error))
+            return failed(dst, placed(recipe, "occluder", options, error));
+    VismapReport report;
+    if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads, step(options, "bake")))
+        return false;
+    append_params(dst.specmod(), recipe.mesh_params);
+    report_bake(options, report, dst.spec());
+    return true;
+}
+
+bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options)
+{
+    std::string error = missing(recipe, "environment", options);
+    if (!error.empty() || !filter_environment(dst, recipe, options, error))
+        return failed(dst, error);
+    return true;
+}
+
+bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options)
+{
+    LightmapInputs inputs;
+    std::string error;
+    if (!read_lightmap_inputs(inputs, recipe, options, error))
+        return failed(dst, error);
+    const OIIO::Timer timer;
+    if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
+                       options.threads, step(options, "light")))
+        return false;
+    tell(options.say, format("light: 1 map of {}x{} in {:.3f} s", dst.spec().width, dst.spec().height, timer()));
+    return true;
+}
+
+bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
+                          std::string& error)
+{
+    error = missing(recipe, "vismap", options);
+    if (error.empty() && recipe.cfem.empty() && !missing(recipe, "environment", options).empty())
+        error = missing(recipe, "environment", options) + ", or cfem";
+    if (error.empty() && !recipe.cfem.empty() && !recipe.environment.empty())
+        error = placed(recipe, "cfem", options, "environment is given too: one of them must be empty");
+    // The visibility map first, before an environment is filtered in vain.
+    return error.empty() && read_vismap(dst.vismap, recipe, options, error)
+        && (recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
+                                : read_cfem(dst.cfem, recipe, options, error))
+        && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
+}
+
+std::string image_stage(const std::string& name)
+{
+    const std::string stage = recipe_stage(name);
+    if (!stage.empty())
+        return stage;
+    const auto in = OIIO::ImageInput::open(name);
+    if (!in)
+        OIIO::geterror(); // the reader of the pixels will tell
+    return in ? in->spec().get_string_attribute("vmlight:stage") : "";
+}
+
+} // namespace vmlight

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Stages from their recipes: read what a recipe names, make what is itself a recipe first, then make the stage.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/progress.h>
+#include <vmlight/recipe.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+struct MakeOptions
+{
+    /// Names of the recipes that are being made, outermost first; the last is the one whose struct is given. Empty if
+    /// there is no file behind it. Messages name it, and none may be read again.
+    std::vector<std::string> chain;
+    /// 0 means OIIO's default.
+    int threads = 0;
+    /// A progress for one step of the work: "bake", "filter", "light".
+    std::function<Progress(const std::string& step)> progress;
+    /// One line on what was done, and one on what may surprise.
+    std::function<void(const std::string&)> say, warn;
+};
+
+/// Make a stage.
+///
+/// @param dst      set to the image, as make_vismap(), make_cfem() and make_lightmap() make it; a vismap's metadata
+///                 hold the parameters of its mesh too
+/// @returns false, with the reason in `dst.geterror()`, if an input is missing, cannot be read or made, or is not what
+///          it should be (with the recipe's line, if that says it), or if a recipe reads itself through others.
+VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options = {});
+VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options = {});
+VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options = {});
+
+/// What a lightmap reads, ready for make_lightmap(): for several lightmaps of the same inputs.
+struct LightmapInputs
+{
+    OIIO::ImageBuf vismap, cfem, albedo;
+
+    /// nullptr if the recipe has none.
+    const OIIO::ImageBuf* albedo_or_none() const { return albedo.initialized() ? &albedo : nullptr; }
+};
+
+/// Read or make what `recipe` names. False, with the reason in `error`, as for make_image().
+VMLIGHT_API bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
+                                      std::string& error);
+
+/// The stage that an image is: by its name if that is a recipe's, else by the `vmlight:stage` of the file. "" if it is
+/// none or cannot be opened. Pixels are not read.
+VMLIGHT_API std::string image_stage(const std::string& name);
+
+} // namespace vmlight
