@@ -8,7 +8,10 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <limits>
 
 #include <fcntl.h>
@@ -19,34 +22,65 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// OIIO's callback carries a pointer and returns true to stop; a writer that was stopped says that all went well.
-struct Watch
-{
-    const Progress& progress;
-    bool stopped = false;
-
-    static bool report(void* watch, float done)
-    {
-        Watch& self = *static_cast<Watch*>(watch);
-        self.stopped = self.stopped || (self.progress && !self.progress(double(done)));
-        return self.stopped;
-    }
-};
-
 std::string folder_of(const std::string& path)
 {
     const std::string folder = OIIO::Filesystem::parent_path(path);
     return folder.empty() ? "." : folder;
 }
 
-// The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
-bool flush_to_disk(const std::string& path)
+// A file that keeps its failure to itself: OpenEXR's writing threads, told of a full disk, wait for one another for
+// ever.
+class OutputFile : public OIIO::Filesystem::IOFile
 {
-    const int file = ::open(path.c_str(), O_RDONLY);
-    const bool good = file >= 0 && ::fsync(file) == 0;
-    if (file >= 0)
-        ::close(file);
-    return good;
+public:
+    explicit OutputFile(const std::string& path)
+        : IOFile(path, Write)
+    {
+        if (!opened())
+            m_reason = error();
+    }
+
+    size_t write(const void* bytes, size_t size) override
+    {
+        if (sound() && IOFile::write(bytes, size) != size)
+            m_reason = std::strerror(errno);
+        return size;
+    }
+    // The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
+    void flush_to_disk()
+    {
+        if (sound() && (std::fflush(handle()) != 0 || ::fsync(::fileno(handle())) != 0))
+            m_reason = std::strerror(errno);
+    }
+    bool sound() const { return m_reason.empty(); }
+    const std::string& reason() const { return m_reason; }
+
+private:
+    std::string m_reason;
+};
+
+// OIIO's callback carries a pointer and returns true to stop; a writer that was stopped says that all went well.
+struct Watch
+{
+    const Progress& progress;
+    const OutputFile& file;
+    bool stopped = false;
+
+    static bool report(void* watch, float done)
+    {
+        Watch& self = *static_cast<Watch*>(watch);
+        self.stopped = self.stopped || (self.progress && !self.progress(double(done)));
+        return self.stopped || !self.file.sound();
+    }
+};
+
+void flush_folder(const std::string& path)
+{
+    const int folder = ::open(path.c_str(), O_RDONLY);
+    if (folder < 0)
+        return;
+    ::fsync(folder);
+    ::close(folder);
 }
 
 bool fits_half(const OIIO::ImageBuf& image, std::string& error)
@@ -126,23 +160,28 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     auto out = OIIO::ImageOutput::create("openexr");
     if (!out)
         return failed(OIIO::geterror());
-    if (!out->open(temporary, spec))
+    OutputFile file(temporary);
+    if (!file.sound())
+        return failed(file.reason());
+    if (!out->set_ioproxy(&file) || !out->open(temporary, spec))
         return failed(oiio::reason(*out));
     const auto* pixels = image.localpixels();
-    Watch watch { progress };
+    Watch watch { progress, file };
     const bool written = out->write_image(OIIO::TypeDesc::FLOAT, pixels, OIIO::AutoStride, OIIO::AutoStride,
                                           OIIO::AutoStride, Watch::report, &watch);
     const bool closed = out->close();
     if (watch.stopped)
         return failed("interrupted");
-    if (!written || !closed)
+    if (file.sound() && (!written || !closed))
         return failed(oiio::reason(*out));
-    if (!flush_to_disk(temporary))
-        return failed("cannot flush it to the disk");
+    file.flush_to_disk();
+    if (!file.sound())
+        return failed(file.reason());
+    file.close();
     std::string reason;
     if (!OIIO::Filesystem::rename(temporary, path, reason))
         return failed(reason);
-    flush_to_disk(folder_of(path));
+    flush_folder(folder_of(path));
     return true;
 }
 

@@ -30,9 +30,8 @@ char s_farewell[64]; // what to say from within a signal handler, which may form
 // there is nothing to tidy up, and no need to wait for them.
 void interrupt(int)
 {
-    s_interrupted = true;
-    if (s_leaves_debris)
-        return;
+    if (!s_interrupted.exchange(true) && s_leaves_debris)
+        return; // the second time the user means it
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_farewell, std::strlen(s_farewell));
     ::_exit(int(Exit::Failed));
 }

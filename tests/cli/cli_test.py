@@ -5,6 +5,7 @@ Run as: cli_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLI
 on the path. Each TestCase is one CTest test.
 """
 import os
+import resource
 import shutil
 import signal
 import struct
@@ -184,6 +185,19 @@ class Outputs(Case):
         self.refused(1, "no texture coordinates", "makevismap", "bad.obj", "-o", "old.exr")
         self.refused(1, "no such file", "makecfem", "missing.exr", "-o", "old.exr")
         self.refused(1, "no such file", "makelightmap", "vm.exr", "missing.exr", "-o", "old.exr")
+
+    def test_a_full_disk_is_told_and_leaves_the_old_file(self):
+        def fill_disk():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
+        before = self.contents()
+        for threads in "1", "4":
+            # Unless SIGXFSZ is ignored, as Python does, it ends the process.
+            result = subprocess.run([os.path.join(BIN, "makevismap"), SPOT, "-o", "old.exr", "--resolution", "512",
+                                     "--samples", "4", "--threads", threads], cwd=self.folder, capture_output=True,
+                                    text=True, timeout=60, preexec_fn=fill_disk, restore_signals=False)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn('makevismap ERROR: "old.exr": File too large', result.stderr)
+            self.assertEqual(self.contents(), before)
 
     def test_half_is_refused_where_it_would_overflow(self):
         self.sky(1e5, 1, 1)
