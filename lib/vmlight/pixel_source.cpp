@@ -8,7 +8,9 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
+#include <iterator>
 #include <list>
 #include <mutex>
 
@@ -22,40 +24,43 @@ using OIIO::Strutil::fmt::format;
 // Chains are short; one this long is a script that writes recipes gone wrong.
 constexpr size_t kLongestChain = 32;
 
-// Those used last stand first.
+// Those used last stand first. What is dropped ends after the lock does: it may be large.
 class Sources
 {
 public:
     PixelSourcePointer find(const std::string& key)
     {
+        List dropped;
         const std::lock_guard<std::mutex> lock(m_mutex);
         const auto found = place(key);
         if (found == m_sources.end())
             return nullptr;
         if ((*found)->failed()) {
-            m_sources.erase(found);
+            dropped.splice(dropped.end(), m_sources, found);
             return nullptr;
         }
         m_sources.splice(m_sources.begin(), m_sources, found);
-        trim();
+        trim(dropped);
         return m_sources.front();
     }
     PixelSourcePointer keep(PixelSourcePointer source)
     {
+        List dropped;
         const std::lock_guard<std::mutex> lock(m_mutex);
         const auto found = place(source->key());
         if (found != m_sources.end() && !(*found)->failed())
             return *found;
         m_sources.push_front(source);
-        trim();
+        trim(dropped);
         return source;
     }
     void set_limits(size_t bytes, size_t sources)
     {
+        List dropped;
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_bytes = bytes;
         m_count = std::max<size_t>(1, sources);
-        trim();
+        trim(dropped);
     }
 
 private:
@@ -64,14 +69,14 @@ private:
     {
         return std::find_if(m_sources.begin(), m_sources.end(), [&](const auto& s) { return s->key() == key; });
     }
-    void trim()
+    void trim(List& dropped)
     {
         size_t bytes = 0;
         for (const auto& source : m_sources)
             bytes += source->bytes();
         while (m_sources.size() > 1 && (m_sources.size() > m_count || bytes > m_bytes)) {
             bytes -= std::min(bytes, m_sources.back()->bytes());
-            m_sources.pop_back();
+            dropped.splice(dropped.end(), m_sources, std::prev(m_sources.end()));
         }
     }
     std::mutex m_mutex;
@@ -154,7 +159,7 @@ bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
     struct stat status;
     // A '?' may stand in a file's name, or begin what another plugin wants to be told.
     if (::stat(path.c_str(), &status) != 0 && ::stat(without_query(path).c_str(), &status) != 0) {
-        error = format("\"{}\": no such file", path);
+        error = format("\"{}\": {}", path, errno == ENOENT || errno == ENOTDIR ? "no such file" : "cannot be read");
         return false;
     }
     if (S_ISDIR(status.st_mode)) {

@@ -20,6 +20,13 @@ public:
     VMLIGHT_API explicit StageInput(const char* stage);
     VMLIGHT_API ~StageInput() override;
 
+    // The other overloads stay visible.
+    using ImageInput::open;
+    using ImageInput::read_native_scanline;
+    using ImageInput::read_native_tile;
+    using ImageInput::read_native_tiles;
+    using ImageInput::valid_file;
+
     VMLIGHT_API const char* format_name() const override;
     VMLIGHT_API int supports(OIIO::string_view feature) const override;
     /// Goes by the extension alone, so that open() gets to say what is wrong with the rest.
@@ -33,8 +40,6 @@ public:
     VMLIGHT_API OIIO::ImageSpec spec(int subimage, int miplevel = 0) override;
     VMLIGHT_API OIIO::ImageSpec spec_dimensions(int subimage, int miplevel = 0) override;
 
-    using ImageInput::read_native_tile;
-    using ImageInput::read_native_tiles;
     VMLIGHT_API bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
     VMLIGHT_API bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
     VMLIGHT_API bool read_native_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend,

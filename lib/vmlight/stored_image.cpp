@@ -14,15 +14,6 @@ using OIIO::Strutil::fmt::format;
 // A pointer in OIIO 2, shared in OIIO 3.
 using Cache = decltype(OIIO::ImageCache::create(false));
 
-void end(OIIO::ImageCache* cache)
-{
-    OIIO::ImageCache::destroy(cache);
-}
-template <class Pointer> void end(Pointer& cache)
-{
-    cache.reset();
-}
-
 class StoredImage : public PixelSource
 {
 public:
@@ -35,7 +26,7 @@ public:
     {
         m_image.reset();
         if (m_cache)
-            end(m_cache);
+            OIIO::ImageCache::destroy(m_cache);
     }
 
     bool open(std::string& error)

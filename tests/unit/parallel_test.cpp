@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/parallel.h>
 
-#include <OpenImageIO/parallel.h>
+#include <OpenImageIO/thread.h>
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -111,23 +112,26 @@ TEST(Parallel, AnExceptionInTheWorkReachesTheCaller)
 
 TEST(Parallel, WhoWaitsDoesNotTakeUpOtherTasks)
 {
-    // Tasks that all need one thing, which the first to come makes with the help of others: were a waiting thread to
-    // take up another of these tasks, it would wait for itself.
-    for (int run = 0; run < 20; ++run) {
+    // A thread makes, under a lock, what tasks in the pool's queue are waiting for: were it to take up one of them
+    // while its helpers finish, it would wait for itself.
+    for (int run = 0; run < 10; ++run) {
         std::mutex making;
-        bool made = false;
-        std::atomic<int> done { 0 };
-        OIIO::parallel_for(
-            0, 64,
-            [&](int) {
-                const std::lock_guard<std::mutex> lock(making);
-                if (!made)
-                    parallel_items(50, 0,
-                                   [](int64_t, int) { std::this_thread::sleep_for(std::chrono::microseconds(20)); });
-                made = true;
-                ++done;
-            },
-            OIIO::paropt(0, OIIO::paropt::SplitDir::Y, 1));
-        EXPECT_EQ(done, 64);
+        std::atomic<bool> begun { false };
+        std::thread maker([&] {
+            const std::lock_guard<std::mutex> lock(making);
+            parallel_items(50, 0, [&](int64_t, int) {
+                begun = true;
+                std::this_thread::sleep_for(std::chrono::microseconds(200));
+            });
+        });
+        while (!begun)
+            std::this_thread::yield();
+        std::vector<std::future<void>> tasks;
+        for (int i = 0; i < 64; ++i)
+            tasks.push_back(
+                OIIO::default_thread_pool()->push([&](int) { const std::lock_guard<std::mutex> lock(making); }));
+        maker.join();
+        for (std::future<void>& task : tasks)
+            task.wait();
     }
 }
