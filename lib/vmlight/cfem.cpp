@@ -2,6 +2,7 @@
 #include <vmlight/cfem.h>
 
 #include <vmlight/cfem_exact.h>
+#include <vmlight/cfem_image.h>
 #include <vmlight/cfem_rows.h>
 #include <vmlight/cfem_sh.h>
 #include <vmlight/channels.h>
@@ -57,18 +58,31 @@ bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams&
     if (!done)
         return fail(dst, rows.error().empty() ? "interrupted" : rows.error());
 
+    OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
+    note_mended(spec, rows.bad_values());
+    // Only rounding is below 0 in an exact sum; the harmonics' ringing is theirs to show.
+    return set_cfem(dst, spec, rgb, exact, error) || fail(dst, error);
+}
+
+bool set_cfem(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vector<double>& rgb, bool clamp,
+              std::string& error)
+{
     std::vector<float> pixels(rgb.size());
     for (size_t i = 0; i < rgb.size(); ++i) {
-        // Only rounding is below 0 in an exact sum; the harmonics' ringing is theirs to show.
-        pixels[i] = float(exact ? std::max(0.0, rgb[i]) : rgb[i]);
-        if (!std::isfinite(pixels[i]))
-            return fail(dst, OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]));
+        pixels[i] = float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
+        if (!std::isfinite(pixels[i])) {
+            error = OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]);
+            return false;
+        }
     }
-    OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
-    if (const int64_t mended = rows.bad_values())
-        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
     dst.reset(spec);
     return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
+}
+
+void note_mended(OIIO::ImageSpec& spec, int64_t values)
+{
+    if (values)
+        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(values, std::numeric_limits<int>::max())));
 }
 
 } // namespace vmlight

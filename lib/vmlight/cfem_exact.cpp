@@ -58,8 +58,10 @@ struct Scratch
 class ExactFilter
 {
 public:
-    ExactFilter(std::vector<double>& rgb, const Size& resolution, const EnvironmentGrid& grid, int nthreads)
+    ExactFilter(std::vector<double>& rgb, const Size& resolution, const EnvironmentGrid& grid, int nthreads,
+                HemisphereWeight weight)
         : m_rgb(rgb)
+        , m_uniform(weight == HemisphereWeight::uniform)
         , m_width(resolution.width)
         , m_height(resolution.height)
         , m_grid(grid)
@@ -183,7 +185,7 @@ private:
     void add_circle(ResultRow& row, int block_row, const LatitudeNode& node, Scratch& scratch)
     {
         const double a = node.cos_theta * row.cos_theta, b = node.sin_theta * row.sin_theta;
-        const double upward = node.weight * a, sideward = node.weight * b;
+        const double upward = m_uniform ? node.weight : node.weight * a, sideward = m_uniform ? 0 : node.weight * b;
         const Moments& total = m_light[block_row].total;
         row.all.add(upward, sideward, total);
         row.unit_vertical += 2 * pi * upward;
@@ -227,6 +229,8 @@ private:
 
     // Divide by what L = 1 gives, which makes a constant map exact; and fill in the row of the antipodes by
     // max(0, n.w) - max(0, -n.w) = n.w: what -n gets is what n gets less n . Int L w dw, by the same quadrature.
+    // Without the cosine, what n gets and what -n gets are all there is, and the same difference is that of -n times
+    // -1.
     void finish(int r)
     {
         const ResultRow& row = m_rows[r];
@@ -244,6 +248,7 @@ private:
     }
 
     std::vector<double>& m_rgb;
+    bool m_uniform;
     int m_width, m_height;
     EnvironmentGrid m_grid;
     int m_nthreads;
@@ -266,9 +271,9 @@ private:
 } // namespace
 
 bool filter_exact(std::vector<double>& rgb, const Size& resolution, const EnvironmentGrid& grid, const ReadRow& read,
-                  int nthreads, const Progress& progress)
+                  int nthreads, const Progress& progress, HemisphereWeight weight)
 {
-    return ExactFilter(rgb, resolution, grid, nthreads).run(read, progress);
+    return ExactFilter(rgb, resolution, grid, nthreads, weight).run(read, progress);
 }
 
 } // namespace vmlight
