@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -102,14 +103,14 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 
 } // namespace
 
-bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error)
+bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage)
 {
     if (!OIIO::Filesystem::is_regular(path) && path.find('?') == std::string::npos) {
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
-    dst.reset(path);
-    if (!dst.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
+    dst.reset(path, subimage);
+    if (!dst.read(subimage, 0, true, OIIO::TypeDesc::FLOAT)) {
         error = format("\"{}\": {}", path, oiio::reason(dst));
         dst.clear();
         return false;
@@ -136,21 +137,31 @@ std::string output_fault(const std::string& path)
 bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format_name,
                  const Progress& progress, std::string& error)
 {
+    return write_images(OIIO::cspan<OIIO::ImageBuf>(&image, 1), path, format_name, progress, error);
+}
+
+bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const std::string& format_name,
+                  const Progress& progress, std::string& error)
+{
     error = output_fault(path);
     const bool half = format_name == "half";
-    if (error.empty() && half && !fits_half(image, error))
-        error = format("\"{}\": {}", path, error);
+    for (const OIIO::ImageBuf& image : images)
+        if (error.empty() && half && !fits_half(image, error))
+            error = format("\"{}\": {}", path, error);
     if (!error.empty())
         return false;
 
     const std::string name = OIIO::Filesystem::filename(path);
     // Every % becomes a random digit: the folder's must stay.
     const std::string temporary = folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
-    OIIO::ImageSpec spec = image.spec();
-    spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-    spec.attribute("compression", "zip");
-    // OIIO writes the time of day into every EXR that names no date.
-    spec.attribute("DateTime", "");
+    std::vector<OIIO::ImageSpec> specs;
+    for (const OIIO::ImageBuf& image : images) {
+        OIIO::ImageSpec& spec = specs.emplace_back(image.spec());
+        spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+        spec.attribute("compression", "zip");
+        // OIIO writes the time of day into every EXR that names no date.
+        spec.attribute("DateTime", "");
+    }
 
     const auto failed = [&](const std::string& reason) {
         error = format("\"{}\": {}", path, reason);
@@ -163,12 +174,16 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     OutputFile file(temporary);
     if (!file.sound())
         return failed(file.reason());
-    if (!out->set_ioproxy(&file) || !out->open(temporary, spec))
+    const int count = int(specs.size());
+    if (!out->set_ioproxy(&file)
+        || !(count == 1 ? out->open(temporary, specs[0]) : out->open(temporary, count, specs.data())))
         return failed(oiio::reason(*out));
-    const auto* pixels = image.localpixels();
     Watch watch { progress, file };
-    const bool written = out->write_image(OIIO::TypeDesc::FLOAT, pixels, OIIO::AutoStride, OIIO::AutoStride,
-                                          OIIO::AutoStride, Watch::report, &watch);
+    bool written = true;
+    for (int i = 0; i < count && written && !watch.stopped; ++i)
+        written = (i == 0 || out->open(temporary, specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
+            && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
+                                OIIO::AutoStride, Watch::report, &watch);
     const bool closed = out->close();
     if (watch.stopped)
         return failed("interrupted");

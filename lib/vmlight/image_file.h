@@ -12,7 +12,7 @@
 namespace vmlight {
 
 /// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`.
-VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error);
+VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage = 0);
 
 /// Why `path` cannot be the name of an output, or "": it must end in .exr (other formats lose channel names, range or
 /// the mark that says data from colour), lie in a folder that exists and can be written, and not be a folder, a device
@@ -25,5 +25,9 @@ VMLIGHT_API std::string output_fault(const std::string& path);
 /// `error`; a value beyond the range of half is refused, never written as infinity.
 VMLIGHT_API bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format,
                              const Progress& progress, std::string& error);
+/// The same for several images in one file, the first of them what opens by default. Each has its name in
+/// `oiio:subimagename`.
+VMLIGHT_API bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const std::string& format,
+                              const Progress& progress, std::string& error);
 
 } // namespace vmlight

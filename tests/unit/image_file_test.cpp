@@ -96,6 +96,38 @@ TEST(ImageFile, AnOutputReplacesTheOldOneAndLeavesNothingElse)
     EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
 }
 
+TEST(ImageFile, SeveralImagesStandInOneFileOrNone)
+{
+    const TemporaryFolder folder;
+    std::vector<OIIO::ImageBuf> images(3, vismap_like(70, 66));
+    for (int i = 0; i < 3; ++i) {
+        images[size_t(i)].specmod().attribute("oiio:subimagename", "image" + std::to_string(i));
+        images[size_t(i)].setpixel(5, 5, std::vector<float>(5, float(i)));
+    }
+    std::string error;
+    ASSERT_TRUE(write_images(images, folder / "a.exr", "float", {}, error)) << error;
+    const std::string old = folder.bytes("a.exr");
+    for (int i = 0; i < 3; ++i) {
+        OIIO::ImageBuf back;
+        ASSERT_TRUE(read_image(back, folder / "a.exr", error, i)) << error;
+        EXPECT_EQ(back.nsubimages(), 3);
+        EXPECT_EQ(back.getchannel(5, 5, 0, 0), float(i));
+    }
+    OIIO::ImageBuf none;
+    EXPECT_FALSE(read_image(none, folder / "a.exr", error, 3));
+    int calls = 0;
+    EXPECT_FALSE(write_images(
+        images, folder / "a.exr", "float", [&](double) { return ++calls < 4; }, error));
+    EXPECT_EQ(error, "\"" + folder / "a.exr" + "\": interrupted");
+    images[2].setpixel(3, 4, std::vector<float> { 0, 0, 1e6f, 0, 0 });
+    EXPECT_FALSE(write_images(images, folder / "a.exr", "half", {}, error));
+    EXPECT_TRUE(folder.bytes("a.exr") == old);
+    EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
+    ASSERT_TRUE(write_images(images, folder / "b.exr", "float", {}, error)) << error;
+    ASSERT_TRUE(write_images(images, folder / "c.exr", "float", {}, error)) << error;
+    EXPECT_TRUE(folder.bytes("b.exr") == folder.bytes("c.exr"));
+}
+
 TEST(ImageFile, AnInterruptedOutputLeavesTheOldFileAsItWas)
 {
     const TemporaryFolder folder;
