@@ -5,6 +5,7 @@
 /// Counters: ns a texel, and ratios to a run of the other kind taken in turn with it, so that both see the same
 /// machine. Times are the best of the run. Two contents: `smooth`, where neighbours look along like directions, as in a
 /// baked chart; `random`, where each texel looks anywhere, the worst case for the cache that holds the CFEM.
+#include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
 #include <vmlight/latlong.h>
 #include <vmlight/lightmap.h>
@@ -113,6 +114,32 @@ void shading_against_streaming(benchmark::State& state)
     state.counters["times_stream"] = best(shading) / best(streaming);
 }
 
+// The kernels of the models in turn on one thread; a stack has the sizes that make_cfem_stack() gives it.
+void lobe_against_paper(benchmark::State& state)
+{
+    const ImageBuf vismap = visibility_map(Content(state.range(0)));
+    const float* in = static_cast<const float*>(vismap.localpixels());
+    std::vector<float> out(3 * kTexels);
+    std::vector<ImageBuf> stack;
+    CfemLookup cfem;
+    LobeLookup lobes;
+    std::string error;
+    if (!make_cfem_stack(stack, environment(), {}, error) || !prepare_cfem(cfem, stack[0], error)
+        || !prepare_lobes(lobes, stack, error))
+        state.SkipWithError(error.c_str());
+    const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1, &lobes };
+
+    std::vector<double> paper, lobe;
+    for (auto _ : state) {
+        paper.push_back(seconds([&] { shade_paper(setup, VismapOrder::visibility_first, in, kTexels, out.data()); }));
+        lobe.push_back(seconds([&] { shade_lobe(setup, VismapOrder::visibility_first, in, kTexels, out.data()); }));
+        state.SetIterationTime(lobe.back());
+    }
+    state.counters["ns_per_texel"] = best(lobe) / kTexels * 1e9;
+    state.counters["paper_ns"] = best(paper) / kTexels * 1e9;
+    state.counters["times_paper"] = best(lobe) / best(paper);
+}
+
 // make_lightmap() as a turntable calls it, on one thread and two in turn.
 void one_thread_against_two(benchmark::State& state)
 {
@@ -155,6 +182,7 @@ void scalar_shading(benchmark::State& state)
 const std::vector<int64_t> kContents { smooth, random_directions };
 
 BENCHMARK(shading_against_streaming)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
+BENCHMARK(lobe_against_paper)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
 BENCHMARK(one_thread_against_two)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
 BENCHMARK(scalar_shading)->ArgName("random")->ArgsProduct({ kContents });
 

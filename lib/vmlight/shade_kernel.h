@@ -8,6 +8,7 @@
 
 #include <vmlight/cfem_lookup.h>
 #include <vmlight/export.h>
+#include <vmlight/lobe_lookup.h>
 
 #include <cmath>
 #include <cstddef>
@@ -29,15 +30,17 @@ struct ShadeSetup
     float rotation[9];
     /// Multiplies the result. Finite, not negative.
     float gain;
+    /// What the model `lobe` looks up, in place of the CFEM.
+    const LobeLookup* lobes = nullptr;
 };
 
 /// A texel whose direction has no component of this many times its visibility has none: what it sees is symmetric.
 constexpr float kNoDirection = 1e-6f;
 
 /// The largest V gain for which no lookup can leave float's range.
-inline float largest_light(const CfemLookup& cfem)
+template <class Lookup> float largest_light(const Lookup& map)
 {
-    return 1.7e38f / (cfem.largest > 1 ? cfem.largest : 1.0f);
+    return 1.7e38f / (map.largest > 1 ? map.largest : 1.0f);
 }
 
 /// Shade `texels` texels by the model `paper`: gain V C(R B / |B|). 0 where V <= 0; where there is light but no
@@ -54,6 +57,13 @@ VMLIGHT_API bool shade_paper(const ShadeSetup& setup, VismapOrder order, const f
 /// The same, one texel at a time.
 VMLIGHT_API bool shade_paper_scalar(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
                                     float* rgb);
+
+/// Shade by the model `lobe`: gain V C_r(R B / |B|), r = |B| / V, where C_r is the environment filtered with the lobe
+/// whose mean direction has length r (lobe_lookup.h), linear in r between the knots of the stack. 0 where V <= 0.
+VMLIGHT_API bool shade_lobe(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb);
+/// The same, one texel at a time.
+VMLIGHT_API bool shade_lobe_scalar(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
+                                   float* rgb);
 
 /// atan(a) / (2 pi) = a (c0 + c1 a^2 + ...) for a in [0, 1]: minimax, off by at most 6e-9.
 constexpr float kAtanTurns[8] = { 0.159154832f,  -0.0530461222f,  0.0317459442f,  -0.022136271f,
