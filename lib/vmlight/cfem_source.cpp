@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/pixel_source.h>
 
-#include <vmlight/cfem.h>
+#include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/once_cache.h>
@@ -40,23 +40,31 @@ public:
         }
         if (!describe_scene_linear(spec, m_recipe.environment, m_color, error))
             return false;
-        m_spec = describe_cfem(spec, m_recipe.cfem_params);
-        m_spec.tile_width = m_spec.tile_height = kTileSize;
-        m_spec.tile_depth = 1;
+        for (int level = 0; level < (m_recipe.stack ? kStackLevels : 1); ++level) {
+            OIIO::ImageSpec& own
+                = m_specs.emplace_back(m_recipe.stack ? describe_cfem_level(spec, m_recipe.cfem_params, level)
+                                                      : describe_cfem(spec, m_recipe.cfem_params));
+            own.tile_width = own.tile_height = kTileSize;
+            own.tile_depth = 1;
+        }
+        m_spec = m_specs[0];
         return true;
     }
 
-    bool read(OIIO::ROI roi, float* dst, std::string& error) override
+    int subimages() const override { return int(m_specs.size()); }
+    const OIIO::ImageSpec& spec_of(int subimage) const override { return m_specs[size_t(subimage)]; }
+    bool read(OIIO::ROI roi, float* dst, std::string& error) override { return read_of(0, roi, dst, error); }
+    bool read_of(int subimage, OIIO::ROI roi, float* dst, std::string& error) override
     {
         if (!m_make.run([&](std::string& reason) { return make(reason); }, error))
             return false;
         roi.chbegin = 0;
         roi.chend = 3;
-        return m_cfem.get_pixels(roi, OIIO::TypeFloat, dst);
+        return m_cfem[size_t(subimage)].get_pixels(roi, OIIO::TypeFloat, dst);
     }
 
     bool failed() const override { return m_make.failed(); }
-    size_t bytes() const override { return size_t(m_spec.image_bytes()); }
+    size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
     bool make(std::string& error)
@@ -66,8 +74,11 @@ private:
         if (!read_all(environment, *m_environment, error)
             || !to_scene_linear(environment, m_recipe.environment, m_color, note, error, 1))
             return false;
-        if (!make_cfem(m_cfem, environment, m_recipe.cfem_params)) {
-            error = format("\"{}\": {}", m_recipe.environment, m_cfem.geterror());
+        m_cfem.resize(1);
+        const bool made = m_recipe.stack ? make_cfem_stack(m_cfem, environment, m_recipe.cfem_params, error)
+                                         : make_cfem(m_cfem[0], environment, m_recipe.cfem_params);
+        if (!made) {
+            error = format("\"{}\": {}", m_recipe.environment, m_recipe.stack ? error : m_cfem[0].geterror());
             return false;
         }
         ++stage_counts().cfems_made;
@@ -78,7 +89,8 @@ private:
     const PixelSourcePointer m_environment;
     const ColorSettings m_color;
     Once m_make;
-    OIIO::ImageBuf m_cfem;
+    std::vector<OIIO::ImageSpec> m_specs; // one, or one a level of the stack
+    std::vector<OIIO::ImageBuf> m_cfem;
 };
 
 } // namespace

@@ -60,7 +60,7 @@ bool shade(ImageBuf& dst, const VismapReader& vismap, const LightmapShader& shad
     return error.empty();
 }
 
-bool make(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const LightmapParams& params,
+bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const LightmapParams& params,
           const ImageBuf* albedo, int nthreads, const Progress& progress, std::string& error)
 {
     Rotation rotation;
@@ -71,8 +71,9 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const Lig
         || (albedo && !shader.use_albedo(*albedo, vismap.roi(), nthreads, error)))
         return false;
 
-    const ImageSpec spec = describe_lightmap(vismap.spec(), cfem.spec(), params);
-    const bool is_input = &dst == &vismap || &dst == &cfem || &dst == albedo;
+    const ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, is_stack(cfem));
+    const bool is_light = std::any_of(cfem.begin(), cfem.end(), [&](const ImageBuf& level) { return &dst == &level; });
+    const bool is_input = &dst == &vismap || is_light || &dst == albedo;
     ImageBuf apart;
     ImageBuf& target = is_input ? apart : dst;
     if (has_room(target, spec))
@@ -115,6 +116,12 @@ bool lightmap_rotation(Rotation& dst, const LightmapParams& params, std::string&
 }
 
 bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const LightmapParams& params,
+                   const ImageBuf* albedo, int nthreads, const Progress& progress)
+{
+    return make_lightmap(dst, vismap, OIIO::cspan<ImageBuf>(&cfem, 1), params, albedo, nthreads, progress);
+}
+
+bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const LightmapParams& params,
                    const ImageBuf* albedo, int nthreads, const Progress& progress)
 {
     std::string error;

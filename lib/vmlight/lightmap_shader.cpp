@@ -14,12 +14,6 @@ namespace {
 
 using OIIO::ImageSpec;
 
-// One kernel a model; check_params() has seen to it that the model is one of these.
-ShadeTexels kernel_of(const std::string&)
-{
-    return shade_paper;
-}
-
 void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
 {
     if (const OIIO::ParamValue* value = src.find_attribute(name))
@@ -38,7 +32,8 @@ void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const float* texels, F
 
 } // namespace
 
-ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, const LightmapParams& params)
+ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, const LightmapParams& params,
+                            bool has_stack)
 {
     ImageSpec spec(vismap.width, vismap.height, 3, OIIO::TypeFloat);
     OIIO::set_roi(spec, OIIO::get_roi(vismap));
@@ -46,6 +41,7 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
     spec.attribute("vmlight:stage", kLightmapStage);
     spec.attribute("vmlight:version", VMLIGHT_VERSION);
     append_params(spec, params);
+    spec.attribute("vmlight:model", lightmap_model(params, has_stack));
     for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
         copy_attribute(spec, vismap, name);
     for (const char* name : { "colorInteropID", "chromaticities" })
@@ -62,17 +58,25 @@ void ShadeFaults::merge(const ShadeFaults& other)
         error = other.error;
 }
 
-bool LightmapShader::prepare(const OIIO::ImageBuf& cfem, const LightmapParams& params, std::string& error)
+bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapParams& params, std::string& error)
 {
     Rotation rotation;
-    if (!lightmap_rotation(rotation, params, error) || !check_input(cfem, "cosine-filtered environment", error))
+    if (!lightmap_rotation(rotation, params, error))
         return false;
-    if (!prepare_cfem(m_lookup, cfem, error)) {
-        error = named(cfem, error);
+    for (const OIIO::ImageBuf& level : cfem)
+        if (!check_input(level, "cosine-filtered environment", error))
+            return false;
+    const bool lobe = lightmap_model(params, is_stack(cfem)) == "lobe";
+    if (lobe && !is_stack(cfem))
+        error = "model lobe needs a stack of lobes, and this is one cosine-filtered environment: make it anew with "
+                "makecfem --stack";
+    if (!error.empty() || !(lobe ? prepare_lobes(m_lobes, cfem, error) : prepare_cfem(m_lookup, cfem[0], error))) {
+        error = named(cfem[0], error);
         return false;
     }
-    m_kernel = kernel_of(params.model);
+    m_kernel = lobe ? shade_lobe : shade_paper;
     m_setup.cfem = &m_lookup;
+    m_setup.lobes = &m_lobes;
     m_setup.gain = float(std::exp2(params.exposure));
     for (int i = 0; i < 9; ++i)
         m_setup.rotation[i] = float(rotation[i / 3][i % 3]);

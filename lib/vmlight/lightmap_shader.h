@@ -16,9 +16,9 @@
 
 namespace vmlight {
 
-/// The lightmap of these inputs: size, channels and metadata.
+/// The lightmap of these inputs: size, channels and metadata. `has_stack`: whether `cfem` is the first level of one.
 OIIO::ImageSpec describe_lightmap(const OIIO::ImageSpec& vismap, const OIIO::ImageSpec& cfem,
-                                  const LightmapParams& params);
+                                  const LightmapParams& params, bool has_stack);
 
 /// What shading found wrong.
 struct ShadeFaults
@@ -37,8 +37,9 @@ public:
     LightmapShader(const LightmapShader&) = delete;
     LightmapShader& operator=(const LightmapShader&) = delete;
 
-    /// `cfem` is not needed any more afterwards. False, with the reason in `error`, as make_lightmap() does.
-    VMLIGHT_API bool prepare(const OIIO::ImageBuf& cfem, const LightmapParams& params, std::string& error);
+    /// `cfem`, one or the levels of a stack, is not needed any more afterwards. False, with the reason in `error`, as
+    /// make_lightmap() does.
+    VMLIGHT_API bool prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapParams& params, std::string& error);
 
     /// Multiply by `albedo`, which must outlive this. `size` are the pixels of the visibility map.
     VMLIGHT_API bool use_albedo(const OIIO::ImageBuf& albedo, OIIO::ROI size, int nthreads, std::string& error);
@@ -59,6 +60,7 @@ private:
     ShadeTexels m_kernel = nullptr;
     ShadeSetup m_setup {};
     CfemLookup m_lookup;
+    LobeLookup m_lobes;
     AlbedoReader m_albedo;
     bool m_has_albedo = false;
 };

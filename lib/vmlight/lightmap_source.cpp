@@ -48,7 +48,8 @@ public:
             error = chain.empty() ? error : format("\"{}\": {}", chain.back(), error);
             return false;
         }
-        m_spec = describe_lightmap(m_inputs.vismap->spec(), m_inputs.cfem->spec(), m_recipe.lightmap_params);
+        m_spec = describe_lightmap(m_inputs.vismap->spec(), m_inputs.cfem->spec(), m_recipe.lightmap_params,
+                                   m_inputs.cfem->subimages() > 1);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
         return true;
@@ -79,14 +80,17 @@ public:
 private:
     bool prepare(std::string& error)
     {
-        OIIO::ImageBuf cfem;
-        if (!read_all(cfem, *m_inputs.cfem, error))
-            return false;
+        // All levels of a stack, if they are of use.
+        const bool lobe = lightmap_model(m_recipe.lightmap_params, m_inputs.cfem->subimages() > 1) == "lobe";
+        std::vector<OIIO::ImageBuf> cfem(lobe ? size_t(m_inputs.cfem->subimages()) : 1);
+        for (size_t level = 0; level < cfem.size(); ++level)
+            if (!read_all(cfem[level], *m_inputs.cfem, error, int(level)))
+                return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
         }
-        m_bytes = 3 * size_t(cfem.spec().image_bytes());
+        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes());
         return !m_inputs.albedo || prepare_albedo(error);
     }
 
@@ -126,6 +130,7 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, std::string& error, 
     filter.colorspace = recipe.colorspace;
     filter.colorconfig = recipe.colorconfig;
     filter.cfem_params = recipe.cfem_params;
+    filter.stack = lightmap_model(recipe.lightmap_params, true) == "lobe";
     return open_source(filter, error);
 }
 

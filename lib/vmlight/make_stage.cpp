@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/make_stage.h>
 
+#include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
+#include <vmlight/lobe_lookup.h>
 #include <vmlight/recipe_chain.h>
 
 #include <OpenImageIO/imageio.h>
@@ -44,15 +46,37 @@ template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const MakeOptions& 
     return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : failed(dst, error);
 }
 
-// An image, or what its recipe makes.
+// What the name of a cfem's recipe, which `options.chain` ends with, asks for.
+bool make_named_levels(std::vector<OIIO::ImageBuf>& dst, const MakeOptions& options, std::string& error)
+{
+    CfemRecipe recipe;
+    return read_recipe(recipe, options.chain.back(), error) && make_images(dst, recipe, options, error);
+}
+
+// `first` and the levels that follow it in the file `name`, if it is a stack's.
+bool read_levels(std::vector<OIIO::ImageBuf>& dst, OIIO::ImageBuf&& first, const std::string& name, std::string& error)
+{
+    const bool stack = first.spec().get_string_attribute("vmlight:stack") == "true";
+    const int count = stack ? first.nsubimages() : 1;
+    dst.clear();
+    dst.push_back(std::move(first));
+    for (int level = 1; level < count; ++level)
+        if (!read_image(dst.emplace_back(), name, error, level))
+            return false;
+    return true;
+}
+
+// An image, or what its recipe makes. With `levels`, all images of a stack go there, and not to `dst`.
 bool read_image_or_recipe(OIIO::ImageBuf& dst, const std::string& name, Input wanted, const MakeOptions& options,
-                          std::string& error)
+                          std::string& error, std::vector<OIIO::ImageBuf>* levels)
 {
     const std::string found = recipe_stage(name);
     if (found.empty()) {
         if (read_image(dst, name, error))
             error = input_fault(name, dst.spec().get_string_attribute("vmlight:stage"), wanted);
-        return error.empty();
+        if (!error.empty() || !levels)
+            return error.empty();
+        return read_levels(*levels, std::move(dst), name, error);
     }
     MakeOptions inner = options;
     if (!link_recipe(inner.chain, name, error))
@@ -60,6 +84,8 @@ bool read_image_or_recipe(OIIO::ImageBuf& dst, const std::string& name, Input wa
     error = input_fault(name, found, wanted);
     if (!error.empty())
         return false;
+    if (levels)
+        return make_named_levels(*levels, inner, error);
     const bool good = found == VismapRecipe::kStage ? make_named<VismapRecipe>(dst, inner)
         : found == CfemRecipe::kStage               ? make_named<CfemRecipe>(dst, inner)
                                                     : make_named<LightmapRecipe>(dst, inner);
@@ -71,9 +97,9 @@ bool read_image_or_recipe(OIIO::ImageBuf& dst, const std::string& name, Input wa
 // What `recipe` gives as `key`.
 template <class Recipe>
 bool read_input(OIIO::ImageBuf& dst, const Recipe& recipe, const char* key, const std::string& name, Input wanted,
-                const MakeOptions& options, std::string& error)
+                const MakeOptions& options, std::string& error, std::vector<OIIO::ImageBuf>* levels = nullptr)
 {
-    if (read_image_or_recipe(dst, name, wanted, options, error))
+    if (read_image_or_recipe(dst, name, wanted, options, error, levels))
         return true;
     error = placed(recipe, key, options.chain, error);
     return false;
@@ -119,7 +145,8 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
 
 // Read `recipe.environment` in scene-linear light and filter it.
 template <class Recipe>
-bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOptions& options, std::string& error)
+bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, bool stack, const MakeOptions& options,
+                        std::string& error)
 {
     constexpr Input kWanted = std::is_same_v<Recipe, LightmapRecipe> ? Input::Environment : Input::Panorama;
     const std::string& name = recipe.environment;
@@ -131,14 +158,20 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
     if (!to_scene_linear(environment, name, { recipe.colorconfig, recipe.colorspace }, note, error))
         return false;
     const OIIO::Timer timer;
-    if (!make_cfem(dst, environment, recipe.cfem_params, options.threads, step(options, "filter"))) {
-        error = format("\"{}\": {}", name, dst.geterror());
+    dst.resize(1);
+    const bool made = stack
+        ? make_cfem_stack(dst, environment, recipe.cfem_params, error, options.threads, step(options, "filter"))
+        : make_cfem(dst[0], environment, recipe.cfem_params, options.threads, step(options, "filter"));
+    if (!made) {
+        error = format("\"{}\": {}", name, stack ? error : dst[0].geterror());
         return false;
     }
+    const OIIO::ImageSpec& spec = dst[0].spec();
     tell(options.say, "colour: " + note);
     tell(options.say,
-         format("filter: {}x{} to {}x{} in {:.3f} s", width, height, dst.spec().width, dst.spec().height, timer()));
-    if (const int mended = dst.spec().get_int_attribute("vmlight:sanitized"))
+         format("filter: {}x{} to {}{}x{} in {:.3f} s", width, height, stack ? format("{} of ", dst.size()) : "",
+                spec.width, spec.height, timer()));
+    if (const int mended = spec.get_int_attribute("vmlight:sanitized"))
         tell(options.warn, format("{} bad values of the environment were mended", mended));
     return true;
 }
@@ -152,6 +185,30 @@ bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
         return true;
     error = placed(recipe, "vismap", options.chain, format("\"{}\": {}", recipe.vismap, error));
     return false;
+}
+
+// A stack, where the model may use one: an environment is filtered for it, a stored CFEM is one or not.
+bool read_light(std::vector<OIIO::ImageBuf>& dst, const LightmapRecipe& recipe, const MakeOptions& options,
+                std::string& error)
+{
+    const bool wants_stack = lightmap_model(recipe.lightmap_params, true) == "lobe";
+    const bool filtered = !recipe.cfem.empty();
+    OIIO::ImageBuf first;
+    if (!filtered && !filter_environment(dst, recipe, wants_stack, options, error))
+        return false;
+    if (filtered
+        && !read_input(first, recipe, "cfem", recipe.cfem, Input::Cfem, options, error, wants_stack ? &dst : nullptr))
+        return false;
+    if (filtered && !wants_stack) {
+        dst.clear();
+        dst.push_back(std::move(first));
+    }
+    if (recipe.lightmap_params.model == "auto")
+        tell(options.say,
+             !filtered           ? "model: lobe, since the environment is filtered here"
+                 : is_stack(dst) ? "model: lobe, since the CFEM is a stack"
+                                 : "model: paper, since the CFEM is no stack (makecfem --stack)");
+    return true;
 }
 
 bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
@@ -186,11 +243,20 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptio
     return true;
 }
 
+bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
+                 std::string& error)
+{
+    error = recipe_fault(recipe, options.chain);
+    return error.empty() && filter_environment(dst, recipe, recipe.stack, options, error);
+}
+
 bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options)
 {
-    std::string error = recipe_fault(recipe, options.chain);
-    if (!error.empty() || !filter_environment(dst, recipe, options, error))
+    std::vector<OIIO::ImageBuf> images;
+    std::string error;
+    if (!make_images(images, recipe, options, error))
         return failed(dst, error);
+    dst = std::move(images[0]);
     return true;
 }
 
@@ -214,8 +280,7 @@ bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, con
     error = recipe_fault(recipe, options.chain);
     // The visibility map first, before an environment is filtered in vain.
     return error.empty() && read_vismap(dst.vismap, recipe, options, error)
-        && (recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
-                                : read_input(dst.cfem, recipe, "cfem", recipe.cfem, Input::Cfem, options, error))
+        && read_light(dst.cfem, recipe, options, error)
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
 }
 

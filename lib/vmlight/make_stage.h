@@ -37,10 +37,17 @@ VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, con
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options = {});
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options = {});
 
+/// As make_image(), all levels if `recipe` asks for a stack; of which make_image() makes the first alone. False, with
+/// the reason in `error`.
+VMLIGHT_API bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
+                             std::string& error);
+
 /// What a lightmap reads, ready for make_lightmap(): for several lightmaps of the same inputs.
 struct LightmapInputs
 {
-    OIIO::ImageBuf vismap, cfem, albedo;
+    OIIO::ImageBuf vismap, albedo;
+    /// One, or the levels of a stack.
+    std::vector<OIIO::ImageBuf> cfem;
 
     /// nullptr if the recipe has none.
     const OIIO::ImageBuf* albedo_or_none() const { return albedo.initialized() ? &albedo : nullptr; }

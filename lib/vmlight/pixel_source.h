@@ -25,12 +25,21 @@ public:
 
     /// Size, channels and metadata, known before any pixel is.
     const OIIO::ImageSpec& spec() const { return m_spec; }
+    /// Images in it: several if it is a stack of CFEM.
+    virtual int subimages() const { return 1; }
+    virtual const OIIO::ImageSpec& spec_of(int /*subimage*/) const { return m_spec; }
     /// All that the pixels depend on: parameters, and name, size and time of each file. Equal keys, equal pixels.
     const std::string& key() const { return m_key; }
 
     /// Set `dst` to the float pixels of `roi`, all channels, rows without padding; `roi` lies in the data window. Any
     /// thread. False, with the reason in `error`, if they cannot be made.
     virtual bool read(OIIO::ROI roi, float* dst, std::string& error) = 0;
+
+    /// The same for any image of it.
+    virtual bool read_of(int /*subimage*/, OIIO::ROI roi, float* dst, std::string& error)
+    {
+        return read(roi, dst, error);
+    }
 
     /// Whether what the pixels are made from could not be had, so that another open should try anew.
     virtual bool failed() const { return false; }

@@ -47,12 +47,15 @@ struct CfemRecipe
     /// Its colour space, "" if its name and tags tell; the OCIO config, "" for $OCIO.
     std::string colorspace, colorconfig;
     CfemParams cfem_params;
+    /// Make a stack (cfem_stack.h): the CFEM is then the first of several images in one file.
+    bool stack = false;
 
     template <class Visit> void visit(Visit&& field)
     {
         field("environment", environment, Path {}, "The lat-long map to filter");
         field("colorspace", colorspace, Text {}, "Colour space of the environment, if its name and tags do not tell");
         field("colorconfig", colorconfig, Path {}, "OCIO config; without it $OCIO");
+        field("stack", stack, Flag {}, "Add lobes wider and narrower than the cosine, for the model lobe");
         cfem_params.visit(field);
     }
 };

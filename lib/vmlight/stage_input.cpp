@@ -74,6 +74,7 @@ bool StageInput::open(const std::string& name, ImageSpec& spec)
             return false;
         }
         spec = m_spec = source->spec();
+        m_subimage = 0;
         m_source = std::move(source);
         return true;
     });
@@ -85,16 +86,31 @@ bool StageInput::close()
     return true;
 }
 
+bool StageInput::has(int subimage, int miplevel) const
+{
+    return m_source && subimage >= 0 && subimage < m_source->subimages() && miplevel == 0;
+}
+
+bool StageInput::seek_subimage(int subimage, int miplevel)
+{
+    if (!has(subimage, miplevel))
+        return false;
+    if (subimage != m_subimage)
+        m_spec = m_source->spec_of(subimage);
+    m_subimage = subimage;
+    return true;
+}
+
 ImageSpec StageInput::spec(int subimage, int miplevel)
 {
-    return subimage == 0 && miplevel == 0 ? m_spec : ImageSpec();
+    return has(subimage, miplevel) ? m_source->spec_of(subimage) : ImageSpec();
 }
 
 ImageSpec StageInput::spec_dimensions(int subimage, int miplevel)
 {
     ImageSpec dimensions;
-    if (subimage == 0 && miplevel == 0)
-        dimensions.copy_dimensions(m_spec);
+    if (has(subimage, miplevel))
+        dimensions.copy_dimensions(m_source->spec_of(subimage));
     return dimensions;
 }
 
@@ -106,13 +122,15 @@ bool StageInput::read_native_scanline(int, int, int, int, void*)
 
 bool StageInput::read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data)
 {
-    return read_native_tiles(subimage, miplevel, x, x + m_spec.tile_width, y, y + m_spec.tile_height, z, z + 1, data);
+    const ImageSpec spec = spec_dimensions(subimage, miplevel);
+    return read_native_tiles(subimage, miplevel, x, x + spec.tile_width, y, y + spec.tile_height, z, z + 1, data);
 }
 
 bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend, int zbegin,
                                    int zend, void* data)
 {
-    return read_native_tiles(subimage, miplevel, xbegin, xend, ybegin, yend, zbegin, zend, 0, m_spec.nchannels, data);
+    return read_native_tiles(subimage, miplevel, xbegin, xend, ybegin, yend, zbegin, zend, 0,
+                             spec_dimensions(subimage, miplevel).nchannels, data);
 }
 
 // The data stands in the caller's memory as one image of the region's size, from tile edge to tile edge or to
@@ -122,16 +140,19 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
 {
     return guarded([&] {
         const PixelSourcePointer source = m_source;
-        const ROI image = OIIO::get_roi(m_spec);
-        chend = std::min(chend, m_spec.nchannels);
-        if (!source || subimage != 0 || miplevel != 0 || zbegin != m_spec.z || zend != m_spec.z + 1 || chbegin < 0
-            || chbegin >= chend || xbegin < image.xbegin || ybegin < image.ybegin || xend <= xbegin || yend <= ybegin) {
+        // Not m_spec, which another thread may be seeking. A closed reader has no source and no tiles.
+        const ImageSpec none;
+        const ImageSpec& spec = has(subimage, miplevel) ? source->spec_of(subimage) : none;
+        const ROI image = OIIO::get_roi(spec);
+        chend = std::min(chend, spec.nchannels);
+        if (spec.undefined() || zbegin != spec.z || zend != spec.z + 1 || chbegin < 0 || chbegin >= chend
+            || xbegin < image.xbegin || ybegin < image.ybegin || xend <= xbegin || yend <= ybegin) {
             errorfmt("no such tiles: [{}, {}) x [{}, {}) of {}", xbegin, xend, ybegin, yend, m_stage);
             return false;
         }
-        const int across = (xend - xbegin + m_spec.tile_width - 1) / m_spec.tile_width;
-        const int down = (yend - ybegin + m_spec.tile_height - 1) / m_spec.tile_height;
-        const size_t pixel = size_t(chend - chbegin), all = size_t(m_spec.nchannels);
+        const int across = (xend - xbegin + spec.tile_width - 1) / spec.tile_width;
+        const int down = (yend - ybegin + spec.tile_height - 1) / spec.tile_height;
+        const size_t pixel = size_t(chend - chbegin), all = size_t(spec.nchannels);
         const size_t pitch = pixel * size_t(xend - xbegin);
         float* const first = static_cast<float*>(data);
 
@@ -139,9 +160,9 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
         std::string error;
         int64_t failed = int64_t(across) * down; // the first tile that could not be read
         const auto read = [&](int64_t tile, int) {
-            const int x = xbegin + int(tile % across) * m_spec.tile_width;
-            const int y = ybegin + int(tile / across) * m_spec.tile_height;
-            const ROI asked(x, std::min(x + m_spec.tile_width, xend), y, std::min(y + m_spec.tile_height, yend));
+            const int x = xbegin + int(tile % across) * spec.tile_width;
+            const int y = ybegin + int(tile / across) * spec.tile_height;
+            const ROI asked(x, std::min(x + spec.tile_width, xend), y, std::min(y + spec.tile_height, yend));
             const ROI there = OIIO::roi_intersection(asked, ROI(image.xbegin, image.xend, image.ybegin, image.yend));
             for (int row = asked.ybegin; row < asked.yend; ++row)
                 std::fill_n(first + size_t(row - ybegin) * pitch + size_t(asked.xbegin - xbegin) * pixel,
@@ -150,7 +171,7 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
                 return;
             std::vector<float> texels(all * size_t(there.width()) * size_t(there.height()));
             std::string reason;
-            if (!source->read(there, texels.data(), reason)) {
+            if (!source->read_of(subimage, there, texels.data(), reason)) {
                 const std::lock_guard<std::mutex> lock(mutex);
                 if (tile < failed) {
                     failed = tile;

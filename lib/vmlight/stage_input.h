@@ -35,6 +35,9 @@ public:
     /// cannot read, and holds a lock meanwhile.
     VMLIGHT_API bool open(const std::string& name, OIIO::ImageSpec& spec) override;
     VMLIGHT_API bool close() override;
+    /// The levels of a stack are subimages; there are no mips.
+    VMLIGHT_API bool seek_subimage(int subimage, int miplevel) override;
+    VMLIGHT_API int current_subimage() const override { return m_subimage; }
 
     // Without the lock of OIIO's own: what open() found never changes.
     VMLIGHT_API OIIO::ImageSpec spec(int subimage, int miplevel = 0) override;
@@ -50,7 +53,10 @@ public:
 private:
     template <class Work> bool guarded(Work&& work);
 
+    bool has(int subimage, int miplevel) const;
+
     const char* const m_stage;
+    int m_subimage = 0; // the one that m_spec is of
     PixelSourcePointer m_source;
 };
 

@@ -340,9 +340,14 @@ bool StageMain::write(const OIIO::ImageBuf& image, std::string& error)
 
 bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std::string& error)
 {
+    return write(OIIO::cspan<OIIO::ImageBuf>(&image, 1), path, error);
+}
+
+bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error)
+{
     s_leaves_debris = true;
-    const bool written = write_image(
-        image, path, m_state->common.format, [](double) { return !s_interrupted; }, error);
+    const bool written = write_images(
+        images, path, m_state->common.format, [](double) { return !s_interrupted; }, error);
     s_leaves_debris = false;
     return written;
 }

@@ -105,6 +105,8 @@ public:
     /// Write to output() (or `path`) in the format the user asked for.
     bool write(const OIIO::ImageBuf& image, std::string& error);
     bool write(const OIIO::ImageBuf& image, const std::string& path, std::string& error);
+    /// The same for several images of one file.
+    bool write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error);
 
 private:
     struct State;

@@ -39,8 +39,15 @@ public:
         m_spec = file->spec();
         if (m_spec.deep || m_spec.depth > 1)
             error = format("\"{}\": a {} image", m_path, m_spec.deep ? "deep" : "volume");
+        m_specs.push_back(m_spec);
+        if (m_spec.get_string_attribute("vmlight:stack") == "true")
+            while (file->seek_subimage(int(m_specs.size()), 0))
+                m_specs.push_back(file->spec());
         return error.empty();
     }
+
+    int subimages() const override { return int(m_specs.size()); }
+    const OIIO::ImageSpec& spec_of(int subimage) const override { return m_specs[size_t(subimage)]; }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
     {
@@ -69,14 +76,14 @@ public:
     }
 
     // At once, without the cache.
-    bool read_file(float* dst, std::string& error)
+    bool read_file(int subimage, float* dst, std::string& error)
     {
         const auto file = OIIO::ImageInput::open(m_path);
         if (!check_stamp(key(), m_path, error))
             return false;
         if (file)
             file->threads(1);
-        if (file && file->read_image(0, 0, 0, m_spec.nchannels, OIIO::TypeFloat, dst))
+        if (file && file->read_image(subimage, 0, 0, spec_of(subimage).nchannels, OIIO::TypeFloat, dst))
             return true;
         error = format("\"{}\": {}", m_path, file ? file->geterror() : OIIO::geterror());
         return false;
@@ -87,6 +94,7 @@ public:
 private:
     const std::string m_path;
     Cache m_cache {};
+    std::vector<OIIO::ImageSpec> m_specs;
     OIIO::ImageBuf m_image;
     Once m_open;
 };
@@ -104,9 +112,9 @@ PixelSourcePointer open_stored_image(const std::string& path, std::string& error
     return image->open(error) ? keep_source(image) : nullptr;
 }
 
-bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error)
+bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage)
 {
-    OIIO::ImageSpec spec = source.spec();
+    OIIO::ImageSpec spec = source.spec_of(subimage);
     spec.set_format(OIIO::TypeFloat);
     dst.reset(spec, OIIO::InitializePixels::No);
     auto* pixels = static_cast<float*>(dst.localpixels());
@@ -115,8 +123,8 @@ bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error)
         return false;
     }
     if (auto* file = dynamic_cast<StoredImage*>(&source))
-        return file->read_file(pixels, error);
-    return source.read(OIIO::get_roi(spec), pixels, error);
+        return file->read_file(subimage, pixels, error);
+    return source.read_of(subimage, OIIO::get_roi(spec), pixels, error);
 }
 
 } // namespace vmlight

@@ -11,15 +11,17 @@ int main(int argc, const char** argv)
                     { "ENVIRONMENT" },
                     "  makecfem studio.exr -o studio_cfem.exr\n"
                     "  makecfem sky.hdr --colorconfig config.ocio --resolution 512 -o sky_cfem.exr\n"
+                    "  makecfem studio.exr --stack -o studio_stack.exr\n"
                     "  makecfem studio.cfem -o studio_cfem.exr");
     stage.params("Filter:", recipe.cfem_params);
+    stage.option("stack", "", "Add lobes wider and narrower than the cosine, for the model lobe",
+                 [&](auto, auto&) { return recipe.stack = true; });
     stage.recipe("Inputs:", recipe, [&](const auto& operands) { recipe.environment = operands[0]; });
 
     return stage.run(argc, argv, [&](std::string& error) {
-        OIIO::ImageBuf cfem;
+        std::vector<OIIO::ImageBuf> levels; // one, but of a stack
         error = output_fault(stage.output());
-        if (error.empty() && !make_image(cfem, recipe, stage.make_options()))
-            error = cfem.geterror();
-        return error.empty() && stage.write(cfem, error);
+        return error.empty() && make_images(levels, recipe, stage.make_options(), error)
+            && stage.write(levels, stage.output(), error);
     });
 }

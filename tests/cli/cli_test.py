@@ -313,8 +313,34 @@ class Light(Case):
         self.vismap()
         self.done("makecfem", SKY, "-o", "cfem.exr")
         self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "a.exr")
-        self.done("makelightmap", "vm.exr", SKY, "-o", "b.exr")
+        self.done("makelightmap", "vm.exr", SKY, "-o", "b.exr", "--model", "paper")
         self.assert_same_pixels("a.exr", "b.exr", 0)
+
+    def test_a_stack_lights_by_lobes(self):
+        self.vismap()
+        self.done("makecfem", SKY, "-o", "cfem.exr")
+        self.assertIn("to 9 of 256x128", self.done("makecfem", SKY, "--stack", "-o", "stack.exr"))
+        self.assertIn("model: lobe, since the CFEM is a stack", self.done("makelightmap", "vm.exr", "stack.exr", "-o",
+                                                                          "stack_lit.exr"))
+        self.assertIn("model: lobe, since the environment is filtered here",
+                      self.done("makelightmap", "vm.exr", SKY, "-o", "env_lit.exr"))
+        self.assertIn("model: paper, since the CFEM is no stack", self.done("makelightmap", "vm.exr", "cfem.exr", "-o",
+                                                                            "paper_lit.exr"))
+        self.assert_same_pixels("stack_lit.exr", "env_lit.exr", 0)
+        # What knows no stacks reads the first image, a CFEM.
+        self.assert_same_pixels("stack.exr", "cfem.exr", 0)
+        self.done("makelightmap", "vm.exr", "stack.exr", "--model", "paper", "-o", "x.exr")
+        self.assert_same_pixels("x.exr", "paper_lit.exr", 0)
+        self.done("makecfem", SKY, "--stack", "-o", "again.exr", "--threads", "1")
+        self.assertEqual(self.read("again.exr"), self.read("stack.exr"))
+        self.oiiotool("stack.exr", "--subimage", "0", "-o", "first.exr")
+        self.assertIn("model: paper", self.done("makelightmap", "vm.exr", "first.exr", "-o", "x.exr"))
+        self.refused(1, '"cfem.exr": model lobe needs a stack of lobes', "makelightmap", "vm.exr", "cfem.exr", "--model",
+                     "lobe", "-o", "none.exr")
+        self.assertFalse(os.path.exists(self.path("none.exr")))
+        self.done("makecfem", SKY, "--stack", "-o", "half.exr", "--format", "half")
+        self.done("makelightmap", "vm.exr", "half.exr", "-o", "x.exr")
+        self.assert_same_pixels("x.exr", "stack_lit.exr", 0.02)
 
     def test_the_same_light_in_two_colour_spaces_gives_the_same_map(self):
         self.vismap()

@@ -45,7 +45,7 @@ class Host(unittest.TestCase):
         # The same, live.
         shutil.copy(SKY, self.path("studio.hdr"))
         self.write("floor.vismap", 'mesh = "floor.obj"\noccluder = "wall.obj"\nresolution = 64\nsamples = 64\n')
-        self.write("studio.cfem", 'environment = "studio.hdr"\n')
+        self.write("studio.cfem", 'environment = "studio.hdr"\nstack = true\n')
         self.write("floor.lightmap", 'vismap = "floor.vismap"\ncfem = "studio.cfem"\nrotate = [60, 30, 0]\n')
 
     def path(self, name):

@@ -75,7 +75,27 @@ class Pixels(Case):
         self.file("stored.lightmap", 'vismap = "vm.exr"\ncfem = "cfem.exr"\nrotate = [0, 30, 0]\n')
         self.assert_same_pixels("stored.lightmap", "lit.exr")
         self.file("env.lightmap", 'vismap = "vm.exr"\nenvironment = "studio_small_03.hdr"\ncfem_resolution = 64\n')
-        self.assert_same_pixels("env.lightmap?rotate=0,30,0", "lit.exr")
+        self.assert_same_pixels("env.lightmap?rotate=0,30,0&model=paper", "lit.exr")
+
+    def test_a_stack_is_subimages_and_lights_by_lobes(self):
+        self.make("makevismap", "hero.vismap", "-o", "vm.exr")
+        self.make("makecfem", "studio_small_03.hdr", "-o", "stack.exr", "--resolution", "64", "--stack")
+        self.make("makelightmap", "vm.exr", "stack.exr", "-o", "lobe.exr", "--rotate", "0,30,0", "--model", "lobe")
+        info = self.done("oiiotool", "--info", "-v", "-a", "studio.cfem?stack=true")
+        self.assertIn("9 subimages", info)
+        self.assertIn("vmlight:lobe: 0.5", info)
+        self.done("oiiotool", "studio.cfem?stack=true", "-o", "converted.exr")
+        self.done("oiiotool", "-a", "converted.exr", "stack.exr", "--fail", "0", "--diff")
+        self.assert_same_pixels("studio.cfem", "stack.exr")  # the first level is the CFEM
+        self.file("stack.cfem", 'environment = "studio_small_03.hdr"\nresolution = 64\nstack = true\n')
+        self.file("env.lightmap", 'vismap = "vm.exr"\nenvironment = "studio_small_03.hdr"\ncfem_resolution = 64\n')
+        self.file("a.lightmap", 'vismap = "hero.vismap"\ncfem = "stack.cfem"\n')
+        self.file("b.lightmap", 'vismap = "vm.exr"\ncfem = "stack.exr"\nmodel = "auto"\n')
+        for name in "env", "a", "b":
+            self.assert_same_pixels(f"{name}.lightmap?rotate=0,30,0", "lobe.exr")
+        self.assertIn('vmlight:model: "lobe"', self.done("oiiotool", "--info", "-v", "a.lightmap"))
+        self.assertIn('vmlight:model: "paper"', self.done("oiiotool", "--info", "-v", "hero.lightmap"))
+        self.refused("makecfem --stack", "hero.lightmap?model=lobe", "-o", "x.exr")
 
     def test_an_executable_reads_recipes_where_it_reads_images(self):
         self.make("makelightmap", "hero.vismap", "studio.cfem", "-o", "lit.exr", "--rotate", "0,30,0")

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage_scene.h"
 
+#include <vmlight/cfem_stack.h>
 #include <vmlight/image_file.h>
 #include <vmlight/lightmap.h>
+#include <vmlight/make_stage.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stage_input.h>
 
@@ -88,6 +90,42 @@ TEST(StageInput, OpensOfOneRecipeShareItsWork)
     EXPECT_EQ(all.meshes_read, 1);
     EXPECT_EQ(all.cfems_made, 1);
     EXPECT_EQ(all.tiles_baked, once.tiles_baked);
+}
+
+TEST(StageInput, LevelsOfAStackAreSubimages)
+{
+    const Folder folder;
+    const auto input = ImageInput::open(folder / "studio.cfem?stack=true");
+    ASSERT_TRUE(input) << OIIO::geterror();
+    const Work before;
+    EXPECT_EQ(input->current_subimage(), 0);
+    EXPECT_EQ(input->spec(8).get_float_attribute("vmlight:lobe"), float(stack_lobe(8)));
+    EXPECT_TRUE(input->spec(9).undefined());
+    EXPECT_TRUE(input->spec(0, 1).undefined());
+    EXPECT_FALSE(input->seek_subimage(9, 0));
+    EXPECT_FALSE(input->seek_subimage(0, 1));
+    EXPECT_TRUE(input->seek_subimage(3, 0));
+    EXPECT_EQ(input->current_subimage(), 3);
+    EXPECT_EQ(input->spec().get_float_attribute("vmlight:lobe"), float(stack_lobe(3)));
+    EXPECT_TRUE(Work() - before == Work::none());
+
+    std::vector<ImageBuf> levels;
+    std::string error;
+    CfemRecipe recipe;
+    recipe.environment = folder / "studio.exr";
+    recipe.cfem_params.resolution = { 32, 16 };
+    recipe.stack = true;
+    ASSERT_TRUE(make_images(levels, recipe, {}, error)) << error;
+    for (int level = 8; level >= 0; --level) {
+        std::vector<float> pixels(32 * 16 * 3);
+        ASSERT_TRUE(input->read_image(level, 0, 0, 3, OIIO::TypeFloat, pixels.data())) << input->geterror();
+        EXPECT_EQ(pixels, all_pixels(levels[size_t(level)])) << level;
+    }
+    EXPECT_EQ((Work() - before).cfems_made, 1);
+    std::vector<float> tile(64 * 64 * 3);
+    EXPECT_FALSE(input->read_native_tile(9, 0, 0, 0, 0, tile.data()));
+    EXPECT_NE(input->geterror(), "");
+    EXPECT_EQ(ImageBuf(folder / "studio.cfem?stack=true").nsubimages(), 9);
 }
 
 TEST(StageInput, AChangedInputIsReadAnew)

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The models against ray tracing: a mesh on the ground, lit by photographed skies.
+#include "scenes.h"
+#include "stack_maps.h"
+
+#include <vmlight/occluder.h>
+#include <vmlight/surface.h>
+#include <vmlight/vismap.h>
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <limits>
+
+using namespace vmlight;
+using namespace scene;
+
+namespace {
+
+constexpr int kSide = 40, kEnvironmentWidth = 128;
+
+// Of each texel of the mesh: (1/pi) Int L vis max(0, n.w) dw, one ray to each pixel of the environment.
+class Truth
+{
+public:
+    Truth(const Mesh& mesh, const Mesh& ground)
+        : m_frame(SceneFrame::around(mesh))
+        , m_surface(mesh, m_frame)
+        , m_cover(std::make_unique<TileCover>())
+        , m_fan(kEnvironmentWidth * kEnvironmentWidth / 2)
+    {
+        std::string error;
+        EXPECT_TRUE(m_occluder.build({ &mesh, &ground }, m_frame, 1, error)) << error;
+        UvRaster(mesh, kSide, kSide).cover(0, *m_cover);
+    }
+    bool covers(int x, int y) const { return triangle(x, y) != TileCover::kNone; }
+    double light(int x, int y, const ImageBuf& environment)
+    {
+        const size_t texel = size_t(y * kTileSize + x);
+        const SurfacePoint point = m_surface.at(triangle(x, y), m_cover->weight1[texel], m_cover->weight2[texel]);
+        const int width = kEnvironmentWidth, height = width / 2;
+        for (int i = 0; i < width * height; ++i) {
+            const V3f w = V3f(latlong::direction((i % width + 0.5) / width, (i / width + 0.5) / height));
+            m_fan.x[i] = w.x, m_fan.y[i] = w.y, m_fan.z[i] = w.z;
+            const uint8_t bit = uint8_t(1 << i % 8);
+            const bool front = w.dot(point.normal) > 0 && w.dot(point.geometric_normal) > 0;
+            m_fan.lanes[size_t(i / 8)] = uint8_t((m_fan.lanes[size_t(i / 8)] & ~bit) | (front ? bit : 0));
+        }
+        m_occluder.clear_blocked(m_fan, point.origin, std::numeric_limits<float>::infinity());
+        double sum = 0;
+        for (int i = 0; i < width * height; ++i)
+            if (m_fan.lanes[size_t(i / 8)] >> i % 8 & 1)
+                sum += environment.getchannel(i % width, i / width, 0, 1)
+                    * V3f(m_fan.x[i], m_fan.y[i], m_fan.z[i]).dot(point.normal)
+                    * latlong::row_solid_angle(i / width, height) / width;
+        return sum / latlong::pi;
+    }
+
+private:
+    uint32_t triangle(int x, int y) const { return m_cover->triangle[size_t(y * kTileSize + x)]; }
+
+    SceneFrame m_frame;
+    Surface m_surface;
+    Occluder m_occluder;
+    std::unique_ptr<TileCover> m_cover;
+    RayFan m_fan;
+};
+
+} // namespace
+
+TEST(LightmapTruth, ALobeIsAFifthCloserToRayTracingThanTheCosine)
+{
+    Mesh mesh;
+    std::string error;
+    ASSERT_TRUE(read_mesh(mesh, VMLIGHT_TEST_DATA "/spot.obj", {}, error)) << error;
+    double low = 1e9;
+    for (const V3d& p : mesh.positions)
+        low = std::min(low, p.y);
+    const Mesh ground = scenes::quad({ -9, low, 9 }, { 9, low, 9 }, { 9, low, -9 }, { -9, low, -9 });
+    VismapParams bake;
+    bake.resolution = { kSide, kSide };
+    bake.samples = 1024;
+    bake.margin = 0;
+    ImageBuf vm;
+    ASSERT_TRUE(make_vismap(vm, mesh, { ground }, bake)) << vm.geterror();
+
+    Truth truth(mesh, ground);
+    double paper = 0, lobe = 0;
+    int skies = 0;
+    for (const char* name : { "/studio_small_03.hdr", "/kloppenheim_05.hdr" }) {
+        const ImageBuf whole(std::string(VMLIGHT_TEST_DATA) + name);
+        const ImageBuf sky = OIIO::ImageBufAlgo::resize(
+            whole, "box", 0, OIIO::ROI(0, kEnvironmentWidth, 0, kEnvironmentWidth / 2, 0, 1, 0, 3));
+        const std::vector<ImageBuf> stack = filtered_stack(sky, 128);
+        const ImageBuf by_paper = lit(vm, stack, model("paper")), by_lobe = lit(vm, stack, model("lobe"));
+        double mean = 0, square_paper = 0, square_lobe = 0;
+        int count = 0;
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                if (!truth.covers(x, y))
+                    continue;
+                const double light = truth.light(x, y, sky);
+                mean += light;
+                square_paper += std::pow(color(by_paper, x, y).y - light, 2);
+                square_lobe += std::pow(color(by_lobe, x, y).y - light, 2);
+                ++count;
+            }
+        const double scale = std::sqrt(double(count)) / mean;
+        RecordProperty(std::string("paper_") + (name + 1), std::to_string(std::sqrt(square_paper) * scale));
+        RecordProperty(std::string("lobe_") + (name + 1), std::to_string(std::sqrt(square_lobe) * scale));
+        paper += std::sqrt(square_paper) * scale;
+        lobe += std::sqrt(square_lobe) * scale;
+        ++skies;
+    }
+    EXPECT_LT(lobe, 0.8 * paper) << "paper " << paper / skies << ", lobe " << lobe / skies;
+}
