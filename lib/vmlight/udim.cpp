@@ -16,7 +16,7 @@ namespace {
 using OIIO::Strutil::fmt::format;
 
 constexpr const char* kPattern = "<UDIM>";
-constexpr size_t kPatternLength = 6, kDigits = 4;
+constexpr size_t kDigits = 4;
 constexpr int kRows = (kLastUdim - kFirstUdim) / 10;
 
 bool is_udim(int number)
@@ -41,6 +41,18 @@ bool parse_udims(std::vector<int>& dst, const std::string& text, std::string& er
         }
     dst.assign(unique.begin(), unique.end());
     return true;
+}
+
+int udim_of_name(const std::string& path)
+{
+    const std::string name = OIIO::Filesystem::filename(path);
+    const size_t end = name.rfind('.'), begin = end == std::string::npos || end == 0 ? end : name.rfind('.', end - 1);
+    if (begin == std::string::npos || begin == 0 || end - begin != kDigits + 1)
+        return 0;
+    const std::string digits = name.substr(begin + 1, kDigits);
+    const bool plain = digits.find_first_not_of("0123456789") == std::string::npos;
+    const int number = plain ? OIIO::Strutil::stoi(digits) : 0;
+    return is_udim(number) ? number : 0;
 }
 
 bool has_udim(const std::string& path)
@@ -77,7 +89,6 @@ std::vector<int> existing_udims(const std::string& path)
 
 std::vector<int> mesh_udims(const Mesh& mesh)
 {
-    constexpr double kBorder = 1e-6; // floats of uvs up to 10 are good to that
     std::set<int> tiles;
     if (mesh.uvs.empty())
         return {};
@@ -96,8 +107,8 @@ std::vector<int> mesh_udims(const Mesh& mesh)
         const double most[2] = { 9, double(kRows) };
         int first[2], last[2];
         for (int axis = 0; axis < 2; ++axis) {
-            first[axis] = int(std::clamp(std::floor(low[axis] + kBorder), 0.0, most[axis] + 1));
-            last[axis] = int(std::clamp(std::ceil(high[axis] - kBorder) - 1, -1.0, most[axis]));
+            first[axis] = int(std::clamp(std::floor(low[axis] + kUdimBorder), 0.0, most[axis] + 1));
+            last[axis] = int(std::clamp(std::ceil(high[axis] - kUdimBorder) - 1, -1.0, most[axis]));
         }
         for (int v = first[1]; v <= last[1]; ++v)
             for (int u = first[0]; u <= last[0]; ++u)
