@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/make_stage.h>
 
+#include <vmlight/bake_scene.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
+#include <vmlight/recipe_udim.h>
+#include <vmlight/scene_cache.h>
+#include <vmlight/stage_counts.h>
+#include <vmlight/vismap_baker.h>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -41,13 +46,15 @@ bool failed(OIIO::ImageBuf& dst, const std::string& reason)
     return false;
 }
 
-// The same file by another path is the same recipe.
+// The same file by another way to its folder is the same recipe. Its name is as it was given, a link or not: it may say
+// a UDIM tile. A ring through links comes back to a name all the same.
 std::string identity(const std::string& name)
 {
-    const std::string path = recipe_path(name);
+    const std::filesystem::path path = recipe_path(name);
     std::error_code ignored;
-    const auto whole = std::filesystem::weakly_canonical(path, ignored);
-    return (ignored ? path : whole.string()) + name.substr(path.size());
+    const auto folder
+        = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored).parent_path(), ignored);
+    return (ignored ? path : folder / path.filename()).string() + name.substr(path.string().size());
 }
 
 std::string chain_fault(const std::vector<std::string>& chain, const std::string& name)
@@ -64,31 +71,23 @@ std::string chain_fault(const std::vector<std::string>& chain, const std::string
         : "";
 }
 
-template <class Recipe> std::string value_of(Recipe recipe, const std::string& key)
-{
-    std::string text;
-    recipe.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (key == name)
-            text = value_text(value, allowed);
-    });
-    return text;
-}
-
 // Where the user can mend it: unless a flag or a caller has put another value in the recipe's place.
 template <class Recipe>
-std::string placed(const Recipe& recipe, const std::string& key, const MakeOptions& options, const std::string& reason)
+std::string placed(Recipe recipe, const std::string& key, const MakeOptions& options, const std::string& reason)
 {
     Recipe read;
     std::string ignored;
-    if (options.chain.empty() || !read_recipe(read, options.chain.back(), ignored)
-        || value_of(read, key) != value_of(recipe, key))
+    if (options.chain.empty() || !read_recipe(read, options.chain.back(), ignored))
+        return reason;
+    udim_of(read) = udim_of(recipe);
+    if (recipe_value(resolve_udim(read), key) != recipe_value(recipe, key))
         return reason;
     return recipe_place(options.chain.back(), key) + ": " + reason;
 }
 
 template <class Recipe> std::string missing(const Recipe& recipe, const char* key, const MakeOptions& options)
 {
-    if (!value_of(recipe, key).empty())
+    if (!recipe_value(recipe, key).empty())
         return "";
     return (options.chain.empty() ? "" : format("\"{}\": ", options.chain.back())) + format("{} is missing", key);
 }
@@ -132,14 +131,37 @@ double percent(int64_t part, int64_t whole)
     return whole ? 100.0 * double(part) / double(whole) : 0.0;
 }
 
-void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec)
+// What lies in other tiles surprises only who did not ask for one; what straddles a border, and what no tile has,
+// everyone.
+void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
+{
+    const int64_t across = uv.outside - uv.elsewhere;
+    if (!recipe.udim_given && uv.outside > 0)
+        tell(options.warn,
+             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
+                    uv.triangles, uv.outside > uv.beyond ? "; it is in other UDIM tiles, see udim" : ""));
+    if (recipe.udim_given && across > 0)
+        tell(options.warn,
+             format("{} of {} triangles reach out of tile {} in uv: what lies outside is not in its map", across,
+                    uv.triangles, recipe.vismap_params.udim));
+    if (recipe.udim_given && uv.beyond > 0 && !options.again)
+        tell(options.warn,
+             format("{} of {} triangles reach out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies "
+                    "there is not baked",
+                    uv.beyond, uv.triangles));
+}
+
+void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
+                 const VismapRecipe& recipe)
 {
     const UvReport& uv = report.uv;
+    const std::string tile = recipe.udim_given ? format("tile {}", recipe.vismap_params.udim) : "[0,1]";
     tell(options.say,
          format("uv: {} triangles cover {:.1f} % of {}x{} texels; {} texels overlap; triangles: {} reach out of "
-                "[0,1], {} mirrored, {} without area in uv, {} in space, {} without uv",
+                "{}, {} lie elsewhere, {} mirrored, {} without area in uv, {} in space, {} without uv",
                 uv.triangles, percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-                uv.outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
+                uv.outside - uv.elsewhere, tile, uv.elsewhere, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d,
+                uv.without_uv));
     tell(options.say,
          format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
                 double(report.rays) * 1e-6, report.bake_seconds,
@@ -150,11 +172,8 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
              format("{} texels ({:.2f} % of those covered) belong to more than one triangle: the first triangle of the "
                     "file has them",
                     report.overlapping, percent(report.overlapping, report.covered)));
-    if (uv.outside > 0)
-        tell(options.warn,
-             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked", uv.outside,
-                    uv.triangles));
-    if (uv.without_uv > 0)
+    report_outside(options, uv, recipe);
+    if (uv.without_uv > 0 && !options.again)
         tell(options.warn,
              format("{} of {} triangles have no uv: they cast, and are not baked", uv.without_uv, uv.triangles));
     if (report.covered == 0)
@@ -163,6 +182,22 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         tell(options.warn,
              format("{:.0f} % of the covered texels see nothing: do the normals point inwards?",
                     percent(report.dark, report.covered)));
+}
+
+// Made, or that of another tile, map or reader of the same mesh.
+bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOptions& options, double& build_seconds,
+                std::string& error)
+{
+    SceneStamps stamps;
+    std::string at;
+    if (!stamp_scene(stamps, recipe, at, error)
+        || !share_scene(dst, recipe, stamps, options.threads, &build_seconds, at, error)) {
+        error = placed(recipe, at, options, error);
+        return false;
+    }
+    if (options.scene)
+        *options.scene = dst;
+    return true;
 }
 
 // Read `recipe.environment` in scene-linear light and filter it.
@@ -192,6 +227,7 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
         error = format("\"{}\": {}", name, dst.geterror());
         return false;
     }
+    ++stage_counts().cfems_made;
     tell(options.say, "colour: " + note);
     tell(options.say,
          format("filter: {}x{} to {}x{} in {:.3f} s", width, height, dst.spec().width, dst.spec().height, timer()));
@@ -224,6 +260,30 @@ bool read_cfem(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpti
     return false;
 }
 
+// All that a lightmap's light is made from.
+std::string light_of(const LightmapRecipe& recipe)
+{
+    std::string text;
+    LightmapRecipe copy = recipe;
+    copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        const std::string key = name;
+        if (key == "environment" || key == "colorspace" || key == "colorconfig" || key.compare(0, 4, "cfem") == 0)
+            text += key + "=" + value_text(value, allowed) + "\n";
+    });
+    return text;
+}
+
+bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    dst.light.clear();
+    dst.cfem.reset();
+    const bool good = recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
+                                          : read_cfem(dst.cfem, recipe, options, error);
+    if (good)
+        dst.light = light_of(recipe);
+    return good;
+}
+
 bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     std::string note;
@@ -239,31 +299,32 @@ bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
 
 } // namespace
 
-bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options)
+bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOptions& options)
 {
+    const VismapRecipe recipe = resolve_udim(given);
     std::string error = missing(recipe, "mesh", options);
     if (!error.empty())
         return failed(dst, error);
-    Mesh mesh;
-    std::vector<Mesh> occluders(recipe.occluder.size());
-    if (!read_mesh(mesh, recipe.mesh, recipe.mesh_params, error))
-        return failed(dst, placed(recipe, "mesh", options, error));
-    for (size_t i = 0; i < occluders.size(); ++i)
-        if (!read_mesh(occluders[i], recipe.occluder[i], recipe.mesh_params, error))
-            return failed(dst, placed(recipe, "occluder", options, error));
+    BakeScenePointer scene;
+    double build_seconds = 0;
+    if (!make_scene(scene, recipe, options, build_seconds, error))
+        return failed(dst, error);
     VismapReport report;
-    if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads, step(options, "bake")))
+    if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads, step(options, "bake")))
         return false;
+    report.build_seconds += build_seconds;
     append_params(dst.specmod(), recipe.mesh_params);
-    report_bake(options, report, dst.spec());
+    report_bake(options, report, dst.spec(), recipe);
     return true;
 }
 
-bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options)
+bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& given, const MakeOptions& options)
 {
+    const CfemRecipe recipe = resolve_udim(given);
     std::string error = missing(recipe, "environment", options);
     if (!error.empty() || !filter_environment(dst, recipe, options, error))
         return failed(dst, error);
+    tag_udim(dst.specmod(), recipe.udim);
     return true;
 }
 
@@ -277,22 +338,41 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
                        options.threads, step(options, "light")))
         return false;
+    tag_udim(dst.specmod(), recipe.udim);
     tell(options.say, format("light: 1 map of {}x{} in {:.3f} s", dst.spec().width, dst.spec().height, timer()));
     return true;
 }
 
-bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
+bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
+{
+    const VismapRecipe recipe = resolve_udim(given);
+    error = missing(recipe, "mesh", options);
+    BakeScenePointer scene;
+    double ignored = 0;
+    if (!error.empty() || !make_scene(scene, recipe, options, ignored, error))
+        return false;
+    dst = mesh_udims(scene->mesh());
+    if (dst.empty())
+        error = placed(recipe, "mesh", options,
+                       format("\"{}\": its texture coordinates lie in no UDIM tile", recipe.mesh));
+    return !dst.empty();
+}
+
+bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& given, const MakeOptions& options,
                           std::string& error)
 {
+    const LightmapRecipe recipe = resolve_udim(given);
     error = missing(recipe, "vismap", options);
     if (error.empty() && recipe.cfem.empty() && !missing(recipe, "environment", options).empty())
         error = missing(recipe, "environment", options) + ", or cfem";
     if (error.empty() && !recipe.cfem.empty() && !recipe.environment.empty())
         error = placed(recipe, "cfem", options, "environment is given too: one of them must be empty");
+    // One tile's images at a time.
+    dst.vismap.reset();
+    dst.albedo.reset();
     // The visibility map first, before an environment is filtered in vain.
     return error.empty() && read_vismap(dst.vismap, recipe, options, error)
-        && (recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
-                                : read_cfem(dst.cfem, recipe, options, error))
+        && (dst.light == light_of(recipe) || read_light(dst, recipe, options, error))
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
 }
 

@@ -91,13 +91,15 @@ Sources& sources()
     return all;
 }
 
-// One name for one file, however it was reached.
+// One name for one file, by whatever way to its folder. The name is as it was given, a link or not: it may say a UDIM
+// tile. A ring through links comes back to a name all the same.
 std::string identity(const std::string& name)
 {
-    const std::string path = without_query(name);
+    const std::filesystem::path path = without_query(name);
     std::error_code none;
-    const std::filesystem::path full = std::filesystem::weakly_canonical(path, none);
-    return (none ? path : full.string()) + name.substr(path.size());
+    const std::filesystem::path folder
+        = std::filesystem::weakly_canonical(std::filesystem::absolute(path, none).parent_path(), none);
+    return (none ? path : folder / path.filename()).string() + name.substr(path.string().size());
 }
 
 bool link_chain(RecipeChain& chain, const std::string& name, std::string& error)
