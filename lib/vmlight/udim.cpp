@@ -29,7 +29,8 @@ bool is_udim(int number)
 bool parse_udims(std::vector<int>& dst, const std::string& text, std::string& error)
 {
     std::vector<int> numbers;
-    if (!parse_frames(numbers, text, error)) {
+    // Steps are for frames: of tiles ten stand in a row.
+    if (text.find('x') != std::string::npos || !parse_frames(numbers, text, error)) {
         error = format("\"{}\" is not a list of tiles such as 1001-1003,1011", text);
         return false;
     }

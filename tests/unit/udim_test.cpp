@@ -50,9 +50,20 @@ TEST(Udim, AListIsSortedAndEachTileComesOnce)
 {
     EXPECT_EQ(udims("1011,1001-1003,1002"), (std::vector<int> { 1001, 1002, 1003, 1011 }));
     EXPECT_EQ(refusal("1001-"), "\"1001-\" is not a list of tiles such as 1001-1003,1011");
+    EXPECT_EQ(refusal("1001x"), "\"1001x\" is not a list of tiles such as 1001-1003,1011");
     EXPECT_EQ(refusal("all"), "\"all\" is not a list of tiles such as 1001-1003,1011");
     EXPECT_EQ(refusal(""), "\"\" is not a list of tiles such as 1001-1003,1011");
     EXPECT_EQ(refusal("999-1001"), "999 is no UDIM tile: they are 1001 to 9999");
+}
+
+TEST(Udim, AFilesNameSaysItsTileInItsLastPart)
+{
+    EXPECT_EQ(udim_of_name("hero.1011.lightmap"), 1011);
+    EXPECT_EQ(udim_of_name("/a.b/hero.v2.9999.lightmap"), 9999);
+    for (const char* name : { "hero.lightmap", "1011.lightmap", ".1011.lightmap", "hero.1000.lightmap",
+                              "hero.01011.lightmap", "hero.101a.lightmap", "hero_1011.lightmap",
+                              "hero.1011.v2.lightmap", "hero.1011", "hero", "a.1011.b/hero.lightmap", "" })
+        EXPECT_EQ(udim_of_name(name), 0) << name;
 }
 
 TEST(Udim, APatternFindsTheFilesThatExist)
