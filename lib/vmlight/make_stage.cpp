@@ -5,6 +5,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
+#include <vmlight/recipe_chain.h>
 #include <vmlight/recipe_udim.h>
 #include <vmlight/scene_cache.h>
 #include <vmlight/stage_counts.h>
@@ -16,17 +17,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-// Each recipe reads its inputs by recursion.
-constexpr size_t kLongestChain = 64;
-// No stage makes one.
-constexpr const char* kEnvironment = "environment";
 
 void tell(const std::function<void(const std::string&)>& listener, const std::string& line)
 {
@@ -46,84 +41,47 @@ bool failed(OIIO::ImageBuf& dst, const std::string& reason)
     return false;
 }
 
-// The same file by another way to its folder is the same recipe. Its name is as it was given, a link or not: it may say
-// a UDIM tile. A ring through links comes back to a name all the same.
-std::string identity(const std::string& name)
-{
-    const std::filesystem::path path = recipe_path(name);
-    std::error_code ignored;
-    const auto folder
-        = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored).parent_path(), ignored);
-    return (ignored ? path : folder / path.filename()).string() + name.substr(path.string().size());
-}
-
-std::string chain_fault(const std::vector<std::string>& chain, const std::string& name)
-{
-    const auto same = [&](const std::string& other) { return identity(other) == identity(name); };
-    const auto first = std::find_if(chain.begin(), chain.end(), same);
-    std::string path;
-    for (auto at = first; at != chain.end(); ++at)
-        path += format("\"{}\" -> ", *at);
-    if (first != chain.end())
-        return format("\"{}\" reads itself: {}\"{}\"", name, path, name);
-    return chain.size() >= kLongestChain
-        ? format("\"{}\": more than {} recipes, each within the last", name, kLongestChain)
-        : "";
-}
-
-// Where the user can mend it: unless a flag or a caller has put another value in the recipe's place.
-template <class Recipe>
-std::string placed(Recipe recipe, const std::string& key, const MakeOptions& options, const std::string& reason)
-{
-    Recipe read;
-    std::string ignored;
-    if (options.chain.empty() || !read_recipe(read, options.chain.back(), ignored))
-        return reason;
-    udim_of(read) = udim_of(recipe);
-    if (recipe_value(resolve_udim(read), key) != recipe_value(recipe, key))
-        return reason;
-    return recipe_place(options.chain.back(), key) + ": " + reason;
-}
-
-template <class Recipe> std::string missing(const Recipe& recipe, const char* key, const MakeOptions& options)
-{
-    if (!recipe_value(recipe, key).empty())
-        return "";
-    return (options.chain.empty() ? "" : format("\"{}\": ", options.chain.back())) + format("{} is missing", key);
-}
-
-template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const std::string& name, const MakeOptions& options)
+// The recipe that `options.chain` ends with.
+template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const MakeOptions& options)
 {
     Recipe recipe;
     std::string error;
-    if (!read_recipe(recipe, name, error))
-        return failed(dst, error);
-    MakeOptions inner = options;
-    inner.chain.push_back(name);
-    return make_image(dst, recipe, inner);
+    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : failed(dst, error);
 }
 
-// An image, or what its recipe makes. `wanted` is what a recipe there must be; "" is any.
-bool read_input(OIIO::ImageBuf& dst, const std::string& name, const std::string& wanted, const MakeOptions& options,
-                std::string& error)
+// An image, or what its recipe makes.
+bool read_image_or_recipe(OIIO::ImageBuf& dst, const std::string& name, Input wanted, const MakeOptions& options,
+                          std::string& error)
 {
     const std::string found = recipe_stage(name);
-    if (found.empty())
-        return read_image(dst, name, error);
-    error = chain_fault(options.chain, name);
+    if (found.empty()) {
+        if (read_image(dst, name, error))
+            error = input_fault(name, dst.spec().get_string_attribute("vmlight:stage"), wanted);
+        return error.empty();
+    }
+    MakeOptions inner = options;
+    if (!link_recipe(inner.chain, name, error))
+        return false;
+    error = input_fault(name, found, wanted);
     if (!error.empty())
         return false;
-    if (!wanted.empty() && found != wanted) {
-        error = format("\"{}\": the recipe of a {}, not of {} {}", name, found, wanted == kEnvironment ? "an" : "a",
-                       wanted);
-        return false;
-    }
-    const bool good = found == VismapRecipe::kStage ? make_named<VismapRecipe>(dst, name, options)
-        : found == CfemRecipe::kStage               ? make_named<CfemRecipe>(dst, name, options)
-                                                    : make_named<LightmapRecipe>(dst, name, options);
+    const bool good = found == VismapRecipe::kStage ? make_named<VismapRecipe>(dst, inner)
+        : found == CfemRecipe::kStage               ? make_named<CfemRecipe>(dst, inner)
+                                                    : make_named<LightmapRecipe>(dst, inner);
     if (!good)
         error = dst.geterror();
     return good;
+}
+
+// What `recipe` gives as `key`.
+template <class Recipe>
+bool read_input(OIIO::ImageBuf& dst, const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+                const MakeOptions& options, std::string& error)
+{
+    if (read_image_or_recipe(dst, name, wanted, options, error))
+        return true;
+    error = placed(recipe, key, options.chain, error);
+    return false;
 }
 
 double percent(int64_t part, int64_t whole)
@@ -192,7 +150,7 @@ bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOpt
     std::string at;
     if (!stamp_scene(stamps, recipe, at, error)
         || !share_scene(dst, recipe, stamps, options.threads, &build_seconds, at, error)) {
-        error = placed(recipe, at, options, error);
+        error = placed(recipe, at, options.chain, error);
         return false;
     }
     if (options.scene)
@@ -204,22 +162,13 @@ bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOpt
 template <class Recipe>
 bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOptions& options, std::string& error)
 {
+    constexpr Input kWanted = std::is_same_v<Recipe, LightmapRecipe> ? Input::Environment : Input::Panorama;
     const std::string& name = recipe.environment;
-    const auto refuse = [&](const std::string& reason) {
-        error = placed(recipe, "environment", options, reason);
-        return false;
-    };
     OIIO::ImageBuf environment;
     std::string note;
-    if (!read_input(environment, name, kEnvironment, options, error))
-        return refuse(error);
+    if (!read_input(environment, recipe, "environment", name, kWanted, options, error))
+        return false;
     const int width = environment.spec().width, height = environment.spec().height;
-    const std::string stage = environment.spec().get_string_attribute("vmlight:stage");
-    constexpr bool to_be_lit_by = std::is_same_v<Recipe, LightmapRecipe>;
-    if (to_be_lit_by && stage == kCfemStage)
-        return refuse(format("\"{}\": filtered already: give it as cfem", name));
-    if (to_be_lit_by && !stage.empty())
-        return refuse(format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", name, stage));
     if (!to_scene_linear(environment, name, { recipe.colorconfig, recipe.colorspace }, note, error))
         return false;
     const OIIO::Timer timer;
@@ -239,24 +188,11 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
 bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     std::array<int, 4> channels;
-    if (read_input(dst, recipe.vismap, kVismapStage, options, error)) {
-        if (find_vismap_channels(dst.spec(), channels, error))
-            return true;
-        error = format("\"{}\": {}", recipe.vismap, error);
-    }
-    error = placed(recipe, "vismap", options, error);
-    return false;
-}
-
-bool read_cfem(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
-{
-    if (read_input(dst, recipe.cfem, kCfemStage, options, error)) {
-        const std::string stage = dst.spec().get_string_attribute("vmlight:stage");
-        if (stage.empty() || stage == kCfemStage)
-            return true;
-        error = format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", recipe.cfem, stage);
-    }
-    error = placed(recipe, "cfem", options, error);
+    if (!read_input(dst, recipe, "vismap", recipe.vismap, Input::Vismap, options, error))
+        return false;
+    if (find_vismap_channels(dst.spec(), channels, error))
+        return true;
+    error = placed(recipe, "vismap", options.chain, format("\"{}\": {}", recipe.vismap, error));
     return false;
 }
 
@@ -277,8 +213,9 @@ bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOpt
 {
     dst.light.clear();
     dst.cfem.reset();
-    const bool good = recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
-                                          : read_cfem(dst.cfem, recipe, options, error);
+    const bool good = recipe.cfem.empty()
+        ? filter_environment(dst.cfem, recipe, options, error)
+        : read_input(dst.cfem, recipe, "cfem", recipe.cfem, Input::Cfem, options, error);
     if (good)
         dst.light = light_of(recipe);
     return good;
@@ -287,11 +224,8 @@ bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOpt
 bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     std::string note;
-    if (!read_input(dst, recipe.albedo, "", options, error)) {
-        error = placed(recipe, "albedo", options, error);
-        return false;
-    }
-    if (!to_scene_linear(dst, recipe.albedo, { recipe.colorconfig, recipe.albedo_colorspace }, note, error))
+    if (!read_input(dst, recipe, "albedo", recipe.albedo, Input::Albedo, options, error)
+        || !to_scene_linear(dst, recipe.albedo, { recipe.colorconfig, recipe.albedo_colorspace }, note, error))
         return false;
     tell(options.say, "albedo: " + note);
     return true;
@@ -302,12 +236,10 @@ bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
 bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOptions& options)
 {
     const VismapRecipe recipe = resolve_udim(given);
-    std::string error = missing(recipe, "mesh", options);
-    if (!error.empty())
-        return failed(dst, error);
+    std::string error = recipe_fault(recipe, options.chain);
     BakeScenePointer scene;
     double build_seconds = 0;
-    if (!make_scene(scene, recipe, options, build_seconds, error))
+    if (!error.empty() || !make_scene(scene, recipe, options, build_seconds, error))
         return failed(dst, error);
     VismapReport report;
     if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads, step(options, "bake")))
@@ -321,7 +253,7 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOption
 bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& given, const MakeOptions& options)
 {
     const CfemRecipe recipe = resolve_udim(given);
-    std::string error = missing(recipe, "environment", options);
+    std::string error = recipe_fault(recipe, options.chain);
     if (!error.empty() || !filter_environment(dst, recipe, options, error))
         return failed(dst, error);
     tag_udim(dst.specmod(), recipe.udim);
@@ -346,14 +278,14 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
 bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
 {
     const VismapRecipe recipe = resolve_udim(given);
-    error = missing(recipe, "mesh", options);
+    error = recipe_fault(recipe, options.chain);
     BakeScenePointer scene;
     double ignored = 0;
     if (!error.empty() || !make_scene(scene, recipe, options, ignored, error))
         return false;
     dst = mesh_udims(scene->mesh());
     if (dst.empty())
-        error = placed(recipe, "mesh", options,
+        error = placed(recipe, "mesh", options.chain,
                        format("\"{}\": its texture coordinates lie in no UDIM tile", recipe.mesh));
     return !dst.empty();
 }
@@ -362,11 +294,7 @@ bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& given, cons
                           std::string& error)
 {
     const LightmapRecipe recipe = resolve_udim(given);
-    error = missing(recipe, "vismap", options);
-    if (error.empty() && recipe.cfem.empty() && !missing(recipe, "environment", options).empty())
-        error = missing(recipe, "environment", options) + ", or cfem";
-    if (error.empty() && !recipe.cfem.empty() && !recipe.environment.empty())
-        error = placed(recipe, "cfem", options, "environment is given too: one of them must be empty");
+    error = recipe_fault(recipe, options.chain);
     // One tile's images at a time.
     dst.vismap.reset();
     dst.albedo.reset();

@@ -69,19 +69,16 @@ private:
 
 } // namespace
 
-PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain&)
+PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain)
 {
     const VismapRecipe recipe = resolve_udim(given);
-    VismapParams params = recipe.vismap_params;
-    MeshParams mesh_params = recipe.mesh_params;
-    if (recipe.mesh.empty())
-        error = "mesh: not given";
-    if (!error.empty() || !check_params(params, error) || !check_params(mesh_params, error))
+    error = recipe_fault(recipe, chain);
+    if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error))
         return nullptr;
     SceneStamps stamps;
     std::string at;
     if (!stamp_scene(stamps, recipe, at, error)) {
-        error = at + ": " + error;
+        error = placed(recipe, at, chain, error);
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + stamps.key;
