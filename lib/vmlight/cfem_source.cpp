@@ -5,6 +5,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/once_cache.h>
+#include <vmlight/recipe_udim.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 #include <vmlight/uvraster.h>
@@ -41,6 +42,7 @@ public:
         if (!describe_scene_linear(spec, m_recipe.environment, m_color, error))
             return false;
         m_spec = describe_cfem(spec, m_recipe.cfem_params);
+        tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
         return true;
@@ -90,8 +92,9 @@ bool stamp_config(std::string& stamp, const std::string& colorconfig, std::strin
     return config.empty() || OIIO::Strutil::starts_with(config, "ocio://") || stamp_file(stamp, config, error);
 }
 
-PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, const RecipeChain& chain)
 {
+    const CfemRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.cfem_params, error))
         return nullptr;

@@ -5,6 +5,7 @@
 #include <vmlight/color.h>
 #include <vmlight/lightmap_shader.h>
 #include <vmlight/once_cache.h>
+#include <vmlight/recipe_udim.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 #include <vmlight/uvraster.h>
@@ -49,6 +50,7 @@ public:
             return false;
         }
         m_spec = describe_lightmap(m_inputs.vismap->spec(), m_inputs.cfem->spec(), m_recipe.lightmap_params);
+        tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
         return true;
@@ -131,8 +133,9 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, std::string& error, 
 
 } // namespace
 
-PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const LightmapRecipe& given, std::string& error, const RecipeChain& chain)
 {
+    const LightmapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error))
         return nullptr;

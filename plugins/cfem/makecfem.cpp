@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/image_file.h>
 #include <vmlight/stage_main.h>
+#include <vmlight/udim_run.h>
 
 using namespace vmlight;
 
@@ -12,14 +12,17 @@ int main(int argc, const char** argv)
                     "  makecfem studio.exr -o studio_cfem.exr\n"
                     "  makecfem sky.hdr --colorconfig config.ocio --resolution 512 -o sky_cfem.exr\n"
                     "  makecfem studio.cfem -o studio_cfem.exr");
+    UdimRun tiles(stage, recipe);
     stage.params("Filter:", recipe.cfem_params);
-    stage.recipe("Inputs:", recipe, [&](const auto& operands) { recipe.environment = operands[0]; });
+    stage.recipe(
+        "Inputs:", recipe, [&](const auto& operands) { recipe.environment = operands[0]; },
+        [&] { return tiles.unsaid(); });
 
-    return stage.run(argc, argv, [&](std::string& error) {
+    const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
         OIIO::ImageBuf cfem;
-        error = output_fault(stage.output());
-        if (error.empty() && !make_image(cfem, recipe, stage.make_options()))
+        if (!make_image(cfem, tile, options))
             error = cfem.geterror();
-        return error.empty() && stage.write(cfem, error);
-    });
+        return error.empty() && stage.write(cfem, output, error);
+    };
+    return stage.run(argc, argv, [&](std::string& error) { return tiles.each(make, error); });
 }

@@ -88,6 +88,36 @@ class Pixels(Case):
         self.assert_same_pixels("hero.lightmap", "lit.exr")
 
 
+class Tiles(Case):
+    """UDIM: a quad in tile 1001 and one in 1012, at an angle."""
+
+    def setUp(self):
+        super().setUp()
+        corners = ((.125, .125), (.875, .125), (.875, .75), (.125, .75))
+        self.file("corner.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 1 -1 2\nv 1 1 2\nvn 0 0 1\nvn -1 0 0\n"
+                  + "".join(f"vt {x + tile} {y + tile}\n" for tile in (0, 1) for x, y in corners)
+                  + "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 2/5/2 5/6/2 6/7/2 3/8/2\n")
+        self.file("corner.vismap", 'mesh = "corner.obj"\nresolution = 100\nsamples = 8\n')
+        self.file("corner.lightmap", 'vismap = "vm.<UDIM>.exr"\ncfem = "studio.cfem"\n')
+        self.make("makevismap", "corner.obj", "-o", "vm.<UDIM>.exr", "--resolution", "100", "--samples", "8")
+        self.make("makelightmap", "vm.<UDIM>.exr", "studio.cfem", "-o", "lit.<UDIM>.exr")
+
+    def test_a_tile_has_the_bits_of_the_executable(self):
+        for udim in "1001", "1012":
+            self.assert_same_pixels(f"corner.vismap?udim={udim}", f"vm.{udim}.exr")
+            self.assert_same_pixels(f"corner.lightmap?udim={udim}", f"lit.{udim}.exr")
+            self.assert_same_pixels(f"corner.lightmap?udim={udim}&vismap=corner.vismap?udim=<UDIM>", f"lit.{udim}.exr")
+            os.symlink("corner.lightmap", self.path(f"link.{udim}.lightmap"))
+            self.assert_same_pixels(f"link.{udim}.lightmap", f"lit.{udim}.exr")
+        self.done("oiiotool", "link.#.lightmap", "--frames", "1001,1012", "-o", "out.#.exr")
+        self.assert_same_pixels("out.1012.exr", "lit.1012.exr")
+
+    def test_a_bad_tile_is_refused(self):
+        self.refused("corner.lightmap?udim=1000", "corner.lightmap?udim=1000", "-o", "x.exr")
+        self.file("bad.lightmap", 'vismap = "vm.<UDIM>.exr"\ncfem = "studio.cfem"\nudim = 1002\n')
+        self.refused("vm.1002.exr", "bad.lightmap", "-o", "x.exr")
+
+
 class Info(Case):
     def test_describing_computes_nothing(self):
         # What takes the mesh or the environment's pixels to know cannot be known here.
