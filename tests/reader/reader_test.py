@@ -175,13 +175,24 @@ class Faults(Case):
 
 
 class Symbols(unittest.TestCase):
+    @staticmethod
+    def shown(library):
+        lines = subprocess.run(["nm", "-D", "--defined-only", os.path.join(PLUGINS, library)], check=True,
+                               capture_output=True, text=True).stdout.splitlines()
+        return sorted(line.split()[-1] for line in lines)
+
     def test_a_plugin_shows_its_own_symbols_only(self):
         for stage in ("vismap", "cfem", "lightmap"):
-            shown = subprocess.run(["nm", "-D", "--defined-only", os.path.join(PLUGINS, stage + ".imageio.so")],
-                                   check=True, capture_output=True, text=True).stdout.splitlines()
-            self.assertEqual(sorted(line.split()[-1] for line in shown),
+            self.assertEqual(self.shown(stage + ".imageio.so"),
                              sorted(stage + name for name in ("_imageio_version", "_imageio_library_version",
                                                               "_input_imageio_create", "_input_extensions")))
+
+    def test_what_they_share_is_in_a_process_once(self):
+        self.assertEqual(self.shown("libvmlight_readers.so.0.1"), ["vmlight_create_reader"])
+        for stage in ("vismap", "cfem", "lightmap"):
+            needed = subprocess.run(["readelf", "-d", os.path.join(PLUGINS, stage + ".imageio.so")], check=True,
+                                    capture_output=True, text=True).stdout
+            self.assertIn("libvmlight_readers.so.0.1", needed)
 
 
 if __name__ == "__main__":
