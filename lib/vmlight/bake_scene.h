@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/export.h>
+#include <vmlight/file_stamp.h>
 #include <vmlight/mesh.h>
 #include <vmlight/occluder.h>
 
@@ -35,6 +36,9 @@ public:
     /// Memory held, about.
     size_t bytes() const;
 
+    /// What the caller read to build it, kept here for those who share it.
+    std::vector<FileStamp> files;
+
 private:
     std::shared_ptr<const Mesh> m_mesh;
     SceneFrame m_frame;
@@ -42,6 +46,7 @@ private:
     std::string m_mesh_hash, m_occluder_hashes;
     int64_t m_triangles = 0;
 };
+
 /// A pointer to `mesh`, which must outlive what takes it.
 inline std::shared_ptr<const Mesh> borrowed(const Mesh& mesh)
 {

@@ -67,9 +67,14 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, const Lig
     VismapReader reader;
     LightmapShader shader;
     if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, error)
-        || !shader.prepare(cfem, params, error)
-        || (albedo && !shader.use_albedo(*albedo, vismap.roi(), nthreads, error)))
+        || !shader.prepare(cfem, params, error))
         return false;
+    if (albedo) {
+        const auto opened = std::make_shared<AlbedoReader>();
+        if (!opened->open(*albedo, vismap.roi(), nthreads, error))
+            return false;
+        shader.use_albedo(opened);
+    }
 
     const ImageSpec spec = describe_lightmap(vismap.spec(), cfem.spec(), params);
     const bool is_input = &dst == &vismap || &dst == &cfem || &dst == albedo;

@@ -70,16 +70,22 @@ bool build(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps&
 {
     auto mesh = std::make_shared<Mesh>();
     std::vector<Mesh> occluders(recipe.occluder.size());
+    auto scene = std::make_shared<BakeScene>();
+    const auto keep_stamp = [&](const std::string& path) {
+        FileStamp file { path, "" };
+        std::string ignored;
+        if (stamp_file(file.stamp, path, ignored))
+            scene->files.push_back(std::move(file));
+    };
     for (size_t i = 0; i < stamps.files.size(); ++i) {
         at = key_of(i);
-        if (!read_mesh(i ? occluders[i - 1] : *mesh, path_of(recipe, i), recipe.mesh_params, error)
+        if (!read_mesh(i ? occluders[i - 1] : *mesh, path_of(recipe, i), recipe.mesh_params, error, keep_stamp)
             || !check_stamp(stamps.files[i], path_of(recipe, i), error))
             return false;
     }
     stage_counts().meshes_read += int64_t(stamps.files.size());
     const OIIO::Timer timer;
     at = key_of(0);
-    auto scene = std::make_shared<BakeScene>();
     if (!scene->build(std::move(mesh), occluders, nthreads, error))
         return false;
     ++stage_counts().scenes_built;
@@ -115,6 +121,8 @@ bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     const std::shared_ptr<Slot> slot = slots().find(stamps.key);
     const std::lock_guard<std::mutex> lock(slot->mutex);
     dst = slot->scene.lock();
+    if (dst && !are_unchanged(dst->files)) // one that another of them names, such as a glTF's buffer
+        dst = nullptr;
     if (!dst && !build(dst, recipe, stamps, nthreads, seconds, at, error))
         return false;
     slot->scene = dst;

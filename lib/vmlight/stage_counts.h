@@ -15,6 +15,7 @@ struct StageCounts
     std::atomic<int64_t> scenes_built { 0 }; ///< for the ray tracer
     std::atomic<int64_t> tiles_baked { 0 }; ///< those with a covered texel
     std::atomic<int64_t> cfems_made { 0 };
+    std::atomic<int64_t> albedos_made { 0 };
     std::atomic<int64_t> tiles_shaded { 0 };
 };
 VMLIGHT_API StageCounts& stage_counts();

@@ -36,7 +36,7 @@ public:
         return true;
     }
 
-    bool failed() const override { return m_prepare.failed(); }
+    bool failed() const override { return m_prepare.failed() || (m_bytes && !are_unchanged(m_scene->files)); }
     // The scene counts by halves, thirds, ... where it is shared, so that together the sharers count it once.
     size_t bytes() const override
     {
