@@ -5,6 +5,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/once_cache.h>
+#include <vmlight/recipe_udim.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 #include <vmlight/uvraster.h>
@@ -44,6 +45,7 @@ public:
             OIIO::ImageSpec& own
                 = m_specs.emplace_back(m_recipe.stack ? describe_cfem_level(spec, m_recipe.cfem_params, level)
                                                       : describe_cfem(spec, m_recipe.cfem_params));
+            tag_udim(own, m_recipe.udim);
             own.tile_width = own.tile_height = kTileSize;
             own.tile_depth = 1;
         }
@@ -102,8 +104,9 @@ bool stamp_config(std::string& stamp, const std::string& colorconfig, std::strin
     return config.empty() || OIIO::Strutil::starts_with(config, "ocio://") || stamp_file(stamp, config, error);
 }
 
-PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, const RecipeChain& chain)
 {
+    const CfemRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.cfem_params, error))
         return nullptr;

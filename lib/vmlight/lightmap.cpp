@@ -67,9 +67,14 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
     VismapReader reader;
     LightmapShader shader;
     if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, error)
-        || !shader.prepare(cfem, params, error)
-        || (albedo && !shader.use_albedo(*albedo, vismap.roi(), nthreads, error)))
+        || !shader.prepare(cfem, params, error))
         return false;
+    if (albedo) {
+        const auto opened = std::make_shared<AlbedoReader>();
+        if (!opened->open(*albedo, vismap.roi(), nthreads, error))
+            return false;
+        shader.use_albedo(opened);
+    }
 
     const ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, is_stack(cfem));
     const bool is_light = std::any_of(cfem.begin(), cfem.end(), [&](const ImageBuf& level) { return &dst == &level; });

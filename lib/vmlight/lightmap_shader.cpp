@@ -83,12 +83,6 @@ bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapPar
     return true;
 }
 
-bool LightmapShader::use_albedo(const OIIO::ImageBuf& albedo, OIIO::ROI size, int nthreads, std::string& error)
-{
-    m_has_albedo = m_albedo.open(albedo, size, nthreads, error);
-    return m_has_albedo;
-}
-
 void LightmapShader::shade(OIIO::ROI roi, VismapOrder order, const float* vismap, float* rgb,
                            std::vector<float>& scratch, ShadeFaults& faults) const
 {
@@ -96,8 +90,8 @@ void LightmapShader::shade(OIIO::ROI roi, VismapOrder order, const float* vismap
     bool sound = m_kernel(m_setup, order, vismap, size_t(roi.width()) * roi.height(), rgb);
     if (!sound)
         find_vismap_faults(roi, order, vismap, found.vismap);
-    if (m_has_albedo) {
-        m_albedo.multiply(roi, rgb, scratch, found.albedo, found.error);
+    if (m_albedo) {
+        m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);
         sound = false;
     }
     // The kernel vouches for what it made, so that only doubtful regions, and those an albedo scaled, are read again.
@@ -118,7 +112,7 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
     if (faults.vismap.any())
         return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", kVismapChannels));
     if (faults.albedo.any())
-        return led_by(albedo_name, m_albedo.fault_text(faults.albedo));
+        return led_by(albedo_name, m_albedo->fault_text(faults.albedo));
     return faults.result.text("lightmap", "too large for float", std::array { "R", "G", "B" });
 }
 

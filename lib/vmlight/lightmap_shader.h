@@ -11,7 +11,9 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vmlight {
@@ -41,8 +43,8 @@ public:
     /// make_lightmap() does.
     VMLIGHT_API bool prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapParams& params, std::string& error);
 
-    /// Multiply by `albedo`, which must outlive this. `size` are the pixels of the visibility map.
-    VMLIGHT_API bool use_albedo(const OIIO::ImageBuf& albedo, OIIO::ROI size, int nthreads, std::string& error);
+    /// Multiply by `albedo`, opened for the pixels of the visibility map.
+    void use_albedo(std::shared_ptr<const AlbedoReader> albedo) { m_albedo = std::move(albedo); }
 
     /// Shade the pixels of `roi`. Any thread, with a `scratch` of its own.
     ///
@@ -61,8 +63,7 @@ private:
     ShadeSetup m_setup {};
     CfemLookup m_lookup;
     LobeLookup m_lobes;
-    AlbedoReader m_albedo;
-    bool m_has_albedo = false;
+    std::shared_ptr<const AlbedoReader> m_albedo;
 };
 
 } // namespace vmlight

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/pixel_source.h>
 
+#include <vmlight/albedo_source.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/lightmap_shader.h>
 #include <vmlight/once_cache.h>
+#include <vmlight/recipe_udim.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 #include <vmlight/uvraster.h>
@@ -21,7 +23,8 @@ using OIIO::Strutil::fmt::format;
 /// What a lightmap reads; the albedo may be none.
 struct Inputs
 {
-    PixelSourcePointer vismap, cfem, albedo;
+    PixelSourcePointer vismap, cfem;
+    std::shared_ptr<AlbedoSource> albedo;
 };
 
 class LightmapSource : public PixelSource
@@ -36,11 +39,8 @@ public:
 
     bool describe(const RecipeChain& chain, std::string& error)
     {
-        std::array<int, 3> channels;
         if (!find_vismap_channels(m_inputs.vismap->spec(), m_index, error))
             error = placed(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
-        else if (m_inputs.albedo && !find_color_channels(m_inputs.albedo->spec(), channels, error))
-            error = placed(m_recipe, "albedo", chain, format("\"{}\": {}", m_recipe.albedo, error));
         Rotation rotation;
         if (!error.empty())
             return false;
@@ -50,6 +50,7 @@ public:
         }
         m_spec = describe_lightmap(m_inputs.vismap->spec(), m_inputs.cfem->spec(), m_recipe.lightmap_params,
                                    m_inputs.cfem->subimages() > 1);
+        tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
         return true;
@@ -74,7 +75,11 @@ public:
         return error.empty();
     }
 
-    bool failed() const override { return m_prepare.failed() || m_inputs.vismap->failed(); }
+    bool failed() const override
+    {
+        return m_prepare.failed() || m_inputs.vismap->failed() || m_inputs.cfem->failed()
+            || (m_inputs.albedo && m_inputs.albedo->failed());
+    }
     size_t bytes() const override { return m_bytes; }
 
 private:
@@ -91,30 +96,16 @@ private:
             return false;
         }
         m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes());
-        return !m_inputs.albedo || prepare_albedo(error);
-    }
-
-    // On this thread alone: resizing would wait for OIIO's pool.
-    bool prepare_albedo(std::string& error)
-    {
-        const ColorSettings color { m_recipe.colorconfig, m_recipe.albedo_colorspace, m_inputs.albedo->spec().format };
-        std::string note;
-        if (!read_all(m_albedo, *m_inputs.albedo, error)
-            || !to_scene_linear(m_albedo, m_recipe.albedo, color, note, error, 1))
-            return false;
-        if (!m_shader.use_albedo(m_albedo, OIIO::get_roi(m_spec), 1, error)) {
-            error = format("\"{}\": {}", m_recipe.albedo, error);
-            return false;
-        }
-        m_bytes += size_t(m_albedo.spec().image_bytes()) + size_t(m_spec.image_bytes());
-        return true;
+        const AlbedoReader* albedo = m_inputs.albedo ? m_inputs.albedo->reader(error) : nullptr;
+        if (albedo)
+            m_shader.use_albedo({ m_inputs.albedo, albedo });
+        return error.empty();
     }
 
     const LightmapRecipe m_recipe;
     const Inputs m_inputs;
     std::array<int, 4> m_index {};
     Once m_prepare;
-    OIIO::ImageBuf m_albedo;
     LightmapShader m_shader;
     std::atomic<size_t> m_bytes { 0 };
 };
@@ -136,8 +127,9 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, std::string& error, 
 
 } // namespace
 
-PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const LightmapRecipe& given, std::string& error, const RecipeChain& chain)
 {
+    const LightmapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error))
         return nullptr;
@@ -145,18 +137,23 @@ PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error,
     inputs.vismap = open_input(recipe, "vismap", recipe.vismap, Input::Vismap, error, chain);
     if (inputs.vismap)
         inputs.cfem = open_light(recipe, error, chain);
-    if (inputs.cfem && !recipe.albedo.empty())
-        inputs.albedo = open_input(recipe, "albedo", recipe.albedo, Input::Albedo, error, chain);
     if (!error.empty())
         return nullptr;
-    std::string config;
-    if (!stamp_config(config, recipe.colorconfig, error)) {
-        error = placed(recipe, "colorconfig", chain, error);
-        return nullptr;
-    }
-    std::string key = recipe_key(recipe) + config + inputs.vismap->key() + inputs.cfem->key();
-    if (inputs.albedo)
+    std::string key = recipe_key(recipe) + inputs.vismap->key() + inputs.cfem->key();
+    if (!recipe.albedo.empty()) {
+        const PixelSourcePointer image = open_input(recipe, "albedo", recipe.albedo, Input::Albedo, error, chain);
+        std::string config; // which only this needs: the light's is the CFEM's matter
+        if (image && !stamp_config(config, recipe.colorconfig, error))
+            error = placed(recipe, "colorconfig", chain, error);
+        else if (image) {
+            inputs.albedo = AlbedoSource::open(recipe, image, config, OIIO::get_roi(inputs.vismap->spec()), error);
+            if (!inputs.albedo)
+                error = placed(recipe, "albedo", chain, error);
+        }
+        if (!inputs.albedo)
+            return nullptr;
         key += inputs.albedo->key();
+    }
     if (PixelSourcePointer known = find_source(key))
         return known;
     auto source = std::make_shared<LightmapSource>(key, recipe, std::move(inputs));

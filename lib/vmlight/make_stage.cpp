@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/make_stage.h>
 
+#include <vmlight/bake_scene.h>
 #include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
 #include <vmlight/lobe_lookup.h>
 #include <vmlight/recipe_chain.h>
+#include <vmlight/recipe_udim.h>
+#include <vmlight/scene_cache.h>
+#include <vmlight/stage_counts.h>
+#include <vmlight/vismap_baker.h>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -110,14 +115,37 @@ double percent(int64_t part, int64_t whole)
     return whole ? 100.0 * double(part) / double(whole) : 0.0;
 }
 
-void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec)
+// What lies in other tiles surprises only who did not ask for one; what straddles a border, and what no tile has,
+// everyone.
+void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
+{
+    const int64_t across = uv.outside - uv.elsewhere;
+    if (!recipe.udim_given && uv.outside > 0)
+        tell(options.warn,
+             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
+                    uv.triangles, uv.outside > uv.beyond ? "; it is in other UDIM tiles, see udim" : ""));
+    if (recipe.udim_given && across > 0)
+        tell(options.warn,
+             format("{} of {} triangles reach out of tile {} in uv: what lies outside is not in its map", across,
+                    uv.triangles, recipe.vismap_params.udim));
+    if (recipe.udim_given && uv.beyond > 0 && !options.again)
+        tell(options.warn,
+             format("{} of {} triangles reach out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies "
+                    "there is not baked",
+                    uv.beyond, uv.triangles));
+}
+
+void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
+                 const VismapRecipe& recipe)
 {
     const UvReport& uv = report.uv;
+    const std::string tile = recipe.udim_given ? format("tile {}", recipe.vismap_params.udim) : "[0,1]";
     tell(options.say,
          format("uv: {} triangles cover {:.1f} % of {}x{} texels; {} texels overlap; triangles: {} reach out of "
-                "[0,1], {} mirrored, {} without area in uv, {} in space, {} without uv",
+                "{}, {} lie elsewhere, {} mirrored, {} without area in uv, {} in space, {} without uv",
                 uv.triangles, percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-                uv.outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
+                uv.outside - uv.elsewhere, tile, uv.elsewhere, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d,
+                uv.without_uv));
     tell(options.say,
          format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
                 double(report.rays) * 1e-6, report.bake_seconds,
@@ -128,11 +156,8 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
              format("{} texels ({:.2f} % of those covered) belong to more than one triangle: the first triangle of the "
                     "file has them",
                     report.overlapping, percent(report.overlapping, report.covered)));
-    if (uv.outside > 0)
-        tell(options.warn,
-             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked", uv.outside,
-                    uv.triangles));
-    if (uv.without_uv > 0)
+    report_outside(options, uv, recipe);
+    if (uv.without_uv > 0 && !options.again)
         tell(options.warn,
              format("{} of {} triangles have no uv: they cast, and are not baked", uv.without_uv, uv.triangles));
     if (report.covered == 0)
@@ -141,6 +166,22 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         tell(options.warn,
              format("{:.0f} % of the covered texels see nothing: do the normals point inwards?",
                     percent(report.dark, report.covered)));
+}
+
+// Made, or that of another tile, map or reader of the same mesh.
+bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOptions& options, double& build_seconds,
+                std::string& error)
+{
+    SceneStamps stamps;
+    std::string at;
+    if (!stamp_scene(stamps, recipe, at, error)
+        || !share_scene(dst, recipe, stamps, options.threads, &build_seconds, at, error)) {
+        error = placed(recipe, at, options.chain, error);
+        return false;
+    }
+    if (options.scene)
+        *options.scene = dst;
+    return true;
 }
 
 // Read `recipe.environment` in scene-linear light and filter it.
@@ -166,6 +207,7 @@ bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, 
         error = format("\"{}\": {}", name, stack ? error : dst[0].geterror());
         return false;
     }
+    ++stage_counts().cfems_made;
     const OIIO::ImageSpec& spec = dst[0].spec();
     tell(options.say, "colour: " + note);
     tell(options.say,
@@ -187,27 +229,40 @@ bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
     return false;
 }
 
-// A stack, where the model may use one: an environment is filtered for it, a stored CFEM is one or not.
-bool read_light(std::vector<OIIO::ImageBuf>& dst, const LightmapRecipe& recipe, const MakeOptions& options,
-                std::string& error)
+// All that a lightmap's light is made from.
+std::string light_of(const LightmapRecipe& recipe)
 {
-    const bool wants_stack = lightmap_model(recipe.lightmap_params, true) == "lobe";
-    const bool filtered = !recipe.cfem.empty();
+    std::string text = lightmap_model(recipe.lightmap_params, true) + "\n";
+    LightmapRecipe copy = recipe;
+    copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        const std::string key = name;
+        if (key == "environment" || key == "colorspace" || key == "colorconfig" || key.compare(0, 4, "cfem") == 0)
+            text += key + "=" + value_text(value, allowed) + "\n";
+    });
+    return text;
+}
+
+// A stack, where the model may use one: an environment is filtered for it, a stored CFEM is one or not.
+bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    dst.light.clear();
+    dst.cfem.clear();
+    const bool wants_stack = lightmap_model(recipe.lightmap_params, true) == "lobe", filtered = !recipe.cfem.empty();
     OIIO::ImageBuf first;
-    if (!filtered && !filter_environment(dst, recipe, wants_stack, options, error))
+    if (!filtered && !filter_environment(dst.cfem, recipe, wants_stack, options, error))
         return false;
     if (filtered
-        && !read_input(first, recipe, "cfem", recipe.cfem, Input::Cfem, options, error, wants_stack ? &dst : nullptr))
+        && !read_input(first, recipe, "cfem", recipe.cfem, Input::Cfem, options, error,
+                       wants_stack ? &dst.cfem : nullptr))
         return false;
-    if (filtered && !wants_stack) {
-        dst.clear();
-        dst.push_back(std::move(first));
-    }
+    if (filtered && !wants_stack)
+        dst.cfem.push_back(std::move(first));
     if (recipe.lightmap_params.model == "auto")
         tell(options.say,
-             !filtered           ? "model: lobe, since the environment is filtered here"
-                 : is_stack(dst) ? "model: lobe, since the CFEM is a stack"
-                                 : "model: paper, since the CFEM is no stack (makecfem --stack)");
+             !filtered                ? "model: lobe, since the environment is filtered here"
+                 : is_stack(dst.cfem) ? "model: lobe, since the CFEM is a stack"
+                                      : "model: paper, since the CFEM is no stack (makecfem --stack)");
+    dst.light = light_of(recipe);
     return true;
 }
 
@@ -223,31 +278,33 @@ bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
 
 } // namespace
 
-bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options)
+bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOptions& options)
 {
+    const VismapRecipe recipe = resolve_udim(given);
     std::string error = recipe_fault(recipe, options.chain);
-    if (!error.empty())
+    BakeScenePointer scene;
+    double build_seconds = 0;
+    if (!error.empty() || !make_scene(scene, recipe, options, build_seconds, error))
         return failed(dst, error);
-    Mesh mesh;
-    std::vector<Mesh> occluders(recipe.occluder.size());
-    if (!read_mesh(mesh, recipe.mesh, recipe.mesh_params, error))
-        return failed(dst, placed(recipe, "mesh", options.chain, error));
-    for (size_t i = 0; i < occluders.size(); ++i)
-        if (!read_mesh(occluders[i], recipe.occluder[i], recipe.mesh_params, error))
-            return failed(dst, placed(recipe, "occluder", options.chain, error));
     VismapReport report;
-    if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads, step(options, "bake")))
+    if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads, step(options, "bake")))
         return false;
+    report.build_seconds += build_seconds;
     append_params(dst.specmod(), recipe.mesh_params);
-    report_bake(options, report, dst.spec());
+    report_bake(options, report, dst.spec(), recipe);
     return true;
 }
 
-bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
+bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& given, const MakeOptions& options,
                  std::string& error)
 {
+    const CfemRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, options.chain);
-    return error.empty() && filter_environment(dst, recipe, recipe.stack, options, error);
+    if (!error.empty() || !filter_environment(dst, recipe, recipe.stack, options, error))
+        return false;
+    for (OIIO::ImageBuf& level : dst)
+        tag_udim(level.specmod(), recipe.udim);
+    return true;
 }
 
 bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options)
@@ -270,17 +327,37 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
                        options.threads, step(options, "light")))
         return false;
+    tag_udim(dst.specmod(), recipe.udim);
     tell(options.say, format("light: 1 map of {}x{} in {:.3f} s", dst.spec().width, dst.spec().height, timer()));
     return true;
 }
 
-bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
+bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
+{
+    const VismapRecipe recipe = resolve_udim(given);
+    error = recipe_fault(recipe, options.chain);
+    BakeScenePointer scene;
+    double ignored = 0;
+    if (!error.empty() || !make_scene(scene, recipe, options, ignored, error))
+        return false;
+    dst = mesh_udims(scene->mesh());
+    if (dst.empty())
+        error = placed(recipe, "mesh", options.chain,
+                       format("\"{}\": its texture coordinates lie in no UDIM tile", recipe.mesh));
+    return !dst.empty();
+}
+
+bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& given, const MakeOptions& options,
                           std::string& error)
 {
+    const LightmapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, options.chain);
+    // One tile's images at a time.
+    dst.vismap.reset();
+    dst.albedo.reset();
     // The visibility map first, before an environment is filtered in vain.
     return error.empty() && read_vismap(dst.vismap, recipe, options, error)
-        && read_light(dst.cfem, recipe, options, error)
+        && (dst.light == light_of(recipe) || read_light(dst, recipe, options, error))
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
 }
 

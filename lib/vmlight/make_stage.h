@@ -9,10 +9,13 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace vmlight {
+
+class BakeScene;
 
 struct MakeOptions
 {
@@ -25,6 +28,10 @@ struct MakeOptions
     std::function<Progress(const std::string& step)> progress;
     /// One line on what was done, and one on what may surprise.
     std::function<void(const std::string&)> say, warn;
+    /// nullptr, or what keeps the mesh and the ray tracer's scene of the last vismap for the next call to share.
+    std::shared_ptr<const BakeScene>* scene = nullptr;
+    /// The same inputs were made for another UDIM tile before: what is true of all tiles was told.
+    bool again = false;
 };
 
 /// Make a stage.
@@ -42,18 +49,25 @@ VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, c
 VMLIGHT_API bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
                              std::string& error);
 
+/// The UDIM tiles that the mesh of `recipe` reaches, see mesh_udims(). Reads the mesh: with `options.scene` it is there
+/// when it is baked. False, with the reason in `error`, if it cannot be read or baked, or reaches none.
+VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                              std::string& error);
+
 /// What a lightmap reads, ready for make_lightmap(): for several lightmaps of the same inputs.
 struct LightmapInputs
 {
     OIIO::ImageBuf vismap, albedo;
-    /// One, or the levels of a stack.
+    /// One, or the levels of a stack; and what they were made from.
     std::vector<OIIO::ImageBuf> cfem;
+    std::string light;
 
     /// nullptr if the recipe has none.
     const OIIO::ImageBuf* albedo_or_none() const { return albedo.initialized() ? &albedo : nullptr; }
 };
 
-/// Read or make what `recipe` names. False, with the reason in `error`, as for make_image().
+/// Read or make what `recipe` names; the light of `dst` stays if it is that of `recipe`. False, with the reason in
+/// `error`, as for make_image().
 VMLIGHT_API bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
                                       std::string& error);
 

@@ -8,6 +8,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <Imath/ImathMatrix.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -137,6 +138,25 @@ const aiScene* read_triangles(Assimp::Importer& importer, const std::string& pat
     return &scene;
 }
 
+// Files, and who wants to be told of them.
+class ToldFiles : public Assimp::DefaultIOSystem
+{
+public:
+    explicit ToldFiles(const std::function<void(const std::string& path)>& opens)
+        : m_opens(opens)
+    {
+    }
+    Assimp::IOStream* Open(const char* path, const char* mode) override
+    {
+        if (m_opens)
+            m_opens(path);
+        return DefaultIOSystem::Open(path, mode);
+    }
+
+private:
+    const std::function<void(const std::string& path)>& m_opens;
+};
+
 bool is_z_up(const aiScene& scene, const std::string& up)
 {
     int axis = 1;
@@ -147,7 +167,8 @@ bool is_z_up(const aiScene& scene, const std::string& up)
 
 } // namespace
 
-bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error)
+bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
+               const std::function<void(const std::string& path)>& opens)
 {
     dst = Mesh();
     dst.name = OIIO::Filesystem::filename(path);
@@ -161,6 +182,7 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
         return false;
     }
     Assimp::Importer importer;
+    importer.SetIOHandler(new ToldFiles(opens)); // the importer deletes it
     // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
     // relative distance, which collapses small meshes: both are done here, on equal bits.
     const aiScene* scene = read_triangles(importer, path);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,9 +58,11 @@ struct MeshParams
 /// length; a zero or non-finite one is made as a smooth one. Triangles without area stay (they still occlude nothing).
 ///
 /// @param error    set to what is wrong, with the path in quotes, if the result is false
+/// @param opens    called with the path of each file before it is opened, the buffers of a glTF among them
 /// @returns false if the file cannot be read, has no triangle, or has a NaN or infinite vertex (the first is named).
 ///          A mesh without the asked-for texture coordinates is read: whether they are needed is the caller's matter.
-VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error);
+VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
+                           const std::function<void(const std::string& path)>& opens = {});
 
 /// Give `mesh` one normal a triangle. Splits vertices as needed.
 VMLIGHT_API void make_flat_normals(Mesh& mesh);

@@ -80,8 +80,9 @@ Occluder::~Occluder() = default;
 bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error)
 {
     auto scene = std::make_unique<Scene>();
-    const std::string config = OIIO::Strutil::fmt::format("threads={},set_affinity=0", worker_count(nthreads));
-    scene->device = rtcNewDevice(config.c_str());
+    // A number of threads binds all that the process does by TBB, for good: only where the user gave one.
+    const std::string threads = nthreads > 0 ? OIIO::Strutil::fmt::format("threads={},", nthreads) : "";
+    scene->device = rtcNewDevice((threads + "set_affinity=0").c_str());
     bool good = scene->device != nullptr;
     if (good) {
         scene->scene = rtcNewScene(scene->device);

@@ -2,6 +2,8 @@
 /// Things that are made once, however many threads ask for them.
 #pragma once
 
+#include <vmlight/parallel.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -15,7 +17,7 @@
 namespace vmlight {
 
 /// Work that the first thread to ask does, while the others wait. Its failure is kept; what it throws is not.
-/// The work must not wait for OIIO's thread pool to run other tasks: one of them may want this very result.
+/// The work never waits for OIIO's thread pool to run other tasks: one of them may want this very result.
 class Once
 {
 public:
@@ -24,6 +26,7 @@ public:
         if (m_state == State::good)
             return true;
         const std::lock_guard<std::mutex> lock(m_mutex);
+        const InlineLoops inline_loops;
         if (m_state == State::open)
             m_state = work(m_error) ? State::good : State::bad;
         error = m_error;
@@ -70,6 +73,7 @@ public:
         lock.unlock();
         Pointer value;
         try {
+            const InlineLoops inline_loops;
             value = make();
         } catch (...) {
             lock.lock();

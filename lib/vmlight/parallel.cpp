@@ -10,6 +10,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <thread>
 
 namespace vmlight {
 namespace {
@@ -47,6 +48,20 @@ private:
 };
 
 } // namespace
+
+// A worker of the pool never waits for the pool.
+InlineLoops::InlineLoops()
+    : m_registered(!OIIO::default_thread_pool()->is_worker(std::this_thread::get_id()))
+{
+    if (m_registered)
+        OIIO::default_thread_pool()->register_worker(std::this_thread::get_id());
+}
+
+InlineLoops::~InlineLoops()
+{
+    if (m_registered)
+        OIIO::default_thread_pool()->deregister_worker(std::this_thread::get_id());
+}
 
 int worker_count(int nthreads)
 {

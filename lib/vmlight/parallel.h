@@ -23,6 +23,20 @@ namespace vmlight {
 VMLIGHT_API bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t item, int worker)>& work,
                                 const Progress& progress = {});
 
+/// While it lives, loops of OpenImageIO that this thread starts run on this thread alone. OIIO's own wait for its pool
+/// runs whatever task is queued; under a lock, that may be one which wants the lock.
+class InlineLoops
+{
+public:
+    VMLIGHT_API InlineLoops();
+    VMLIGHT_API ~InlineLoops();
+    InlineLoops(const InlineLoops&) = delete;
+    InlineLoops& operator=(const InlineLoops&) = delete;
+
+private:
+    bool m_registered;
+};
+
 /// How many workers parallel_items() uses for this `nthreads`.
 VMLIGHT_API int worker_count(int nthreads);
 

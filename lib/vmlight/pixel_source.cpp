@@ -7,12 +7,10 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <iterator>
 #include <list>
+#include <map>
 #include <mutex>
-
-#include <sys/stat.h>
 
 namespace vmlight {
 namespace {
@@ -27,10 +25,16 @@ public:
     {
         List dropped;
         const std::lock_guard<std::mutex> lock(m_mutex);
-        const auto found = place(key);
-        if (found == m_sources.end())
-            return nullptr;
+        auto found = place(key);
+        if (found == m_sources.end()) {
+            const auto open = m_open.find(key);
+            PixelSourcePointer source = open == m_open.end() ? nullptr : open->second.lock();
+            if (!source)
+                return nullptr;
+            found = m_sources.insert(m_sources.begin(), std::move(source));
+        }
         if ((*found)->failed()) {
+            m_open.erase(key);
             dropped.splice(dropped.end(), m_sources, found);
             return nullptr;
         }
@@ -46,6 +50,9 @@ public:
         if (found != m_sources.end() && !(*found)->failed())
             return *found;
         m_sources.push_front(source);
+        for (auto open = m_open.begin(); open != m_open.end();)
+            open = open->second.expired() ? m_open.erase(open) : std::next(open);
+        m_open[source->key()] = source;
         trim(dropped);
         return source;
     }
@@ -76,6 +83,8 @@ private:
     }
     std::mutex m_mutex;
     List m_sources;
+    // What someone has open is found again, though the list has dropped it.
+    std::map<std::string, std::weak_ptr<PixelSource>> m_open;
     size_t m_bytes = size_t(1) << 30, m_count = 64;
 };
 
@@ -114,33 +123,6 @@ PixelSourcePointer keep_source(PixelSourcePointer source)
 void set_source_limits(size_t bytes, size_t count)
 {
     sources().set_limits(bytes, count);
-}
-
-bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
-{
-    struct stat status;
-    // A '?' may stand in a file's name, or begin what another plugin wants to be told.
-    if (::stat(path.c_str(), &status) != 0 && ::stat(recipe_path(path).c_str(), &status) != 0) {
-        error = format("\"{}\": {}", path, errno == ENOENT || errno == ENOTDIR ? "no such file" : "cannot be read");
-        return false;
-    }
-    if (S_ISDIR(status.st_mode)) {
-        error = format("\"{}\": not a file", path);
-        return false;
-    }
-    stamp = format("{}|{}|{}.{}|{}\n", path, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec,
-                   status.st_ino);
-    return true;
-}
-
-bool check_stamp(const std::string& stamp, const std::string& path, std::string& error)
-{
-    std::string now;
-    if (!stamp_file(now, path, error))
-        return false;
-    if (now != stamp)
-        error = format("\"{}\": changed since it was opened", path);
-    return now == stamp;
 }
 
 PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <vmlight/export.h>
+#include <vmlight/file_stamp.h>
 #include <vmlight/recipe_chain.h>
 
 #include <OpenImageIO/imageio.h>
@@ -36,12 +37,16 @@ public:
     virtual bool read(OIIO::ROI roi, float* dst, std::string& error) = 0;
 
     /// The same for any image of it.
-    virtual bool read_of(int /*subimage*/, OIIO::ROI roi, float* dst, std::string& error)
+    virtual bool read_of(int subimage, OIIO::ROI roi, float* dst, std::string& error)
     {
-        return read(roi, dst, error);
+        if (subimage == 0)
+            return read(roi, dst, error);
+        error = "no such image";
+        return false;
     }
 
-    /// Whether what the pixels are made from could not be had, so that another open should try anew.
+    /// Whether what the pixels are made from could not be had, or is no longer as it was, so that another open should
+    /// try anew.
     virtual bool failed() const { return false; }
     /// Memory held for later reads, about.
     virtual size_t bytes() const { return 0; }
@@ -93,13 +98,7 @@ PixelSourcePointer find_source(const std::string& key);
 /// Remember `source`. Returns the one to use: another thread may have been faster.
 PixelSourcePointer keep_source(PixelSourcePointer source);
 
-/// A file as it is now: two stamps differ if the file was changed. False, with the reason in `error`, if there is no
-/// such file.
-bool stamp_file(std::string& stamp, const std::string& path, std::string& error);
-/// False, with the reason in `error`, if the file is not as it was.
-bool check_stamp(const std::string& stamp, const std::string& path, std::string& error);
-
-/// The same for an OCIO config, "" being $OCIO.
+/// stamp_file() of an OCIO config, "" being $OCIO.
 bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error);
 
 /// Every parameter of a recipe as text.

@@ -127,6 +127,17 @@ template <class Recipe> bool takes_lines(Recipe recipe, const std::string& key)
     return lines;
 }
 
+// A file under the name of a tile is the recipe of that tile, unless it says another.
+template <class Recipe> Recipe named_recipe(const std::string& path)
+{
+    Recipe recipe;
+    if (const int udim = udim_of_name(path)) {
+        udim_of(recipe) = udim;
+        recipe.udim_given = true;
+    }
+    return recipe;
+}
+
 template <class Recipe> bool apply(Recipe& recipe, const Overrides& overrides, std::string& error)
 {
     for (auto at = overrides.begin(); at != overrides.end(); ++at) {
@@ -157,7 +168,8 @@ bool read_recipe_text(Recipe& dst, string_view text, const std::string& path, st
     if (!parse_toml(table, text, path, error))
         return false;
     // The table is sorted by key; the fault to tell is the first of the file.
-    Recipe recipe;
+    Recipe recipe = named_recipe<Recipe>(path);
+    recipe.udim_given |= table.contains("udim");
     const std::string folder = OIIO::Filesystem::parent_path(path);
     uint64_t first = 0;
     for (auto&& [key, node] : table) {
@@ -181,7 +193,7 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
     Overrides overrides;
     if (!split_name(path, overrides, name, error))
         return false;
-    Recipe recipe;
+    Recipe recipe = named_recipe<Recipe>(path);
     const bool alone = !overrides.empty() && !OIIO::Filesystem::exists(path);
     if (!alone && (!read_bytes(bytes, path, error) || !read_recipe_text(recipe, bytes, path, error)))
         return false;
@@ -189,6 +201,8 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
         error = one_line(format("\"{}\": ", name)) + reason_line(reason);
         return false;
     }
+    for (const auto& override : overrides)
+        recipe.udim_given |= override.first == "udim";
     dst = recipe;
     return true;
 }

@@ -7,6 +7,9 @@
 /// Each recipe is one struct: what the stage reads, and its params. Keys, ?query keys, flags and metadata are those of
 /// visit(), with one spelling. It is flat: no tables, and texts of one line, in single or double quotes. Paths in a
 /// recipe start at its folder; those in a query or a flag where the user stands.
+/// UDIM: every recipe has the key `udim`, a tile's number, which "<UDIM>" in any of its paths stands for; for a vismap
+/// it is the part of uv space that is baked, too. Where it is not set, the recipe's own name may say it, as in
+/// "hero.1011.lightmap", so that one file under several names serves "hero.<UDIM>.lightmap"; else it is 1001.
 #pragma once
 
 #include <vmlight/cfem.h>
@@ -14,6 +17,7 @@
 #include <vmlight/lightmap.h>
 #include <vmlight/mesh.h>
 #include <vmlight/params.h>
+#include <vmlight/udim.h>
 #include <vmlight/vismap.h>
 
 #include <string>
@@ -29,6 +33,8 @@ struct VismapRecipe
     std::vector<std::string> occluder;
     MeshParams mesh_params;
     VismapParams vismap_params;
+    /// Whether the tile was said: by the recipe, its name, a query or a flag.
+    bool udim_given = false;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -49,6 +55,9 @@ struct CfemRecipe
     CfemParams cfem_params;
     /// Make a stack (cfem_stack.h): the CFEM is then the first of several images in one file.
     bool stack = false;
+    int udim = kFirstUdim;
+    /// Whether the tile was said: by the recipe, its name, a query or a flag.
+    bool udim_given = false;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -56,6 +65,7 @@ struct CfemRecipe
         field("colorspace", colorspace, Text {}, "Colour space of the environment, if its name and tags do not tell");
         field("colorconfig", colorconfig, Path {}, "OCIO config; without it $OCIO");
         field("stack", stack, Flag {}, "Add lobes wider and narrower than the cosine, for the model lobe");
+        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile: what <UDIM> in a name stands for");
         cfem_params.visit(field);
     }
 };
@@ -69,6 +79,9 @@ struct LightmapRecipe
     LightmapParams lightmap_params;
     /// How the environment is filtered: keys cfem_filter, cfem_order, cfem_resolution, cfem_sanitize.
     CfemParams cfem_params;
+    int udim = kFirstUdim;
+    /// Whether the tile was said: by the recipe, its name, a query or a flag.
+    bool udim_given = false;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -79,12 +92,23 @@ struct LightmapRecipe
         field("albedo_colorspace", albedo_colorspace, Text {}, "Its colour space, if its name and tags do not tell");
         field("colorspace", colorspace, Text {}, "Colour space of the environment, if its name and tags do not tell");
         field("colorconfig", colorconfig, Path {}, "OCIO config; without it $OCIO");
+        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile: what <UDIM> in a name stands for");
         lightmap_params.visit(field);
         cfem_params.visit([&](const char* name, auto& value, const auto& allowed, const char* help) {
             field(("cfem_" + std::string(name)).c_str(), value, allowed, help);
         });
     }
 };
+
+/// The tile of a recipe.
+inline int& udim_of(VismapRecipe& recipe)
+{
+    return recipe.vismap_params.udim;
+}
+template <class Recipe> int& udim_of(Recipe& recipe)
+{
+    return recipe.udim;
+}
 
 /// Read a recipe: the file before '?', then the overrides after it ("hero.lightmap?rotate=0,45,0&exposure=1").
 /// As in OIIO the first '?' parts them, '&' parts the overrides, and there is no %-decoding: what holds '&' goes into
@@ -105,8 +129,8 @@ extern template VMLIGHT_API bool read_recipe_text(VismapRecipe&, OIIO::string_vi
 extern template VMLIGHT_API bool read_recipe_text(CfemRecipe&, OIIO::string_view, const std::string&, std::string&);
 extern template VMLIGHT_API bool read_recipe_text(LightmapRecipe&, OIIO::string_view, const std::string&, std::string&);
 
-/// The TOML text that read_recipe_text() reads back to the same recipe; only what differs from the defaults. Paths
-/// stand as they are in `recipe`: read_recipe() has resolved them already.
+/// The TOML text that read_recipe_text() reads back to the same recipe; only what differs from the defaults, and `udim`
+/// if it was given. Paths stand as they are in `recipe`: read_recipe() has resolved them already, but for <UDIM>.
 template <class Recipe> std::string recipe_text(const Recipe& recipe);
 extern template VMLIGHT_API std::string recipe_text(const VismapRecipe&);
 extern template VMLIGHT_API std::string recipe_text(const CfemRecipe&);

@@ -2,6 +2,7 @@
 #include <vmlight/recipe_chain.h>
 
 #include <vmlight/channels.h>
+#include <vmlight/recipe_udim.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -15,23 +16,15 @@ using OIIO::Strutil::fmt::format;
 
 constexpr size_t kLongestChain = 64;
 
-// The same file by another path is the same recipe.
+// The same file by another way to its folder is the same recipe. Its name is as it was given, a link or not: it may say
+// a UDIM tile. A ring through links comes back to a name all the same.
 std::string identity(const std::string& name)
 {
-    const std::string path = recipe_path(name);
+    const std::filesystem::path path = recipe_path(name);
     std::error_code ignored;
-    const auto whole = std::filesystem::weakly_canonical(path, ignored);
-    return (ignored ? path : whole.string()) + name.substr(path.size());
-}
-
-template <class Recipe> std::string value_of(Recipe recipe, const std::string& key)
-{
-    std::string text;
-    recipe.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (key == name)
-            text = value_text(value, allowed);
-    });
-    return text;
+    const auto folder
+        = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored).parent_path(), ignored);
+    return (ignored ? path : folder / path.filename()).string() + name.substr(path.string().size());
 }
 
 std::string missing(const std::string& what, const RecipeChain& chain)
@@ -62,7 +55,11 @@ std::string placed(const Recipe& recipe, const std::string& key, const RecipeCha
 {
     Recipe read;
     std::string ignored;
-    if (chain.empty() || !read_recipe(read, chain.back(), ignored) || value_of(read, key) != value_of(recipe, key))
+    if (chain.empty() || !read_recipe(read, chain.back(), ignored))
+        return reason;
+    Recipe now = recipe;
+    udim_of(read) = udim_of(now);
+    if (recipe_value(resolve_udim(read), key) != recipe_value(resolve_udim(now), key))
         return reason;
     return recipe_place(chain.back(), key) + ": " + reason;
 }

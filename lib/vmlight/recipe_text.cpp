@@ -74,7 +74,8 @@ template <class Recipe> std::string recipe_text(const Recipe& recipe)
     std::string text;
     size_t index = 0;
     copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (value_text(value, allowed) != usual[index++])
+        const bool given = copy.udim_given && std::string("udim") == name;
+        if (value_text(value, allowed) != usual[index++] || given)
             text += format("{} = {}\n", name, toml_text(value, allowed));
     });
     return text;

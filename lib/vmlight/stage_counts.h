@@ -8,12 +8,14 @@
 
 namespace vmlight {
 
-/// What readers did since the process began, for tests that hold them to doing it once.
+/// What was done since the process began, by readers and for recipes, for tests that hold them to doing it once.
 struct StageCounts
 {
     std::atomic<int64_t> meshes_read { 0 };
+    std::atomic<int64_t> scenes_built { 0 }; ///< for the ray tracer
     std::atomic<int64_t> tiles_baked { 0 }; ///< those with a covered texel
     std::atomic<int64_t> cfems_made { 0 };
+    std::atomic<int64_t> albedos_made { 0 };
     std::atomic<int64_t> tiles_shaded { 0 };
 };
 VMLIGHT_API StageCounts& stage_counts();

@@ -80,6 +80,7 @@ struct StageMain::State
     std::vector<Option> options;
     std::vector<std::pair<const Option*, std::string>> given;
     RecipeDoor door;
+    std::vector<std::function<std::string()>> checks;
     bool prints_recipe = false;
     std::string heading, output;
     OutputParams common;
@@ -186,6 +187,10 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
         return Exit::Usage;
     if (helped)
         return Exit::Done;
+    if (given_recipe() && has_udim(recipe_path(operands[0]))) {
+        error = format("\"{}\": one recipe makes all tiles: <UDIM> goes into the paths within it", operands[0]);
+        return Exit::Usage;
+    }
     if (given_recipe()) {
         if (!door.read(operands[0], error))
             return Exit::Failed;
@@ -199,6 +204,9 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
         error = door.unsaid();
     if (!prints_recipe && output.empty())
         error = "-o OUTPUT.exr is missing";
+    for (const auto& check : checks)
+        if (error.empty() && !prints_recipe)
+            error = check();
     return error.empty() ? Exit::Done : Exit::Usage;
 }
 
@@ -247,6 +255,11 @@ void StageMain::option(const std::string& name, const std::string& metavar, cons
         dst = std::string(text);
         return true;
     });
+}
+
+void StageMain::check(std::function<std::string()> fault)
+{
+    m_state->checks.push_back(std::move(fault));
 }
 
 int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)

@@ -88,6 +88,10 @@ public:
     /// An option whose text is kept as it is; `dst` must outlive run().
     void option(const std::string& name, const std::string& metavar, const std::string& help, std::string& dst);
 
+    /// Have the whole command line looked at before the work. `fault` returns what is wrong with it, or "": the exit
+    /// code is that of wrong usage. Not asked where only a recipe is printed.
+    void check(std::function<std::string()> fault);
+
     /// Parse the command line, then call `work`, which returns false and sets `error` on failure. Catches exceptions.
     /// @returns the process's exit code.
     int run(int argc, const char** argv, const std::function<bool(std::string& error)>& work);

@@ -17,6 +17,16 @@ int64_t floor_divide(int64_t a, int64_t b)
     return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
+// No tile of the ten columns has it.
+bool reaches_beyond(const Mesh& mesh, size_t triangle)
+{
+    const auto& corners = mesh.triangles[triangle];
+    return std::any_of(corners.begin(), corners.end(), [&](uint32_t vertex) {
+        const Imath::V2f& uv = mesh.uvs[vertex];
+        return uv.x < -kUdimBorder || uv.x > 10 + kUdimBorder || uv.y < -kUdimBorder;
+    });
+}
+
 } // namespace
 
 // Rounded texture coordinates, y down. False if they are missing, not finite, or too far away.
@@ -24,7 +34,9 @@ bool UvRaster::corners(size_t triangle, std::array<Corner, 3>& dst) const
 {
     for (int k = 0; k < 3; ++k) {
         const Imath::V2f& uv = m_mesh.uvs[m_mesh.triangles[triangle][k]];
-        const double x = double(uv.x) * m_width * kSubtexels, y = (1.0 - double(uv.y)) * m_height * kSubtexels;
+        // Whole numbers come off a double that was a float without rounding.
+        const double u = double(uv.x) - m_corner.x, v = double(uv.y) - m_corner.y;
+        const double x = u * m_width * kSubtexels, y = (1.0 - v) * m_height * kSubtexels;
         if (!(std::abs(x) <= kFarthest && std::abs(y) <= kFarthest))
             return false;
         dst[k] = { std::llround(x), std::llround(y) };
@@ -50,10 +62,33 @@ template <class Visit> void UvRaster::each_tile(const std::array<Corner, 3>& c, 
             visit(size_t(ty * tiles_across() + tx));
 }
 
-UvRaster::UvRaster(const Mesh& mesh, int width, int height)
+void UvRaster::count_outside(size_t triangle, const std::array<Corner, 3>& c)
+{
+    const int64_t w = m_width * kSubtexels, h = m_height * kSubtexels;
+    const auto x = std::minmax({ c[0].x, c[1].x, c[2].x }), y = std::minmax({ c[0].y, c[1].y, c[2].y });
+    const bool outside = x.first < 0 || x.second > w || y.first < 0 || y.second > h;
+    m_report.outside += outside;
+    m_report.elsewhere += outside && (x.second <= 0 || x.first >= w || y.second <= 0 || y.first >= h);
+    m_report.beyond += outside && reaches_beyond(m_mesh, triangle);
+}
+
+// What corners() has none of.
+void UvRaster::count_far(size_t triangle)
+{
+    const auto& corners = m_mesh.triangles[triangle];
+    const bool finite = std::all_of(corners.begin(), corners.end(), [&](uint32_t vertex) {
+        return std::isfinite(m_mesh.uvs[vertex].x) && std::isfinite(m_mesh.uvs[vertex].y);
+    });
+    ++(finite ? m_report.outside : m_report.without_uv);
+    m_report.elsewhere += finite;
+    m_report.beyond += finite && reaches_beyond(m_mesh, triangle);
+}
+
+UvRaster::UvRaster(const Mesh& mesh, int width, int height, int udim)
     : m_mesh(mesh)
     , m_width(width)
     , m_height(height)
+    , m_corner(udim_corner(udim))
 {
     m_first.assign(size_t(tiles_across()) * tiles_down() + 2, 0);
     std::vector<uint32_t> kept;
@@ -61,16 +96,10 @@ UvRaster::UvRaster(const Mesh& mesh, int width, int height)
     m_report.triangles = int64_t(mesh.triangles.size());
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!corners(t, c)) {
-            const auto& triangle = mesh.triangles[t];
-            const bool finite = std::all_of(triangle.begin(), triangle.end(), [&](uint32_t v) {
-                return std::isfinite(mesh.uvs[v].x) && std::isfinite(mesh.uvs[v].y);
-            });
-            ++(finite ? m_report.outside : m_report.without_uv);
+            count_far(t);
             continue;
         }
-        const int64_t w = m_width * kSubtexels, h = m_height * kSubtexels;
-        m_report.outside += std::any_of(c.begin(), c.end(),
-                                        [&](const Corner& p) { return p.x < 0 || p.x > w || p.y < 0 || p.y > h; });
+        count_outside(t, c);
         // y points down here, so that a positive area means clockwise in (u, v).
         const int64_t area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
         const double area_3d = triangle_area_normal(mesh, mesh.triangles[t]).length();

@@ -4,6 +4,7 @@
 
 #include <vmlight/export.h>
 #include <vmlight/mesh.h>
+#include <vmlight/udim.h>
 
 #include <array>
 #include <cstdint>
@@ -19,7 +20,9 @@ struct UvReport
 {
     int64_t triangles = 0;
     int64_t without_uv = 0; ///< a corner without texture coordinates, or with ones that are not finite
-    int64_t outside = 0; ///< reaching out of [0,1]: the part outside is not baked
+    int64_t outside = 0; ///< reaching out of the UDIM tile, which is [0,1] for 1001: the part outside is not baked
+    int64_t elsewhere = 0; ///< of these, wholly outside of it, as triangles of other tiles are
+    int64_t beyond = 0; ///< of all, reaching to where no UDIM tile is: u below 0 or above 10, v below 0
     int64_t degenerate_uv = 0; ///< no area in the texture (at 1/256 of a texel): covers nothing
     int64_t degenerate_3d = 0; ///< no area in space: no normal, covers nothing
     int64_t mirrored = 0; ///< clockwise in the texture
@@ -37,14 +40,16 @@ struct TileCover
     int64_t overlapping = 0; ///< texels that more than one triangle covers
 };
 
-/// A mesh over a texture of width x height texels: row 0 is v = 1, texel centres at (i + 0.5) / n.
+/// A mesh over a texture of width x height texels, which is one UDIM tile: row 0 is its top (v = 1 for 1001), texel
+/// centres at (i + 0.5) / n. A tile's place in uv is subtracted exactly: a mesh whose uvs were moved by whole tiles
+/// without rounding covers the same texels of the tile it was moved to, with the same weights.
 /// Coordinates are rounded to 1/256 of a texel and all tests are exact, so that a texel on a shared edge goes to
 /// exactly one of the two triangles. Where triangles overlap, the lowest triangle index wins.
 class UvRaster
 {
 public:
     /// Not checked: that the mesh has uvs.
-    VMLIGHT_API UvRaster(const Mesh& mesh, int width, int height);
+    VMLIGHT_API UvRaster(const Mesh& mesh, int width, int height, int udim = kFirstUdim);
 
     VMLIGHT_API int tiles_across() const { return (m_width + kTileSize - 1) / kTileSize; }
     VMLIGHT_API int tiles_down() const { return (m_height + kTileSize - 1) / kTileSize; }
@@ -59,10 +64,13 @@ private:
         int64_t x, y;
     };
     bool corners(size_t triangle, std::array<Corner, 3>& dst) const;
+    void count_outside(size_t triangle, const std::array<Corner, 3>& corners);
+    void count_far(size_t triangle);
     template <class Visit> void each_tile(const std::array<Corner, 3>& corners, Visit&& visit) const;
 
     const Mesh& m_mesh;
     int m_width, m_height;
+    Imath::V2d m_corner;
     UvReport m_report;
     // The triangles of tile t, ascending: m_binned[m_first[t]] .. m_binned[m_first[t + 1]].
     std::vector<size_t> m_first;

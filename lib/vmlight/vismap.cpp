@@ -17,15 +17,12 @@ bool fail(OIIO::ImageBuf& dst, const std::string& text)
     return false;
 }
 
-OIIO::ImageSpec vismap_spec(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params)
+OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapParams& params)
 {
-    OIIO::ImageSpec spec = describe_vismap(mesh.name, params);
-    spec.attribute("vmlight:meshHash", mesh_hash(mesh));
-    std::string hashes;
-    for (const Mesh& occluder : occluders)
-        hashes += (hashes.empty() ? "" : ",") + mesh_hash(occluder);
-    if (!hashes.empty())
-        spec.attribute("vmlight:occluderHash", hashes);
+    OIIO::ImageSpec spec = describe_vismap(scene.mesh().name, params);
+    spec.attribute("vmlight:meshHash", scene.mesh_hash());
+    if (!scene.occluder_hashes().empty())
+        spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
     return spec;
 }
 
@@ -34,13 +31,28 @@ OIIO::ImageSpec vismap_spec(const Mesh& mesh, const std::vector<Mesh>& occluders
 bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
                  VismapReport* report, int nthreads, const Progress& progress)
 {
+    const OIIO::Timer timer;
+    std::string error;
+    auto scene = std::make_shared<BakeScene>();
+    if (!check_params(params, error) || !scene->build(borrowed(mesh), occluders, nthreads, error))
+        return fail(dst, error);
+    const double build_seconds = timer();
+    const bool made = make_vismap(dst, scene, params, report, nthreads, progress);
+    if (made && report)
+        report->build_seconds += build_seconds;
+    return made;
+}
+
+bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
+                 int nthreads, const Progress& progress)
+{
     VismapReport counts;
     OIIO::Timer timer;
     std::string error;
     VismapBaker baker;
-    if (!baker.prepare(mesh, occluders, params, nthreads, error))
+    if (!baker.prepare(scene, params, error))
         return fail(dst, error);
-    const OIIO::ImageSpec spec = vismap_spec(mesh, occluders, params);
+    const OIIO::ImageSpec spec = vismap_spec(*scene, params);
     dst.reset(spec, OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels)

@@ -21,6 +21,8 @@ struct VismapParams
     /// One number is a square map; width and height, if not 0, replace its sides.
     Size resolution { 1024, 1024 };
     int width = 0, height = 0;
+    /// The part of uv space that is baked: 1001 + u + 10 v for the square with its lower left corner at (u, v).
+    int udim = kFirstUdim;
     /// Measured on six scenes: at 64 rays the paper's model is within 2.2 % of the shading error it has at 4096 rays, a
     /// model that also uses |B| is within 2 % at 128.
     int samples = 128;
@@ -43,6 +45,7 @@ struct VismapParams
         field("resolution", resolution, SizeRange { 32768, 1 }, "Size of the map, in texels; one number is a square");
         field("width", width, Range { 0, 32768 }, "Width alone; 0 is that of resolution");
         field("height", height, Range { 0, 32768 }, "Height alone; 0 is that of resolution");
+        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile to bake; <UDIM> in a name stands for it");
         field("samples", samples, Range { 1, 1 << 20 }, "Rays a texel");
         field("sampler", sampler, Choices { { "fibonacci", "sobol", "halton" } }, "Where they go");
         field("seed", seed, Range { 0, 2147483647 }, "Same seed, same pixels, for any number of threads");
@@ -72,14 +75,15 @@ struct VismapReport
 ///                 B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <= V. An open texel has
 ///                 V = 1 exactly and B = (2/3) n, one that sees nothing has 0 and 0. n is the interpolated normal;
 ///                 directions under the geometric surface count neither as seen nor as blocked. Texels that no
-///                 triangle covers are 0 outside the margin. Row 0 is v = 1. Tagged as data
+///                 triangle covers are 0 outside the margin. Row 0 is the top of the UDIM tile, v = 1. Tagged as data
 /// @param mesh     triangles with uvs; a texel that several triangles cover goes to the lowest triangle index.
 ///                 Triangles without uvs cast and are not baked
 /// @param occluders meshes in the same space that cast and are not baked
 /// @param report   nullptr, or set to counts and times
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no uvs, or memory
-///          runs out; `dst` then has no pixels. Overlap, mirroring and texels outside [0, 1] are counted, not refused.
+///          runs out; `dst` then has no pixels. Overlap, mirroring and texels outside the tile are counted, not
+///          refused.
 /// Error (root mean square) of V, and of B as a vector, at n rays: at most 0.47 n^-0.75 by `fibonacci`, 0.6 n^-0.75 by
 /// `sobol` and 0.65 n^-0.75 by `halton`, in any scene with a closed form that was tried.
 VMLIGHT_API bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders = {},

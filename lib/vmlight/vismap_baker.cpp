@@ -3,20 +3,15 @@
 
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
-#include <vmlight/occluder.h>
 #include <vmlight/parallel.h>
 #include <vmlight/sampling.h>
 #include <vmlight/surface.h>
 #include <vmlight/visibility.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 int width_of(const VismapParams& params)
 {
@@ -59,28 +54,25 @@ void BakeCounts::add(const BakeCounts& other)
 
 struct VismapBaker::Scene
 {
-    Scene(const Mesh& the_mesh, const VismapParams& the_params)
-        : mesh(the_mesh)
+    Scene(BakeScenePointer the_shared, const VismapParams& the_params)
+        : shared(std::move(the_shared))
         , params(the_params)
-        , frame(SceneFrame::around(the_mesh))
         , pattern(params.sampler, params.samples, params.measure == "uniform")
-        , raster(the_mesh, width_of(params), height_of(params))
+        , raster(shared->mesh(), width_of(params), height_of(params), params.udim)
     {
     }
-    const Mesh& mesh;
+    const BakeScenePointer shared;
     const VismapParams params;
-    const SceneFrame frame;
     const SamplePattern pattern;
     const UvRaster raster;
-    Occluder occluder;
 };
 
 class VismapBaker::Scratch
 {
 public:
     explicit Scratch(const Scene& scene)
-        : eye(scene.occluder, scene.pattern, scene.params, scene.frame.scale)
-        , surface(scene.mesh, scene.frame)
+        : eye(scene.shared->occluder(), scene.pattern, scene.params, scene.shared->frame().scale)
+        , surface(scene.shared->mesh(), scene.shared->frame())
     {
     }
     TileCover cover;
@@ -96,28 +88,20 @@ void VismapBaker::FreeScratch::operator()(Scratch* scratch) const
     delete scratch;
 }
 
-bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
-                          int nthreads, std::string& error)
+bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, std::string& error)
 {
     if (!check_params(params, error))
         return false;
-    if (mesh.triangles.empty()) {
-        error = format("\"{}\": no triangle in it", mesh.name);
-        return false;
-    }
-    if (mesh.uvs.empty()) {
-        error
-            = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", mesh.name);
-        return false;
-    }
-    auto scene = std::make_unique<Scene>(mesh, params);
-    std::vector<const Mesh*> casters { &mesh };
-    for (const Mesh& occluder : occluders)
-        casters.push_back(&occluder);
-    if (!scene->occluder.build(casters, scene->frame, nthreads, error))
-        return false;
-    m_scene = std::move(scene);
+    m_scene = std::make_unique<Scene>(std::move(scene), params);
     return true;
+}
+
+bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
+                          int nthreads, std::string& error)
+{
+    auto scene = std::make_shared<BakeScene>();
+    return check_params(params, error) && scene->build(borrowed(mesh), occluders, nthreads, error)
+        && prepare(std::move(scene), params, error);
 }
 
 int VismapBaker::width() const

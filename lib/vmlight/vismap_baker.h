@@ -3,6 +3,7 @@
 /// that are asked for. Neither the order of tiles nor what else is baked changes a bit.
 #pragma once
 
+#include <vmlight/bake_scene.h>
 #include <vmlight/export.h>
 #include <vmlight/margin.h>
 #include <vmlight/mesh.h>
@@ -23,6 +24,10 @@ namespace vmlight {
 /// The map that `params` ask for: size, channels and metadata, but for what takes the mesh itself to know.
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
 
+/// make_vismap(), from a scene that other maps may share.
+bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
+                 int nthreads, const Progress& progress);
+
 /// What was baked.
 struct BakeCounts
 {
@@ -40,7 +45,14 @@ public:
     VMLIGHT_API VismapBaker();
     VMLIGHT_API ~VismapBaker();
 
-    /// Build all that tiles share: the ray tracer's scene, the UV raster, the directions.
+    /// Build what the tiles of this map share: the UV raster of its UDIM tile, the directions. The scene it shares with
+    /// others.
+    ///
+    /// @param scene    built
+    /// @returns false, with the reason in `error`, if a parameter is out of range
+    VMLIGHT_API bool prepare(BakeScenePointer scene, const VismapParams& params, std::string& error);
+
+    /// The same, with a scene of its own.
     ///
     /// @param mesh     must outlive the baker; `occluders` need not
     /// @returns false, with the reason in `error`, if a parameter is out of range, the mesh has no triangle or no uvs,

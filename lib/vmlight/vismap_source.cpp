@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/pixel_source.h>
 
-#include <vmlight/mesh.h>
-#include <vmlight/stage_counts.h>
+#include <vmlight/recipe_udim.h>
+#include <vmlight/scene_cache.h>
 #include <vmlight/vismap_baker.h>
 #include <vmlight/vismap_tiles.h>
 
 #include <OpenImageIO/filesystem.h>
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 
 namespace vmlight {
@@ -16,7 +18,7 @@ namespace {
 class VismapSource : public PixelSource
 {
 public:
-    VismapSource(const std::string& key, const VismapRecipe& recipe, std::vector<std::string> stamps)
+    VismapSource(const std::string& key, const VismapRecipe& recipe, SceneStamps stamps)
         : PixelSource(key)
         , m_recipe(recipe)
         , m_stamps(std::move(stamps))
@@ -34,59 +36,52 @@ public:
         return true;
     }
 
-    bool failed() const override { return m_prepare.failed(); }
-    size_t bytes() const override { return m_bytes; }
+    bool failed() const override { return m_prepare.failed() || (m_bytes && !are_unchanged(m_scene->files)); }
+    // The scene counts by halves, thirds, ... where it is shared, so that together the sharers count it once.
+    size_t bytes() const override
+    {
+        const size_t own = m_bytes;
+        return own ? own + m_scene->bytes() / size_t(std::max<long>(1, m_scene.use_count())) : 0;
+    }
 
 private:
     bool prepare(std::string& error)
     {
-        std::vector<Mesh> occluders(m_recipe.occluder.size());
-        if (!read_mesh(m_mesh, m_recipe.mesh, m_recipe.mesh_params, error)
-            || !check_stamp(m_stamps.front(), m_recipe.mesh, error))
-            return false;
-        for (size_t i = 0; i < occluders.size(); ++i)
-            if (!read_mesh(occluders[i], m_recipe.occluder[i], m_recipe.mesh_params, error)
-                || !check_stamp(m_stamps[i + 1], m_recipe.occluder[i], error))
-                return false;
-        stage_counts().meshes_read += int64_t(1 + occluders.size());
-        if (!m_baker.prepare(m_mesh, occluders, m_recipe.vismap_params, 0, error))
+        std::string at;
+        if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
+            || !m_baker.prepare(m_scene, m_recipe.vismap_params, error))
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
-        // The ray tracer takes about 100 bytes a triangle.
-        size_t triangles = m_mesh.triangles.size();
-        for (const Mesh& occluder : occluders)
-            triangles += occluder.triangles.size();
-        m_bytes = 100 * triangles + 20 * m_mesh.triangles.size() + 48 * m_mesh.positions.size();
-        if (m_tiles->is_whole())
-            m_bytes += size_t(m_spec.image_bytes());
+        // Of its own it has the lists of triangles, and the map if that is baked as a whole.
+        const size_t lists = sizeof(uint32_t) * m_scene->mesh().triangles.size();
+        m_bytes = 1 + lists + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
         return true;
     }
 
     const VismapRecipe m_recipe;
-    const std::vector<std::string> m_stamps;
+    const SceneStamps m_stamps;
     Once m_prepare;
-    Mesh m_mesh;
+    BakeScenePointer m_scene;
     VismapBaker m_baker;
     std::unique_ptr<VismapTiles> m_tiles;
-    std::atomic<size_t> m_bytes { 0 };
+    std::atomic<size_t> m_bytes { 0 }; // set last: what is not 0 has all else
 };
 
 } // namespace
 
-PixelSourcePointer open_source(const VismapRecipe& recipe, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain)
 {
+    const VismapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error))
         return nullptr;
-    std::vector<std::string> stamps(1 + recipe.occluder.size());
-    std::string key = recipe_key(recipe);
-    for (size_t i = 0; i < stamps.size(); ++i) {
-        if (!stamp_file(stamps[i], i ? recipe.occluder[i - 1] : recipe.mesh, error)) {
-            error = placed(recipe, i ? "occluder" : "mesh", chain, error);
-            return nullptr;
-        }
-        key += stamps[i];
+    SceneStamps stamps;
+    std::string at;
+    if (!stamp_scene(stamps, recipe, at, error)) {
+        error = placed(recipe, at, chain, error);
+        return nullptr;
     }
+    const std::string key = recipe_key(recipe) + stamps.key;
     if (PixelSourcePointer known = find_source(key))
         return known;
     return keep_source(std::make_shared<VismapSource>(key, recipe, std::move(stamps)));

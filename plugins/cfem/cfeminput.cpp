@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `hero.cfem` as an image: what OIIO looks for in cfem.imageio.so.
-#include <vmlight/stage_input.h>
+#include "../readers.h"
 
 OIIO_PLUGIN_NAMESPACE_BEGIN
-
-namespace {
-
-class CfemInput final : public vmlight::StageInput
-{
-public:
-    CfemInput()
-        : StageInput("cfem")
-    {
-    }
-};
-
-} // namespace
 
 OIIO_PLUGIN_EXPORTS_BEGIN
 
@@ -28,7 +15,7 @@ OIIO_EXPORT const char* cfem_imageio_library_version()
 
 OIIO_EXPORT ImageInput* cfem_input_imageio_create()
 {
-    return new CfemInput;
+    return vmlight_create_reader("cfem");
 }
 
 OIIO_EXPORT const char* cfem_input_extensions[] = { "cfem", nullptr };

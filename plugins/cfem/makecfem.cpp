@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/image_file.h>
 #include <vmlight/stage_main.h>
+#include <vmlight/udim_run.h>
 
 using namespace vmlight;
 
@@ -13,15 +13,17 @@ int main(int argc, const char** argv)
                     "  makecfem sky.hdr --colorconfig config.ocio --resolution 512 -o sky_cfem.exr\n"
                     "  makecfem studio.exr --stack -o studio_stack.exr\n"
                     "  makecfem studio.cfem -o studio_cfem.exr");
+    UdimRun tiles(stage, recipe);
     stage.params("Filter:", recipe.cfem_params);
     stage.option("stack", "", "Add lobes wider and narrower than the cosine, for the model lobe",
                  [&](auto, auto&) { return recipe.stack = true; });
-    stage.recipe("Inputs:", recipe, [&](const auto& operands) { recipe.environment = operands[0]; });
+    stage.recipe(
+        "Inputs:", recipe, [&](const auto& operands) { recipe.environment = operands[0]; },
+        [&] { return tiles.unsaid(); });
 
-    return stage.run(argc, argv, [&](std::string& error) {
+    const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
         std::vector<OIIO::ImageBuf> levels; // one, but of a stack
-        error = output_fault(stage.output());
-        return error.empty() && make_images(levels, recipe, stage.make_options(), error)
-            && stage.write(levels, stage.output(), error);
-    });
+        return make_images(levels, tile, options, error) && stage.write(levels, output, error);
+    };
+    return stage.run(argc, argv, [&](std::string& error) { return tiles.each(make, error); });
 }

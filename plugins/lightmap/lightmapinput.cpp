@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `hero.lightmap` as an image: what OIIO looks for in lightmap.imageio.so.
-#include <vmlight/stage_input.h>
+#include "../readers.h"
 
 OIIO_PLUGIN_NAMESPACE_BEGIN
-
-namespace {
-
-class LightmapInput final : public vmlight::StageInput
-{
-public:
-    LightmapInput()
-        : StageInput("lightmap")
-    {
-    }
-};
-
-} // namespace
 
 OIIO_PLUGIN_EXPORTS_BEGIN
 
@@ -28,7 +15,7 @@ OIIO_EXPORT const char* lightmap_imageio_library_version()
 
 OIIO_EXPORT ImageInput* lightmap_input_imageio_create()
 {
-    return new LightmapInput;
+    return vmlight_create_reader("lightmap");
 }
 
 OIIO_EXPORT const char* lightmap_input_extensions[] = { "lightmap", nullptr };

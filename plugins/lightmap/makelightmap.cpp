@@ -1,43 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/animation.h>
 #include <vmlight/channels.h>
-#include <vmlight/frames.h>
-#include <vmlight/image_file.h>
+#include <vmlight/recipe_udim.h>
 #include <vmlight/stage_main.h>
+#include <vmlight/udim_run.h>
 
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/timer.h>
 
 using namespace vmlight;
 using OIIO::Strutil::fmt::format;
-
-namespace {
-
-/// What changes from frame to frame.
-struct Animation
-{
-    std::vector<int> frames { 1 };
-    bool asked = false;
-    Ramp rotate_y;
-
-    bool turns() const { return rotate_y.first != 0 || rotate_y.last != 0; }
-
-    // The turn about y comes after the object's own rotation; both become one matrix.
-    LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const
-    {
-        LightmapParams frame = params, own = params;
-        own.env_rotate.clear();
-        Rotation rotation;
-        if (!turns() || !lightmap_rotation(rotation, own, error))
-            return frame;
-        rotation = rotation_from_angles(0, rotate_y.at(index, frames.size()), 0) * rotation;
-        frame.rotate.clear();
-        frame.quaternion.clear();
-        frame.matrix.assign(&rotation[0][0], &rotation[0][0] + 9);
-        return frame;
-    }
-};
-
-} // namespace
 
 int main(int argc, const char** argv)
 {
@@ -46,7 +18,9 @@ int main(int argc, const char** argv)
     StageMain stage("makelightmap", "light a visibility map", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
                     "  makelightmap hero_vismap.exr studio_cfem.exr --rotate 0,90,0 -o hero_lit.exr\n"
                     "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
+                    "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
                     "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr");
+    UdimRun tiles(stage, recipe);
     stage.params("Light:", recipe.lightmap_params);
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, 1-48: -o holds #### for the number", [&](auto text, auto& error) {
@@ -68,35 +42,40 @@ int main(int argc, const char** argv)
             recipe.vismap = operands[0];
             (image_stage(operands[1]) == kCfemStage ? recipe.cfem : recipe.environment) = operands[1];
         },
-        [&] { return animation.asked || animation.turns() ? "a recipe holds neither --frames nor --rotate-y" : ""; });
+        [&] {
+            return animation.asked || animation.turns() ? "a recipe holds neither --frames nor --rotate-y"
+                                                        : tiles.unsaid();
+        });
 
-    return stage.run(argc, argv, [&](std::string& error) {
-        const MakeOptions options = stage.make_options();
-        LightmapInputs inputs;
-        error = output_fault(stage.output());
-        if (error.empty() && animation.frames.size() > 1 && stage.output().find('#') == std::string::npos)
-            error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
-                           animation.frames.size());
-        if (error.empty() && !animation.asked && animation.rotate_y.first != animation.rotate_y.last)
-            error = format("rotate_y: from {} to {} degrees needs --frames", animation.rotate_y.first,
-                           animation.rotate_y.last);
-        if (!error.empty() || !read_lightmap_inputs(inputs, recipe, options, error))
+    LightmapInputs inputs; // the light stays from tile to tile
+    const auto make = [&](const auto& tile, const auto& output, const MakeOptions& options, std::string& error) {
+        if (!read_lightmap_inputs(inputs, tile, options, error))
             return false;
         const OIIO::Timer timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
-            const LightmapParams frame = animation.at(recipe.lightmap_params, i, error);
-            const std::string path = animation.asked ? frame_path(stage.output(), animation.frames[i]) : stage.output();
+            const LightmapParams frame = animation.at(tile.lightmap_params, i, error);
+            const std::string path = animation.asked ? frame_path(output, animation.frames[i]) : output;
             OIIO::ImageBuf lightmap;
             if (error.empty()
                 && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
                                   options.progress("light")))
                 error = lightmap.geterror();
+            tag_udim(lightmap.specmod(), tile.udim);
             if (!error.empty() || !stage.write(lightmap, path, error))
                 return false;
         }
-        stage.say(format("light: {} of {}x{} in {:.3f} s",
-                         animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
-                         inputs.vismap.spec().width, inputs.vismap.spec().height, timer()));
+        options.say(format("light: {} of {}x{} in {:.3f} s",
+                           animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
+                           inputs.vismap.spec().width, inputs.vismap.spec().height, timer()));
         return true;
+    };
+    return stage.run(argc, argv, [&](std::string& error) {
+        if (animation.frames.size() > 1 && stage.output().find('#') == std::string::npos)
+            error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
+                           animation.frames.size());
+        if (error.empty() && !animation.asked && animation.rotate_y.first != animation.rotate_y.last)
+            error = format("rotate_y: from {} to {} degrees needs --frames", animation.rotate_y.first,
+                           animation.rotate_y.last);
+        return error.empty() && tiles.each(make, error);
     });
 }

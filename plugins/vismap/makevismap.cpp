@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/image_file.h>
 #include <vmlight/stage_main.h>
+#include <vmlight/udim_run.h>
 
 using namespace vmlight;
 
@@ -9,18 +9,21 @@ int main(int argc, const char** argv)
     VismapRecipe recipe;
     StageMain stage("makevismap", "bake how much each texel of a mesh sees, and which way on average", { "MESH" },
                     "  makevismap hero.obj -o hero_vismap.exr --resolution 2048 --samples 256\n"
+                    "  makevismap hero.obj -o 'hero_vismap.<UDIM>.exr'\n"
                     "  makevismap hero.glb --occluder ground.obj --occluder tree.ply -o hero_vismap.exr\n"
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
+    UdimRun tiles(stage, recipe);
     stage.params("Visibility:", recipe.vismap_params);
     stage.params("Mesh:", recipe.mesh_params);
-    stage.recipe("Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; });
+    stage.recipe(
+        "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, [&] { return tiles.unsaid(); });
 
-    return stage.run(argc, argv, [&](std::string& error) {
+    const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
         OIIO::ImageBuf vismap;
-        error = output_fault(stage.output());
-        if (error.empty() && !make_image(vismap, recipe, stage.make_options()))
+        if (!make_image(vismap, tile, options))
             error = vismap.geterror();
-        return error.empty() && stage.write(vismap, error);
-    });
+        return error.empty() && stage.write(vismap, output, error);
+    };
+    return stage.run(argc, argv, [&](std::string& error) { return tiles.each(make, error); });
 }

@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `hero.vismap` as an image: what OIIO looks for in vismap.imageio.so.
-#include <vmlight/stage_input.h>
+#include "../readers.h"
 
 OIIO_PLUGIN_NAMESPACE_BEGIN
-
-namespace {
-
-class VismapInput final : public vmlight::StageInput
-{
-public:
-    VismapInput()
-        : StageInput("vismap")
-    {
-    }
-};
-
-} // namespace
 
 OIIO_PLUGIN_EXPORTS_BEGIN
 
@@ -28,7 +15,7 @@ OIIO_EXPORT const char* vismap_imageio_library_version()
 
 OIIO_EXPORT ImageInput* vismap_input_imageio_create()
 {
-    return new VismapInput;
+    return vmlight_create_reader("vismap");
 }
 
 OIIO_EXPORT const char* vismap_input_extensions[] = { "vismap", nullptr };

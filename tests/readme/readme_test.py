@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands of README's chapter "In a pipeline", as a reader would type them, from an installed tree.
 
-Run with VMLIGHT_SOURCE (the repository) and VMLIGHT_PREFIX (where it is installed, for /opt/vmlight). The folder that they
-run in holds what the chapter says it does: hero.obj and studio.hdr.
+Run with VMLIGHT_SOURCE (the repository), VMLIGHT_PREFIX (where it is installed, for /opt/vmlight) and VMLIGHT_PRELOAD (what
+a host must load first, or nothing). The folder that they run in holds what the chapter says it does: hero.obj and studio.hdr.
 """
 import os
 import re
@@ -37,7 +37,10 @@ class Readme(unittest.TestCase):
         if subprocess.run([python, "-c", "import OpenImageIO"], capture_output=True).returncode != 0:
             print("Python's module OpenImageIO is not installed: its command is left out")
             lines = [line for line in lines if not line.startswith("python3 ")]
-        setup = ["set -eu", f'python3() {{ {python} "$@"; }}']
+        setup = ["set -eu"]
+        for host, program in ("oiiotool", "oiiotool"), ("maketx", "maketx"), ("python3", python):
+            setup.append('%s() { LD_PRELOAD=$VMLIGHT_PRELOAD ASAN_OPTIONS=detect_leaks=0 command %s "$@"; }'
+                         % (host, program))
         script = "\n".join([*setup, *lines]).replace("/opt/vmlight", PREFIX)
         environment = {k: v for k, v in os.environ.items() if k not in ("OCIO", "OIIO_LIBRARY_PATH")}
         result = subprocess.run(["bash", "-x", "-c", script], capture_output=True, text=True, cwd=folder,

@@ -100,7 +100,8 @@ inline std::vector<float> all_pixels(const OIIO::ImageBuf& image)
 /// What readers did so far.
 struct Work
 {
-    int64_t meshes_read = stage_counts().meshes_read, tiles_baked = stage_counts().tiles_baked;
+    int64_t meshes_read = stage_counts().meshes_read, scenes_built = stage_counts().scenes_built;
+    int64_t tiles_baked = stage_counts().tiles_baked;
     int64_t cfems_made = stage_counts().cfems_made, tiles_shaded = stage_counts().tiles_shaded;
 
     static Work none() { return Work() - Work(); }
@@ -108,6 +109,7 @@ struct Work
     {
         Work work;
         work.meshes_read = meshes_read - other.meshes_read;
+        work.scenes_built = scenes_built - other.scenes_built;
         work.tiles_baked = tiles_baked - other.tiles_baked;
         work.cfems_made = cfems_made - other.cfems_made;
         work.tiles_shaded = tiles_shaded - other.tiles_shaded;
@@ -115,8 +117,8 @@ struct Work
     }
     bool operator==(const Work& other) const
     {
-        return meshes_read == other.meshes_read && tiles_baked == other.tiles_baked && cfems_made == other.cfems_made
-            && tiles_shaded == other.tiles_shaded;
+        return meshes_read == other.meshes_read && scenes_built == other.scenes_built
+            && tiles_baked == other.tiles_baked && cfems_made == other.cfems_made && tiles_shaded == other.tiles_shaded;
     }
 };
 

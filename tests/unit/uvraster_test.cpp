@@ -298,6 +298,62 @@ TEST(UvRaster, TheReportTellsTheHealthOfTextureCoordinates)
     EXPECT_EQ(report.degenerate_3d, 2);
 }
 
+TEST(UvRaster, ATileOfMovedCoordinatesIsCoveredAsTheFirstWasBeforeToTheLastBit)
+{
+    // Multiples of 2^-16 stay exact when moved by whole tiles.
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> fraction(-20000, 90000);
+    Mesh mesh;
+    for (uint32_t i = 0; i < 300; ++i) {
+        mesh.uvs.emplace_back(float(fraction(random)) / 65536, float(fraction(random)) / 65536);
+        mesh.positions.emplace_back(mesh.uvs[i].x, mesh.uvs[i].y, 0);
+        if (i % 3 == 2)
+            mesh.triangles.push_back({ i - 2, i - 1, i });
+    }
+    const UvRaster still(mesh, 100, 70);
+    for (int udim : { 1002, 1011, 1067 }) {
+        Mesh moved = mesh;
+        for (V2f& uv : moved.uvs)
+            uv += udim_corner(udim);
+        const UvRaster raster(moved, 100, 70, udim);
+        EXPECT_EQ(raster.report().outside, still.report().outside);
+        for (int tile = 0; tile < still.tiles_across() * still.tiles_down(); ++tile) {
+            TileCover a, b;
+            still.cover(tile, a);
+            raster.cover(tile, b);
+            ASSERT_EQ(a.triangle, b.triangle);
+            ASSERT_EQ(a.covered, b.covered);
+            for (size_t i = 0; i < a.triangle.size(); ++i)
+                if (a.triangle[i] != TileCover::kNone) {
+                    ASSERT_EQ(a.weight1[i], b.weight1[i]) << udim << " " << i;
+                    ASSERT_EQ(a.weight2[i], b.weight2[i]) << udim << " " << i;
+                }
+        }
+    }
+}
+
+TEST(UvRaster, TrianglesOfOtherTilesAreToldFromThoseThatReachOver)
+{
+    Flat flat(16, 16); // in texels: a tile is 16 wide, y down
+    const auto triangle = [&](double x, double y, double size) {
+        flat.triangle(flat.vertex(x, y), flat.vertex(x, y + size), flat.vertex(x + size, y + size));
+    };
+    triangle(0, 0, 16); // 1001
+    triangle(16, 0, 16); // 1002, from its border
+    triangle(20, -10, 4); // 1012
+    triangle(12, 4, 8); // 1001 and 1002
+    triangle(-8, 4, 4); // no tile
+    triangle(1e8, 4, 4); // no tile, far away
+    const auto counts = [&](int udim) {
+        const UvReport report = UvRaster(flat.mesh, 16, 16, udim).report();
+        return std::vector<int64_t> { report.outside, report.elsewhere, report.beyond };
+    };
+    EXPECT_EQ(counts(1001), (std::vector<int64_t> { 5, 4, 2 }));
+    EXPECT_EQ(counts(1002), (std::vector<int64_t> { 5, 4, 2 }));
+    EXPECT_EQ(counts(1012), (std::vector<int64_t> { 5, 5, 2 }));
+    EXPECT_EQ(counts(1055), (std::vector<int64_t> { 6, 6, 2 }));
+}
+
 TEST(UvRaster, TrianglesFarOutsideStillCoverWhatTheyReach)
 {
     // From ten thousand textures away, on both sides: exact all the same.
