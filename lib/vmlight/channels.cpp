@@ -50,6 +50,21 @@ bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
     return flag.empty();
 }
 
+bool find_normal_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
+{
+    if (!find_vismap_channels(spec, index, error))
+        return false;
+    for (size_t c = 0; c < kNormalChannels.size(); ++c) {
+        index[c + 1] = spec.channelindex(kNormalChannels[c]);
+        if (index[c + 1] < 0) {
+            error = format("no channel \"{}\" among {}: the model ao needs the normals that makevismap --normal bakes",
+                           kNormalChannels[c], OIIO::Strutil::join(spec.channelnames, ", "));
+            return false;
+        }
+    }
+    return true;
+}
+
 bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error)
 {
     if (spec.get_string_attribute("vmlight:stage") == kVismapStage) {

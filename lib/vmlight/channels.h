@@ -19,6 +19,9 @@ constexpr const char* kLightmapStage = "lightmap";
 
 /// Channels of a visibility map, in the order it is made: `visibility`, `direction.x`, `direction.y`, `direction.z`.
 constexpr std::array<const char*, 4> kVismapChannels { "visibility", "direction.x", "direction.y", "direction.z" };
+/// Optional channels of a visibility map: the shading normal n, in object space, of unit length where a triangle covers
+/// the texel. What the model `ao` needs.
+constexpr std::array<const char*, 3> kNormalChannels { "normal.x", "normal.y", "normal.z" };
 /// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
 constexpr const char* kCoverageChannel = "coverage";
 
@@ -31,6 +34,11 @@ constexpr const char* kCoverageChannel = "coverage";
 ///          colour, and nothing in the pixels would tell. An image without `vmlight:stage` passes on its channels
 ///          alone.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
+
+/// As find_vismap_channels(), with the channels of the normal in place of the direction's.
+///
+/// @returns false also if the visibility map has no normals; `error` says how to bake them.
+VMLIGHT_API bool find_normal_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
 /// Find the colour channels R, G, B; a map of one channel, or of one named Y, serves as all three.
 ///

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap.h>
 
+#include <vmlight/channels.h>
 #include <vmlight/lightmap_input.h>
 #include <vmlight/lightmap_shader.h>
 #include <vmlight/parallel.h>
@@ -66,7 +67,7 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
     Rotation rotation;
     VismapReader reader;
     LightmapShader shader;
-    if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, error)
+    if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, error)
         || !shader.prepare(cfem, params, error))
         return false;
     if (albedo) {
@@ -97,6 +98,13 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
 }
 
 } // namespace
+
+bool find_model_channels(const ImageSpec& vismap, const LightmapParams& params, std::array<int, 4>& index,
+                         std::string& error)
+{
+    return params.model == "ao" ? find_normal_channels(vismap, index, error)
+                                : find_vismap_channels(vismap, index, error);
+}
 
 bool lightmap_rotation(Rotation& dst, const LightmapParams& params, std::string& error)
 {

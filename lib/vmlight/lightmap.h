@@ -10,6 +10,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace vmlight {
 
 struct LightmapParams
 {
-    /// How V and B become light. `paper`: V C(R B / |B|). `lobe`: the same, with the environment filtered by a lobe as
+    /// How V and B become light. `ao`: V C(R n), which knows no direction but the normal; needs a map with normals
+    /// (VismapParams::normal). `paper`: V C(R B / |B|). `lobe`: the same, with the environment filtered by a lobe as
     /// wide as |B| / V says, in place of the cosine; needs a stack (cfem_stack.h). `auto`: `lobe` with a stack, else
     /// `paper`.
     std::string model = "auto";
@@ -30,7 +32,7 @@ struct LightmapParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("model", model, Choices { { "auto", "paper", "lobe" } },
+        field("model", model, Choices { { "auto", "ao", "paper", "lobe" } },
               "Shading model; auto is lobe with a stack or an environment, else paper");
         field("rotate", rotate, Numbers { 3 }, "Turn the object: x,y,z degrees about fixed x, then y, then z");
         field("matrix", matrix, Numbers { 9 }, "Turn the object: a rotation matrix, row major, for column vectors");
@@ -46,6 +48,11 @@ inline std::string lightmap_model(const LightmapParams& params, bool has_stack)
     return params.model != "auto" ? params.model : has_stack ? "lobe" : "paper";
 }
 
+/// The channels that a model reads of a visibility map, V first: find_vismap_channels(), or for `ao`
+/// find_normal_channels().
+VMLIGHT_API bool find_model_channels(const OIIO::ImageSpec& vismap, const LightmapParams& params,
+                                     std::array<int, 4>& index, std::string& error);
+
 /// The rotation from object space to environment space that `params` asks for: with the object turned by R and the
 /// environment by E, light arrives along object direction w from environment direction E^-1 R w.
 /// False, with the reason in `error`, if a parameter is out of range, more than one of rotate, matrix, quaternion is
@@ -60,7 +67,9 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 ///                 visibility is 0 or less. Where light is seen from all sides alike, so that there is no direction
 ///                 (no component of B reaches 1e-6 V), C is the mean of the CFEM over the sphere. Its `vmlight:model`
 ///                 is the one that was used. Memory of `dst` that fits is used again. May be one of the inputs
-/// @param vismap   channels `visibility`, `direction.x`, `direction.y`, `direction.z`, found by name, in any order
+/// @param vismap   channels `visibility`, `direction.x`, `direction.y`, `direction.z`, found by name, in any order; for
+/// the
+///                 model `ao` also `normal.x`, `normal.y`, `normal.z`
 /// @param cfem     a lat-long map of R, G, B as make_cfem() makes it, of any size from 1x1. Looked up bilinearly,
 ///                 continuous over seam and poles: a pole has the mean of the row next to it. Negative values pass.
 ///                 Or the levels of a stack, as make_cfem_stack() makes them
@@ -70,7 +79,8 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 ///                 processor has.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, an image is not what it should
 ///          be, a pixel of one is not finite (how many, and where the first is) or the albedo's is negative, the result
-///          is too large for float, `lobe` is asked for without a stack, or `progress` stopped the work
+///          is too large for float, `lobe` is asked for without a stack, `ao` without normals, or `progress` stopped
+///          the work
 ///          ("interrupted"); `dst` then has no pixels. Not checked: that `cfem` was filtered with a cosine, unless its
 ///          `vmlight:stage` says otherwise.
 VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& vismap, const OIIO::ImageBuf& cfem,

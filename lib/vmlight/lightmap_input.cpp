@@ -44,11 +44,11 @@ void find_not_finite(ROI roi, const float* pixels, int channels, Faults& faults)
                     faults.add(x, y, c);
 }
 
-bool VismapReader::open(const ImageBuf& image, std::string& error)
+bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, std::string& error)
 {
     if (!check_input(image, "visibility map", error))
         return false;
-    if (!find_vismap_channels(image.spec(), m_index, error)) {
+    if (!find_model_channels(image.spec(), params, m_index, error)) {
         error = named(image, error);
         return false;
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/faults.h>
+#include <vmlight/lightmap.h>
 #include <vmlight/shade_kernel.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -26,8 +27,9 @@ void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, Faults& f
 class VismapReader
 {
 public:
-    /// False, with the reason in `error`, if `image` is not a visibility map. It must outlive the reader.
-    bool open(const OIIO::ImageBuf& image, std::string& error);
+    /// Of the channels that the model of `params` wants. False, with the reason in `error`, if `image` is not a
+    /// visibility map, or has not all of them. It must outlive the reader.
+    bool open(const OIIO::ImageBuf& image, const LightmapParams& params, std::string& error);
 
     VismapOrder order() const { return m_order; }
 

@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -74,7 +75,11 @@ bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapPar
         error = named(cfem[0], error);
         return false;
     }
+    // `ao` is `paper` with the normal in the direction's place.
     m_kernel = lobe ? shade_lobe : shade_paper;
+    m_vismap_channels = kVismapChannels;
+    if (params.model == "ao")
+        std::copy(kNormalChannels.begin(), kNormalChannels.end(), m_vismap_channels.begin() + 1);
     m_setup.cfem = &m_lookup;
     m_setup.lobes = &m_lobes;
     m_setup.gain = float(std::exp2(params.exposure));
@@ -110,7 +115,7 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
     if (!faults.error.empty())
         return faults.error;
     if (faults.vismap.any())
-        return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", kVismapChannels));
+        return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", m_vismap_channels));
     if (faults.albedo.any())
         return led_by(albedo_name, m_albedo->fault_text(faults.albedo));
     return faults.result.text("lightmap", "too large for float", std::array { "R", "G", "B" });

@@ -11,6 +11,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -60,6 +61,7 @@ public:
 
 private:
     ShadeTexels m_kernel = nullptr;
+    std::array<const char*, 4> m_vismap_channels {};
     ShadeSetup m_setup {};
     CfemLookup m_lookup;
     LobeLookup m_lobes;

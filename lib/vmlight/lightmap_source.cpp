@@ -39,7 +39,7 @@ public:
 
     bool describe(const RecipeChain& chain, std::string& error)
     {
-        if (!find_vismap_channels(m_inputs.vismap->spec(), m_index, error))
+        if (!find_model_channels(m_inputs.vismap->spec(), m_recipe.lightmap_params, m_index, error))
             error = placed(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         Rotation rotation;
         if (!error.empty())

@@ -223,7 +223,7 @@ bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
     std::array<int, 4> channels;
     if (!read_input(dst, recipe, "vismap", recipe.vismap, Input::Vismap, options, error))
         return false;
-    if (find_vismap_channels(dst.spec(), channels, error))
+    if (find_model_channels(dst.spec(), recipe.lightmap_params, channels, error))
         return true;
     error = placed(recipe, "vismap", options.chain, format("\"{}\": {}", recipe.vismap, error));
     return false;

@@ -45,12 +45,12 @@ double dot(const float* a, const float* b)
     return double(a[1]) * b[1] + double(a[2]) * b[2] + double(a[3]) * b[3];
 }
 
-void average_neighbours(float* pixels, int channels, const Coverage& coverage, const Texel& t)
+void average_neighbours(float* pixels, int channels, int filled_channels, const Coverage& coverage, const Texel& t)
 {
     const auto at = [&](const Texel& n) {
         return pixels + (size_t(n.y) * size_t(coverage.width()) + size_t(n.x)) * size_t(channels);
     };
-    std::array<const float*, 8> filled;
+    std::array<const float*, 8> filled {};
     int count = 0;
     each_neighbour(coverage, t, [&](const Texel& n) {
         if (coverage.get(n.x, n.y))
@@ -60,17 +60,16 @@ void average_neighbours(float* pixels, int channels, const Coverage& coverage, c
     // Neighbours that look away from the most decided one are left out.
     const float* leader = *std::max_element(filled.begin(), filled.begin() + count,
                                             [](const float* a, const float* b) { return dot(a, a) < dot(b, b); });
-    double sum[4] = {};
-    int used = 0;
-    for (int i = 0; i < count; ++i) {
-        if (dot(filled[i], leader) < 0)
-            continue;
-        for (int c = 0; c < 4; ++c)
-            sum[c] += double(filled[i][c]);
-        ++used;
+    for (int c = 0; c < filled_channels; ++c) {
+        double sum = 0;
+        int used = 0;
+        for (int i = 0; i < count; ++i)
+            if (dot(filled[i], leader) >= 0) {
+                sum += double(filled[i][c]);
+                ++used;
+            }
+        at(t)[c] = float(sum / used);
     }
-    for (int c = 0; c < 4; ++c)
-        at(t)[c] = float(sum[c] / used);
 }
 
 } // namespace
@@ -83,7 +82,7 @@ Coverage::Coverage(int width, int height)
 {
 }
 
-void fill_margin(float* pixels, int channels, Coverage& coverage, int rings)
+void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, int filled_channels)
 {
     std::vector<Texel> front = rim(coverage), next;
     Coverage queued = coverage;
@@ -96,9 +95,8 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings)
                     next.push_back(n);
                 }
             });
-        for (const Texel& t : next) {
-            average_neighbours(pixels, channels, coverage, t);
-        }
+        for (const Texel& t : next)
+            average_neighbours(pixels, channels, filled_channels, coverage, t);
         // Only now, so that a ring does not depend on the order within it.
         for (const Texel& t : next)
             coverage.set(t.x, t.y);

@@ -27,12 +27,13 @@ int height_of(const VismapParams& params)
 
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params)
 {
-    OIIO::ImageSpec spec(width_of(params), height_of(params), 4, OIIO::TypeDesc::FLOAT);
-    spec.channelnames.assign(kVismapChannels.begin(), kVismapChannels.end());
-    if (params.coverage) {
-        spec.nchannels = 5;
-        spec.channelnames.push_back(kCoverageChannel);
-    }
+    std::vector<std::string> names(kVismapChannels.begin(), kVismapChannels.end());
+    if (params.normal)
+        names.insert(names.end(), kNormalChannels.begin(), kNormalChannels.end());
+    if (params.coverage)
+        names.push_back(kCoverageChannel);
+    OIIO::ImageSpec spec(width_of(params), height_of(params), int(names.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames = names;
     spec.tile_width = spec.tile_height = kTileSize;
     spec.tile_depth = 1;
     tag_data(spec);
@@ -116,7 +117,12 @@ int VismapBaker::height() const
 
 int VismapBaker::channels() const
 {
-    return m_scene->params.coverage ? 5 : 4;
+    return filled_channels() + (m_scene->params.coverage ? 1 : 0);
+}
+
+int VismapBaker::filled_channels() const
+{
+    return m_scene->params.normal ? 7 : 4;
 }
 
 int VismapBaker::tiles_across() const
@@ -175,8 +181,10 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         out[0] = float(seen.visibility);
         for (int c = 0; c < 3; ++c)
             out[1 + c] = float(seen.direction[c]);
-        if (channel_count == 5)
-            out[4] = 1;
+        for (int c = 0; c < 3 && m_scene->params.normal; ++c)
+            out[4 + c] = point.normal[c];
+        if (m_scene->params.coverage)
+            out[channel_count - 1] = 1;
     }
     counts.rays = scratch.eye.rays() - rays_before;
     return counts;

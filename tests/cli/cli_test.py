@@ -316,6 +316,22 @@ class Light(Case):
         self.done("makelightmap", "vm.exr", SKY, "-o", "b.exr", "--model", "paper")
         self.assert_same_pixels("a.exr", "b.exr", 0)
 
+    def test_ao_needs_normals(self):
+        self.done("makevismap", SPOT, "-o", "vm.exr", "--resolution", "64", "--samples", "16")
+        self.done("makecfem", SKY, "-o", "cfem.exr", "--resolution", "64")
+        words = ["cfem.exr", "--model", "ao", "-o", "lit.exr"]
+        self.refused(1, "the model ao needs the normals that makevismap --normal bakes", "makelightmap", "vm.exr",
+                     *words)
+        self.assertFalse(os.path.exists(self.path("lit.exr")))
+        self.done("makevismap", SPOT, "-o", "vmn.exr", "--resolution", "64", "--samples", "16", "--normal")
+        self.done("makelightmap", "vmn.exr", *words)
+        self.file("n.vismap", f'mesh = "{SPOT}"\nresolution = 64\nsamples = 16\nnormal = true\n')
+        self.done("makelightmap", "n.vismap", *words[:-1], "live.exr")
+        self.assertEqual(self.read("live.exr"), self.read("lit.exr"))
+        self.done("makelightmap", "vmn.exr", "cfem.exr", "-o", "a.exr")
+        self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "b.exr")
+        self.assert_same_pixels("a.exr", "b.exr", 0)
+
     def test_a_stack_lights_by_lobes(self):
         self.vismap()
         self.done("makecfem", SKY, "-o", "cfem.exr")

@@ -99,6 +99,12 @@ class Pixels(Case):
         self.file("b.lightmap", 'vismap = "vm.exr"\ncfem = "stack.exr"\nmodel = "auto"\n')
         for name in "env", "a", "b":
             self.assert_same_pixels(f"{name}.lightmap?rotate=0,30,0", "lobe.exr")
+        self.make("makevismap", "hero.vismap?normal=true", "-o", "vmn.exr")
+        self.assert_same_pixels("hero.vismap?normal=true", "vmn.exr")
+        self.file("ao.lightmap", 'vismap = "vmn.exr"\ncfem = "stack.cfem"\nmodel = "ao"\n')
+        self.make("makelightmap", "vmn.exr", "stack.exr", "-o", "ao.exr", "--model", "ao")
+        self.assert_same_pixels("ao.lightmap", "ao.exr")
+        self.refused("makevismap --normal", "a.lightmap?model=ao", "-o", "x.exr")
         self.assertIn('vmlight:model: "lobe"', self.done("oiiotool", "--info", "-v", "a.lightmap"))
         self.assertIn('vmlight:model: "paper"', self.done("oiiotool", "--info", "-v", "hero.lightmap"))
         self.refused("makecfem --stack", "hero.lightmap?model=lobe", "-o", "x.exr")

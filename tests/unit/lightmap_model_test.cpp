@@ -165,6 +165,44 @@ TEST(LightmapModel, AutoTakesALobeWhereThereIsAStack)
     EXPECT_TRUE(same_bits(levels[3], with));
 }
 
+TEST(LightmapModel, AoLooksAlongTheNormal)
+{
+    const ImageBuf map = random_cfem(32, 16), directions = random_vismap(20, 20);
+    ImageSpec spec = directions.spec();
+    spec.nchannels = 7;
+    spec.channelnames.insert(spec.channelnames.begin(), kNormalChannels.begin(), kNormalChannels.end());
+    ImageBuf vm(spec), swapped(directions.spec());
+    std::mt19937 random(8);
+    std::normal_distribution<float> normal;
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const V3f n = V3f(normal(random), normal(random), normal(random)).normalized();
+            float texel[7] { n.x, n.y, n.z };
+            directions.getpixel(x, y, texel + 3, 4);
+            vm.setpixel(x, y, texel);
+            const float direct[4] { texel[3], n.x, n.y, n.z };
+            swapped.setpixel(x, y, direct);
+        }
+    LightmapParams params = model("ao");
+    params.rotate = { 20, 35, -50 };
+    const ImageBuf image = lit(vm, map, params);
+    EXPECT_EQ(image.spec().get_string_attribute("vmlight:model"), "ao");
+    params.model = "paper";
+    EXPECT_TRUE(same_bits(image, lit(swapped, map, params)));
+    EXPECT_FALSE(same_bits(image, lit(vm, map, params)));
+    // A stack lends its first level.
+    std::vector<ImageBuf> stack = random_stack(32, 16);
+    EXPECT_TRUE(same_bits(lit(vm, stack, model("ao")), lit(vm, stack[0], model("ao"))));
+
+    EXPECT_EQ(refusal(directions, map, model("ao")),
+              "no channel \"normal.x\" among visibility, direction.x, direction.y, direction.z: the model ao needs the "
+              "normals that makevismap --normal bakes");
+    pixels(vm)[7 * 3 + 1] = NAN;
+    EXPECT_EQ(refusal(vm, map, model("ao")),
+              "visibility map has 1 value that is not finite, at pixel (3, 0) channel \"normal.y\"");
+    EXPECT_EQ(lit(vm, map, model("paper")).spec().width, 20);
+}
+
 TEST(LightmapModel, ALobeWithoutItsStackIsRefused)
 {
     const std::vector<ImageBuf> stack = random_stack(16, 8);

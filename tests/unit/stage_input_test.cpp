@@ -116,12 +116,13 @@ TEST(StageInput, LevelsOfAStackAreSubimages)
     recipe.cfem_params.resolution = { 32, 16 };
     recipe.stack = true;
     ASSERT_TRUE(make_images(levels, recipe, {}, error)) << error;
+    const Work made;
     for (int level = 8; level >= 0; --level) {
         std::vector<float> pixels(32 * 16 * 3);
         ASSERT_TRUE(input->read_image(level, 0, 0, 3, OIIO::TypeFloat, pixels.data())) << input->geterror();
         EXPECT_EQ(pixels, all_pixels(levels[size_t(level)])) << level;
     }
-    EXPECT_EQ((Work() - before).cfems_made, 1);
+    EXPECT_EQ((Work() - made).cfems_made, 1);
     std::vector<float> tile(64 * 64 * 3);
     EXPECT_FALSE(input->read_native_tile(9, 0, 0, 0, 0, tile.data()));
     EXPECT_NE(input->geterror(), "");

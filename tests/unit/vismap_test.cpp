@@ -229,6 +229,39 @@ TEST(Vismap, TrianglesWithoutTextureCoordinatesCastAndAreNotBaked)
     map.each([](const Texel& t, int, int) { EXPECT_NEAR(t.visibility, 0.5, 0.05); });
 }
 
+TEST(Vismap, NormalsAreThoseOfTheSurface)
+{
+    const Mesh mesh = sphere(V3d(3, -2, 5), 2, 32);
+    VismapParams params = map_params(128, 64, 16);
+    params.normal = true;
+    params.coverage = false;
+    params.margin = 2;
+    OIIO::ImageBuf plain, image;
+    ASSERT_TRUE(make_vismap(image, mesh, {}, params)) << image.geterror();
+    EXPECT_EQ(image.spec().channelnames,
+              (std::vector<std::string> { "visibility", "direction.x", "direction.y", "direction.z", "normal.x",
+                                          "normal.y", "normal.z" }));
+    EXPECT_EQ(image.spec().get_string_attribute("vmlight:normal"), "true");
+    int covered = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 128; ++x) {
+            float t[7];
+            image.getpixel(x, y, t);
+            const V3f b(t[1], t[2], t[3]), n(t[4], t[5], t[6]);
+            if (t[0] < 1)
+                continue; // the background; a ball sees all of its hemispheres
+            ++covered;
+            EXPECT_NEAR(n.length(), 1, 1e-2); // in the margin a mean
+            EXPECT_GT(n.dot(b), 0.66f);
+        }
+    EXPECT_GT(covered, 1000);
+    params.normal = false;
+    ASSERT_TRUE(make_vismap(plain, mesh, {}, params)) << plain.geterror();
+    for (int i = 0; i < 128 * 64; ++i)
+        for (int c = 0; c < 4; ++c)
+            ASSERT_EQ(plain.getchannel(i % 128, i / 128, 0, c), image.getchannel(i % 128, i / 128, 0, c));
+}
+
 TEST(Vismap, TheMarginIsFilledAndCoverageTellsItApart)
 {
     Mesh mesh = floor_facing_z(1);

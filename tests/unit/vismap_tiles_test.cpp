@@ -93,6 +93,22 @@ TEST(VismapTiles, TheCoverageChannelIsZeroInTheMargin)
     EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole_map(params));
 }
 
+TEST(VismapTiles, NormalsAreThoseOfTheWholeMapInTheMarginToo)
+{
+    for (bool coverage : { false, true })
+        for (int margin : { 0, 16, -1 }) {
+            VismapParams params = quick(200, 130, margin);
+            params.normal = true;
+            params.coverage = coverage;
+            VismapBaker baker;
+            std::string error;
+            ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+            EXPECT_EQ(baker.channels(), coverage ? 8 : 7);
+            VismapTiles tiles(baker, params.margin);
+            EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole_map(params)) << margin;
+        }
+}
+
 TEST(VismapTiles, ACacheWithoutRoomCostsTimeAndNoBit)
 {
     VismapTiles::set_cache_limit(1);
