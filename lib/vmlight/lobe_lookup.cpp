@@ -24,9 +24,9 @@ void set_knot(LobeLookup& dst, int knot, int64_t place, const float* texel)
 {
     const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
     if (knot > 0)
-        std::copy_n(texel, 4, &dst.texels[size_t(8 * ((knot - 1) * texels + place) + 4)]);
+        std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * ((knot - 1) * texels + place) + 3)]);
     if (knot + 1 < kLobeKnots)
-        std::copy_n(texel, 4, &dst.texels[size_t(8 * (knot * texels + place))]);
+        std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * (knot * texels + place))]);
 }
 
 std::string level_fault(const LobeLookup& dst, const OIIO::ImageBuf& image, int level, CfemLookup& map)
@@ -60,11 +60,11 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
     dst.height = spec.height;
     dst.pitch = spec.width + 2;
     const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
-    if (texels * 8 * (kLobeKnots - 1) > kMostFloats) {
+    if (texels * kLobeFloats * (kLobeKnots - 1) > kMostFloats) {
         error = format("a stack of {} levels of {}x{} pixels is too large", kStackLevels, spec.width, spec.height);
         return false;
     }
-    dst.texels.resize(8 * size_t(texels) * (kLobeKnots - 1));
+    dst.texels.resize(kLobeFloats * size_t(texels) * (kLobeKnots - 1) + 2);
     for (int level = 0; level < kStackLevels; ++level) {
         CfemLookup map;
         error = level_fault(dst, levels[level], level, map);

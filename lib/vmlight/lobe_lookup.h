@@ -16,6 +16,8 @@
 
 namespace vmlight {
 
+/// Floats of a texel of two lobes.
+constexpr int kLobeFloats = 6;
 constexpr int kLobeKnots = kStackLevels + 1;
 constexpr int kCfemKnot = 2;
 /// r is clamped to that of the narrowest lobe.
@@ -43,9 +45,10 @@ struct LobeLookup
     int width = 0, height = 0;
     /// Texels from one row of `texels` to the next: width + 2.
     int pitch = 0;
-    /// A map for each pair of neighbouring knots, framed as CfemLookup's, height + 2 rows: R, G, B, 0 of the wider lobe
-    /// and R, G, B, 0 of the narrower, so that one load of eight floats fetches both. Each knot stands here twice: maps
-    /// of pairs are faster than one map of all, since texels that are neighbours on a chart share lines of the cache.
+    /// A map for each pair of neighbouring knots, framed as CfemLookup's, height + 2 rows: R, G, B of the wider lobe
+    /// and R, G, B of the narrower, so that one load of eight floats fetches both; the last texel is followed by two 0.
+    /// Each knot stands here twice: maps of pairs are faster than one map of all, since texels that are neighbours on a
+    /// chart share lines of the cache.
     std::vector<float> texels;
     /// Largest absolute value in `texels`.
     float largest = 0;
@@ -56,7 +59,7 @@ struct LobeLookup
 /// @param levels   as make_cfem_stack() makes them
 /// @returns false, with the reason in `error`, if they are not kStackLevels, one has not the `vmlight:lobe` that its
 ///          place asks for (within 1e-4), they differ in size, one is no CFEM (prepare_cfem()), or they have more than
-///          29 million texels each.
+///          39 million texels each.
 VMLIGHT_API bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::string& error);
 
 /// Whether `levels` are a stack, and not one CFEM: more than one, of which the first says `vmlight:stack`.

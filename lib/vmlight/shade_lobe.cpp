@@ -28,7 +28,7 @@ bool ShadeLobe(const ShadeSetup& setup, VismapOrder order, const float* vismap, 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Bilinear(D d, const Lookups& lookups, size_t i, const float* p, const float* q)
 {
-    constexpr size_t next = 8;
+    constexpr size_t next = kLobeFloats;
     const V up = hn::Add(hn::Mul(hn::Set(d, lookups.weights[0][i]), hn::LoadU(d, p)),
                          hn::Mul(hn::Set(d, lookups.weights[1][i]), hn::LoadU(d, p + next)));
     const V down = hn::Add(hn::Mul(hn::Set(d, lookups.weights[2][i]), hn::LoadU(d, q)),
@@ -45,12 +45,13 @@ struct LobeModel
     {
         const hn::FixedTag<float, 4> d;
         const float* p = sky.texels + lookups.place[i];
-        const float* q = p + 8 * size_t(sky.pitch);
+        const float* q = p + kLobeFloats * size_t(sky.pitch);
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
         const auto lobes = Bilinear(hn::FixedTag<float, 8>(), lookups, i, p, q);
-        const auto wide = hn::LowerHalf(d, lobes), narrow = hn::UpperHalf(d, lobes);
+        const auto wide = hn::LowerHalf(d, lobes), rest = hn::UpperHalf(d, lobes);
+        const auto narrow = hn::CombineShiftRightBytes<12>(d, rest, wide); // from the fourth float on
 #else
-        const auto wide = Bilinear(d, lookups, i, p, q), narrow = Bilinear(d, lookups, i, p + 4, q + 4);
+        const auto wide = Bilinear(d, lookups, i, p, q), narrow = Bilinear(d, lookups, i, p + 3, q + 3);
 #endif
         hn::StoreU(hn::Add(wide, hn::Mul(hn::Set(d, lookups.share[i]), hn::Sub(narrow, wide))), d, rgbx);
     }
@@ -114,11 +115,12 @@ bool shade_lobe_scalar(const ShadeSetup& setup, VismapOrder order, const float* 
         const float total = std::max(light, 0.0f), lower = total * ft, upper = total - lower;
         const float w01 = upper * fu, w00 = upper - w01, w11 = lower * fu, w10 = lower - w11;
         const size_t row = size_t(knot) * size_t(lobes.height + 2) + size_t(it), pitch = size_t(lobes.pitch);
-        const float* p = &lobes.texels[8 * (row * pitch + size_t(iu))];
-        const float* q = p + 8 * pitch;
-        const auto bilinear = [&](int k) { return (w00 * p[k] + w01 * p[k + 8]) + (w10 * q[k] + w11 * q[k + 8]); };
+        const float* p = &lobes.texels[kLobeFloats * (row * pitch + size_t(iu))];
+        const float* q = p + kLobeFloats * pitch;
+        const auto bilinear
+            = [&](int k) { return (w00 * p[k] + w01 * p[k + kLobeFloats]) + (w10 * q[k] + w11 * q[k + kLobeFloats]); };
         for (int c = 0; c < 3; ++c) {
-            const float wide = bilinear(c), narrow = bilinear(c + 4);
+            const float wide = bilinear(c), narrow = bilinear(c + 3);
             rgb[c] = wide + share * (narrow - wide);
         }
     }

@@ -136,7 +136,8 @@ HWY_INLINE bool Aim(D d, const Light& sky, VismapOrder order, const float* vm, L
         const V length = hn::Mul(m, hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z))));
         const V position = LobePosition(d, hn::Div(length, hn::Max(v, hn::Set(d, FLT_MIN))));
         const auto knot = hn::Min(hn::Max(hn::ConvertTo(di, position), zero), hn::Set(di, kLobeKnots - 2));
-        place = hn::ShiftLeft<3>(hn::Add(place, hn::Mul(knot, hn::Set(di, (sky.height + 2) * sky.pitch))));
+        place = hn::Add(place, hn::Mul(knot, hn::Set(di, (sky.height + 2) * sky.pitch)));
+        place = hn::Mul(place, hn::Set(di, kLobeFloats));
         hn::Store(hn::Sub(position, hn::ConvertTo(d, knot)), d, dst.share + at);
     } else {
         const auto symmetric = hn::Lt(m, hn::Mul(v, hn::Set(d, kNoDirection)));
