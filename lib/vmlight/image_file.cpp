@@ -117,10 +117,18 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
     return true;
 }
 
+std::string output_name_fault(const std::string& path)
+{
+    return OIIO::Strutil::iends_with(path, ".exr")
+        ? ""
+        : format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+}
+
 std::string output_fault(const std::string& path)
 {
-    if (!OIIO::Strutil::iends_with(path, ".exr"))
-        return format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+    const std::string name_fault = output_name_fault(path);
+    if (!name_fault.empty())
+        return name_fault;
     if (OIIO::Filesystem::is_directory(path))
         return format("\"{}\": is a folder", path);
     if (OIIO::Filesystem::exists(path) && !OIIO::Filesystem::is_regular(path))

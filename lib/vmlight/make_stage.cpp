@@ -86,11 +86,15 @@ std::string placed(const Recipe& recipe, const std::string& key, const MakeOptio
     return recipe_place(options.chain.back(), key) + ": " + reason;
 }
 
-template <class Recipe> std::string missing(const Recipe& recipe, const char* key, const MakeOptions& options)
+// recipe_fault(), with the place.
+template <class Recipe> std::string placed_fault(const Recipe& recipe, const MakeOptions& options)
 {
-    if (!value_of(recipe, key).empty())
-        return "";
-    return (options.chain.empty() ? "" : format("\"{}\": ", options.chain.back())) + format("{} is missing", key);
+    const std::string fault = recipe_fault(recipe);
+    const std::string key = fault.substr(0, fault.find(": "));
+    if (fault.empty() || options.chain.empty())
+        return fault;
+    return key.size() < fault.size() ? placed(recipe, key, options, fault.substr(key.size() + 2))
+                                     : format("\"{}\": {}", options.chain.back(), fault);
 }
 
 template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const std::string& name, const MakeOptions& options)
@@ -241,7 +245,7 @@ bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
 
 bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options)
 {
-    std::string error = missing(recipe, "mesh", options);
+    std::string error = placed_fault(recipe, options);
     if (!error.empty())
         return failed(dst, error);
     Mesh mesh;
@@ -261,7 +265,7 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptio
 
 bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options)
 {
-    std::string error = missing(recipe, "environment", options);
+    std::string error = placed_fault(recipe, options);
     if (!error.empty() || !filter_environment(dst, recipe, options, error))
         return failed(dst, error);
     return true;
@@ -284,16 +288,36 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
 bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
                           std::string& error)
 {
-    error = missing(recipe, "vismap", options);
-    if (error.empty() && recipe.cfem.empty() && !missing(recipe, "environment", options).empty())
-        error = missing(recipe, "environment", options) + ", or cfem";
-    if (error.empty() && !recipe.cfem.empty() && !recipe.environment.empty())
-        error = placed(recipe, "cfem", options, "environment is given too: one of them must be empty");
+    error = placed_fault(recipe, options);
     // The visibility map first, before an environment is filtered in vain.
     return error.empty() && read_vismap(dst.vismap, recipe, options, error)
         && (recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
                                 : read_cfem(dst.cfem, recipe, options, error))
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
+}
+
+std::string recipe_fault(const VismapRecipe& recipe)
+{
+    return recipe.mesh.empty() ? "mesh is missing" : "";
+}
+
+std::string recipe_fault(const CfemRecipe& recipe)
+{
+    return recipe.environment.empty() ? "environment is missing" : "";
+}
+
+std::string recipe_fault(const LightmapRecipe& recipe)
+{
+    if (recipe.vismap.empty())
+        return "vismap is missing";
+    if (recipe.environment.empty() && recipe.cfem.empty())
+        return "environment is missing, or cfem";
+    if (!recipe.environment.empty() && !recipe.cfem.empty())
+        return "cfem: environment is given too: one of them must be empty";
+    Rotation rotation;
+    std::string error;
+    lightmap_rotation(rotation, recipe.lightmap_params, error);
+    return error;
 }
 
 std::string image_stage(const std::string& name)

@@ -80,6 +80,7 @@ struct StageMain::State
     std::vector<Option> options;
     std::vector<std::pair<const Option*, std::string>> given;
     RecipeDoor door;
+    std::function<std::string()> fault;
     bool prints_recipe = false;
     std::string heading, output;
     OutputParams common;
@@ -186,9 +187,11 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
         return Exit::Usage;
     if (helped)
         return Exit::Done;
+    std::string fault_of_file; // the work tells it, with its line
     if (given_recipe()) {
         if (!door.read(operands[0], error))
             return Exit::Failed;
+        fault_of_file = door.fault();
     } else if (door.fill) {
         door.fill(operands);
     }
@@ -197,8 +200,12 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
             return Exit::Usage;
     if (prints_recipe && door.unsaid)
         error = door.unsaid();
-    if (!prints_recipe && output.empty())
-        error = "-o OUTPUT.exr is missing";
+    if (!prints_recipe)
+        error = output.empty() ? "-o OUTPUT.exr is missing" : output_name_fault(output);
+    if (error.empty() && door.fault && door.fault() != fault_of_file)
+        error = door.fault();
+    if (error.empty() && fault)
+        error = fault();
     return error.empty() ? Exit::Done : Exit::Usage;
 }
 
@@ -249,6 +256,11 @@ void StageMain::option(const std::string& name, const std::string& metavar, cons
     });
 }
 
+void StageMain::check(std::function<std::string()> fault)
+{
+    m_state->fault = std::move(fault);
+}
+
 int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)
 {
     OIIO::Filesystem::convert_native_arguments(argc, argv);
@@ -272,7 +284,8 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
                 OIIO::attribute("threads", state.common.threads);
             catch_interrupts(state.name);
             exit = Exit::Failed;
-            exit = work(error) ? Exit::Done : Exit::Failed;
+            error = output_fault(state.output);
+            exit = error.empty() && work(error) ? Exit::Done : Exit::Failed;
         }
     } catch (const std::bad_alloc&) {
         error = "out of memory";

@@ -78,7 +78,7 @@ public:
         take_recipe(
             { Recipe::kStage, std::move(fill), std::move(unsaid),
               [&recipe](const std::string& name, std::string& error) { return read_recipe(recipe, name, error); },
-              [&recipe] { return recipe_text(recipe); } });
+              [&recipe] { return recipe_fault(recipe); }, [&recipe] { return recipe_text(recipe); } });
     }
     /// Takes the flag's value ("true" for one without); false and `error` refuse it. A flag may come more than once.
     /// All are taken in their order, when the operands are in their places.
@@ -88,7 +88,11 @@ public:
     /// An option whose text is kept as it is; `dst` must outlive run().
     void option(const std::string& name, const std::string& metavar, const std::string& help, std::string& dst);
 
-    /// Parse the command line, then call `work`, which returns false and sets `error` on failure. Catches exceptions.
+    /// Asked when all flags are in their places: what is wrong with them together, or "".
+    void check(std::function<std::string()> fault);
+
+    /// Parse the command line, see that the output can be written, then call `work`, which returns false and sets
+    /// `error` on failure. Catches exceptions.
     /// @returns the process's exit code.
     int run(int argc, const char** argv, const std::function<bool(std::string& error)>& work);
 
@@ -114,7 +118,7 @@ private:
         std::function<void(const std::vector<std::string>&)> fill;
         std::function<std::string()> unsaid;
         std::function<bool(const std::string& name, std::string& error)> read;
-        std::function<std::string()> text;
+        std::function<std::string()> fault, text;
     };
     bool has_option(const std::string& name) const;
     void take_recipe(RecipeDoor door);

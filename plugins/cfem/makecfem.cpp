@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/image_file.h>
 #include <vmlight/stage_main.h>
 
 using namespace vmlight;
@@ -17,9 +16,10 @@ int main(int argc, const char** argv)
 
     return stage.run(argc, argv, [&](std::string& error) {
         OIIO::ImageBuf cfem;
-        error = output_fault(stage.output());
-        if (error.empty() && !make_image(cfem, recipe, stage.make_options()))
+        if (!make_image(cfem, recipe, stage.make_options())) {
             error = cfem.geterror();
-        return error.empty() && stage.write(cfem, error);
+            return false;
+        }
+        return stage.write(cfem, error);
     });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/animation.h>
 #include <vmlight/channels.h>
-#include <vmlight/frames.h>
-#include <vmlight/image_file.h>
 #include <vmlight/stage_main.h>
 
 #include <OpenImageIO/strutil.h>
@@ -9,35 +8,6 @@
 
 using namespace vmlight;
 using OIIO::Strutil::fmt::format;
-
-namespace {
-
-/// What changes from frame to frame.
-struct Animation
-{
-    std::vector<int> frames { 1 };
-    bool asked = false;
-    Ramp rotate_y;
-
-    bool turns() const { return rotate_y.first != 0 || rotate_y.last != 0; }
-
-    // The turn about y comes after the object's own rotation; both become one matrix.
-    LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const
-    {
-        LightmapParams frame = params, own = params;
-        own.env_rotate.clear();
-        Rotation rotation;
-        if (!turns() || !lightmap_rotation(rotation, own, error))
-            return frame;
-        rotation = rotation_from_angles(0, rotate_y.at(index, frames.size()), 0) * rotation;
-        frame.rotate.clear();
-        frame.quaternion.clear();
-        frame.matrix.assign(&rotation[0][0], &rotation[0][0] + 9);
-        return frame;
-    }
-};
-
-} // namespace
 
 int main(int argc, const char** argv)
 {
@@ -70,28 +40,22 @@ int main(int argc, const char** argv)
         },
         [&] { return animation.asked || animation.turns() ? "a recipe holds neither --frames nor --rotate-y" : ""; });
 
+    stage.check([&] { return animation.fault(stage.output()); });
+
     return stage.run(argc, argv, [&](std::string& error) {
         const MakeOptions options = stage.make_options();
         LightmapInputs inputs;
-        error = output_fault(stage.output());
-        if (error.empty() && animation.frames.size() > 1 && stage.output().find('#') == std::string::npos)
-            error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
-                           animation.frames.size());
-        if (error.empty() && !animation.asked && animation.rotate_y.first != animation.rotate_y.last)
-            error = format("rotate_y: from {} to {} degrees needs --frames", animation.rotate_y.first,
-                           animation.rotate_y.last);
-        if (!error.empty() || !read_lightmap_inputs(inputs, recipe, options, error))
+        if (!read_lightmap_inputs(inputs, recipe, options, error))
             return false;
         const OIIO::Timer timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
             const LightmapParams frame = animation.at(recipe.lightmap_params, i, error);
-            const std::string path = animation.asked ? frame_path(stage.output(), animation.frames[i]) : stage.output();
             OIIO::ImageBuf lightmap;
             if (error.empty()
                 && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
                                   options.progress("light")))
                 error = lightmap.geterror();
-            if (!error.empty() || !stage.write(lightmap, path, error))
+            if (!error.empty() || !stage.write(lightmap, animation.path(stage.output(), i), error))
                 return false;
         }
         stage.say(format("light: {} of {}x{} in {:.3f} s",

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/image_file.h>
 #include <vmlight/stage_main.h>
 
 using namespace vmlight;
@@ -18,9 +17,10 @@ int main(int argc, const char** argv)
 
     return stage.run(argc, argv, [&](std::string& error) {
         OIIO::ImageBuf vismap;
-        error = output_fault(stage.output());
-        if (error.empty() && !make_image(vismap, recipe, stage.make_options()))
+        if (!make_image(vismap, recipe, stage.make_options())) {
             error = vismap.geterror();
-        return error.empty() && stage.write(vismap, error);
+            return false;
+        }
+        return stage.write(vismap, error);
     });
 }

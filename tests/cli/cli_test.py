@@ -156,8 +156,28 @@ class Usage(Case):
         self.refused(2, "is not FIRST:LAST or one number", *lightmap, "-o", "x.#.exr", "--rotate-y", "0:b")
         for endless in "1-2000000000", "1-3x0", "1-3x", "1-3x00,5":
             self.refused(2, "up to 999999", *lightmap, "-o", "x.#.exr", "--frames", endless)
-        self.refused(1, "from 0 to 90 degrees needs --frames", *lightmap, "-o", "x.exr", "--rotate-y", "0:90")
-        self.refused(1, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
+        self.refused(2, "from 0 to 90 degrees needs --frames", *lightmap, "-o", "x.exr", "--rotate-y", "0:90")
+        self.refused(2, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
+
+    def test_flags_that_do_not_go_together_are_wrong_usage_before_any_work(self):
+        mirror = ["--matrix", "-1,0,0,0,1,0,0,0,1"]
+        for text, flags in (("only one of rotate, matrix and quaternion", ["--rotate", "1,2,3", *mirror]),
+                            ("matrix: a mirror, not a rotation", mirror),
+                            ("matrix: not a rotation", ["--matrix", "1,0,0,0,1,0,0,0,2"]),
+                            ("quaternion: 0,0,0,0 has no direction", ["--quaternion", "0,0,0,0"]),
+                            ("cfem: environment is given too", ["--cfem", "sky.exr"]),
+                            ("vismap is missing", ["--vismap", ""]),
+                            ("environment is missing, or cfem", ["--environment", ""])):
+            self.refused(2, "makelightmap ERROR: " + text, "makelightmap", "vm.exr", "sky.exr", "-o", "x.exr", *flags)
+            # Nothing was read: none of these files is there.
+            self.refused(2, text, "makelightmap", "gone.exr", "gone.exr", "-o", "x.exr", *flags)
+        for tool, operands in self.TOOLS.items():
+            self.refused(2, " is missing", tool, *[""] * len(operands), "-o", "x.exr")
+        # The fault of a recipe is none of the command line, unless its flags made it.
+        self.file("mirror.lightmap", 'vismap = "vm.exr"\nenvironment = "sky.exr"\nmatrix = [-1, 0, 0, 0, 1, 0, 0, 0, 1]\n')
+        self.refused(1, '"mirror.lightmap" line 3: matrix: a mirror', "makelightmap", "mirror.lightmap", "-o", "x.exr")
+        self.refused(2, "only one of rotate", "makelightmap", "mirror.lightmap", "-o", "x.exr", "--rotate", "0,90,0")
+        self.done("makelightmap", "mirror.lightmap", "-o", "x.exr", "--rotate", "0,90,0", "--matrix=")
 
 
 class Outputs(Case):
@@ -167,7 +187,7 @@ class Outputs(Case):
         self.file("old.exr", "the old picture")
 
     def test_a_name_that_cannot_be_written_is_refused_before_the_work(self):
-        self.refused(1, '"x.png": outputs are EXR files', "makevismap", "quad.obj", "-o", "x.png")
+        self.refused(2, '"x.png": outputs are EXR files', "makevismap", "quad.obj", "-o", "x.png")
         self.refused(1, 'no folder "missing"', "makevismap", "quad.obj", "-o", "missing/x.exr")
         os.mkdir(self.path("folder.exr"))
         self.refused(1, '"folder.exr": is a folder', "makevismap", "quad.obj", "-o", "folder.exr")
@@ -354,7 +374,6 @@ class Light(Case):
             self.refused(1, f'"{name}": ', "makecfem", name, "-o", "x.exr")
             self.refused(1, f'"{name}": ', "makelightmap", "vm.exr", name, "-o", "x.exr")
             self.refused(1, f'"{name}": ', "makelightmap", name, "cfem.exr", "-o", "x.exr")
-        self.refused(1, "mirror", "makelightmap", "vm.exr", "cfem.exr", "--matrix", "-1,0,0,0,1,0,0,0,1", "-o", "x.exr")
 
     def test_bad_pixels_are_refused_unless_mending_is_asked_for(self):
         rows = b""

@@ -154,6 +154,8 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
     ASSERT_EQ(::mkdir((folder / "dir.exr").c_str(), 0755), 0);
     EXPECT_EQ(refusal(folder / "dir.exr"), "\"" + folder / "dir.exr" + "\": is a folder");
     EXPECT_EQ(output_fault("a.exr"), "");
+    EXPECT_EQ(output_name_fault(folder / "none/a.exr"), ""); // where it would be is another matter
+    EXPECT_EQ(output_name_fault(folder / "a.png"), output_fault(folder / "a.png"));
     EXPECT_EQ(output_fault(folder / "A.EXR"), "");
     if (::geteuid() != 0) { // nothing is forbidden to root
         ASSERT_EQ(::chmod((folder / "dir.exr").c_str(), 0555), 0);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What changes from frame to frame of a turntable.
+#pragma once
+
+#include <vmlight/export.h>
+#include <vmlight/frames.h>
+#include <vmlight/lightmap.h>
+
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+struct Animation
+{
+    /// Numbers of the frames; `asked` says that the user gave them.
+    std::vector<int> frames { 1 };
+    bool asked = false;
+    /// Degrees about y, after the object's own rotation.
+    Ramp rotate_y;
+
+    bool turns() const { return rotate_y.first != 0 || rotate_y.last != 0; }
+
+    /// Why this cannot be written to files named `output`, or "".
+    VMLIGHT_API std::string fault(const std::string& output) const;
+
+    /// Where the frame at `index` of `frames` goes.
+    VMLIGHT_API std::string path(const std::string& output, size_t index) const;
+
+    /// `params` for the frame at `index`: both turns as one matrix. Their rotation must be sound, or `error` says why.
+    VMLIGHT_API LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const;
+};
+
+} // namespace vmlight
