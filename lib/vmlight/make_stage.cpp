@@ -29,9 +29,9 @@ void tell(const std::function<void(const std::string&)>& listener, const std::st
         listener(line);
 }
 
-Progress step(const MakeOptions& options, const char* name)
+Progress step(const MakeOptions& options, const char* name, int64_t width, int64_t height)
 {
-    return options.progress ? options.progress(name) : Progress {};
+    return options.progress ? options.progress(name, width * height) : Progress {};
 }
 
 bool failed(OIIO::ImageBuf& dst, const std::string& reason)
@@ -192,7 +192,9 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
     if (!to_scene_linear(environment, name, { recipe.colorconfig, recipe.colorspace }, note, error))
         return false;
     const OIIO::Timer timer;
-    if (!make_cfem(dst, environment, recipe.cfem_params, options.threads, step(options, "filter"))) {
+    const Size size = recipe.cfem_params.resolution;
+    if (!make_cfem(dst, environment, recipe.cfem_params, options.threads,
+                   step(options, "filter", size.width, size.height))) {
         error = format("\"{}\": {}", name, dst.geterror());
         return false;
     }
@@ -256,7 +258,9 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptio
         if (!read_mesh(occluders[i], recipe.occluder[i], recipe.mesh_params, error))
             return failed(dst, placed(recipe, "occluder", options, error));
     VismapReport report;
-    if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads, step(options, "bake")))
+    const Size size = recipe.vismap_params.size();
+    if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads,
+                     step(options, "bake", size.width, size.height)))
         return false;
     append_params(dst.specmod(), recipe.mesh_params);
     report_bake(options, report, dst.spec());
@@ -279,7 +283,8 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
         return failed(dst, error);
     const OIIO::Timer timer;
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
-                       options.threads, step(options, "light")))
+                       options.threads,
+                       step(options, "light", inputs.vismap.spec().width, inputs.vismap.spec().height)))
         return false;
     tell(options.say, format("light: 1 map of {}x{} in {:.3f} s", dst.spec().width, dst.spec().height, timer()));
     return true;

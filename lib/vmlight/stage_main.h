@@ -100,8 +100,9 @@ public:
     const std::string& output() const;
     /// Threads, progress and messages as the user asked for; and the recipe, if one was given.
     MakeOptions make_options();
-    /// A progress line for one step of the work, on stderr; stops the work when the user interrupts.
-    Progress progress(const std::string& step);
+    /// A progress line for one step of the work, which makes an image of so many texels, on stderr; stops the work when
+    /// the user interrupts.
+    Progress progress(const std::string& step, int64_t texels);
     /// One line on stdout, unless --quiet.
     void say(const std::string& line) const;
     /// One line on stderr: the result is right, but may surprise.

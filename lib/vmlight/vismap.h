@@ -21,6 +21,7 @@ struct VismapParams
     /// One number is a square map; width and height, if not 0, replace its sides.
     Size resolution { 1024, 1024 };
     int width = 0, height = 0;
+    Size size() const { return { width ? width : resolution.width, height ? height : resolution.height }; }
     /// Measured on six scenes: at 64 rays the paper's model is within 2.2 % of the shading error it has at 4096 rays, a
     /// model that also uses |B| is within 2 % at 128.
     int samples = 128;

@@ -53,7 +53,7 @@ int main(int argc, const char** argv)
             OIIO::ImageBuf lightmap;
             if (error.empty()
                 && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
-                                  options.progress("light")))
+                                  options.progress("light", int64_t(inputs.vismap.spec().image_pixels()))))
                 error = lightmap.geterror();
             if (!error.empty() || !stage.write(lightmap, animation.path(stage.output(), i), error))
                 return false;

@@ -5,6 +5,7 @@ Run as: cli_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLI
 on the path. Each TestCase is one CTest test.
 """
 import os
+import pty
 import resource
 import shutil
 import signal
@@ -263,6 +264,29 @@ class Outputs(Case):
         _, rest = process.communicate(timeout=60)
         self.assertEqual((process.returncode, rest), (1, "makevismap ERROR: interrupted\n"))
         self.assertEqual(self.contents(), before)
+
+    def test_progress_tells_share_rate_and_time_left(self):
+        words = [os.path.join(BIN, "makevismap"), SPOT, "-o", "x.exr", "--resolution", "256", "--samples", "2048",
+                 "--threads", "1"]
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        shown = b""
+        try:
+            while piece := os.read(ours, 4096):
+                shown += piece
+        except OSError:  # the other side is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(timeout=60), 0, shown)
+        line = rb" %  [\d.]+ [kMG]? ?texels/s  \d\d:\d\d"
+        self.assertRegex(shown, rb"\rbake +\d+" + line + b" left *\r")
+        self.assertRegex(shown, rb"\rbake 100" + line + b" *\r\n")
+        # In a file: a line for each tenth, and no carriage return.
+        lines = self.run_tool(*words).stderr
+        self.assertRegex(lines, r"(?m)^bake +\d+ %  [\d.]+ k texels/s  \d\d:\d\d left$")
+        self.assertLessEqual(lines.count("bake"), 11)
+        self.assertNotIn("\r", lines)
 
 
 class Meshes(Case):
