@@ -4,6 +4,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -131,6 +132,12 @@ bool read_input(OIIO::ImageBuf& dst, const std::string& name, const std::string&
     return good;
 }
 
+// "1 texel"
+std::string counted(int64_t count, const char* one, const char* many)
+{
+    return format("{} {}", count, plural(count, one, many));
+}
+
 double percent(int64_t part, int64_t whole)
 {
     return whole ? 100.0 * double(part) / double(whole) : 0.0;
@@ -140,27 +147,32 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
 {
     const UvReport& uv = report.uv;
     tell(options.say,
-         format("uv: {} triangles cover {:.1f} % of {}x{} texels; {} texels overlap; triangles: {} reach out of "
+         format("uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach out of "
                 "[0,1], {} mirrored, {} without area in uv, {} in space, {} without uv",
-                uv.triangles, percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-                uv.outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
+                uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
+                percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
+                plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside, uv.mirrored,
+                uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
     tell(options.say,
          format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
                 double(report.rays) * 1e-6, report.bake_seconds,
                 double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,
                 report.margin_seconds));
     if (report.overlapping > 0)
-        tell(options.warn,
-             format("{} texels ({:.2f} % of those covered) belong to more than one triangle: the first triangle of the "
-                    "file has them",
-                    report.overlapping, percent(report.overlapping, report.covered)));
+        tell(
+            options.warn,
+            format("{} ({:.2f} % of those covered) {} to more than one triangle: the first triangle of the file has {}",
+                   counted(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
+                   plural(report.overlapping, "belongs", "belong"), plural(report.overlapping, "it", "them")));
     if (uv.outside > 0)
         tell(options.warn,
-             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked", uv.outside,
-                    uv.triangles));
+             format("{} of {} {} out of [0,1] in uv: what lies outside is not baked", uv.outside,
+                    counted(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach")));
     if (uv.without_uv > 0)
         tell(options.warn,
-             format("{} of {} triangles have no uv: they cast, and are not baked", uv.without_uv, uv.triangles));
+             format("{} of {} {}", uv.without_uv, counted(uv.triangles, "triangle", "triangles"),
+                    plural(uv.without_uv, "has no uv: it casts, and is not baked",
+                           "have no uv: they cast, and are not baked")));
     if (report.covered == 0)
         tell(options.warn, "no texel centre is covered: the map is empty");
     else if (report.dark > report.covered / 2)
@@ -202,7 +214,9 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
     tell(options.say,
          format("filter: {}x{} to {}x{} in {:.3f} s", width, height, dst.spec().width, dst.spec().height, timer()));
     if (const int mended = dst.spec().get_int_attribute("vmlight:sanitized"))
-        tell(options.warn, format("{} bad values of the environment were mended", mended));
+        tell(options.warn,
+             format("{} of the environment {} mended", counted(mended, "bad value", "bad values"),
+                    plural(mended, "was", "were")));
     return true;
 }
 

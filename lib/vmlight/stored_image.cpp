@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stored_image.h>
 
+#include <vmlight/oiio.h>
 #include <vmlight/once_cache.h>
 
 #include <OpenImageIO/imagecache.h>
@@ -33,7 +34,7 @@ public:
     {
         const auto file = OIIO::ImageInput::open(m_path);
         if (!file) {
-            error = format("\"{}\": {}", m_path, OIIO::geterror());
+            error = oiio::named_reason(m_path, OIIO::geterror());
             return false;
         }
         m_spec = file->spec();
@@ -52,7 +53,7 @@ public:
             m_image.reset(m_path, 0, 0, m_cache);
             const bool same = check_stamp(key(), m_path, reason);
             if (same && m_image.roi() != OIIO::get_roi(m_spec))
-                reason = m_image.has_error() ? format("\"{}\": {}", m_path, m_image.geterror())
+                reason = m_image.has_error() ? oiio::named_reason(m_path, m_image.geterror())
                                              : format("\"{}\": changed since it was opened", m_path);
             return reason.empty();
         };
@@ -64,7 +65,7 @@ public:
         roi.zend = m_spec.z + 1;
         if (m_image.get_pixels(roi, OIIO::TypeFloat, dst))
             return true;
-        error = format("\"{}\": {}", m_path, m_image.geterror());
+        error = oiio::named_reason(m_path, m_image.geterror());
         return false;
     }
 
@@ -78,7 +79,7 @@ public:
             file->threads(1);
         if (file && file->read_image(0, 0, 0, m_spec.nchannels, OIIO::TypeFloat, dst))
             return true;
-        error = format("\"{}\": {}", m_path, file ? file->geterror() : OIIO::geterror());
+        error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
         return false;
     }
 

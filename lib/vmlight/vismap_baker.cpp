@@ -101,13 +101,14 @@ bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, 
 {
     if (!check_params(params, error))
         return false;
+    const std::string& mesh_path = mesh.path.empty() ? mesh.name : mesh.path;
     if (mesh.triangles.empty()) {
-        error = format("\"{}\": no triangle in it", mesh.name);
+        error = format("\"{}\": no triangle in it", mesh_path);
         return false;
     }
     if (mesh.uvs.empty()) {
         error
-            = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", mesh.name);
+            = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", mesh_path);
         return false;
     }
     auto scene = std::make_unique<Scene>(mesh, params);

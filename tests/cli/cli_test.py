@@ -190,6 +190,9 @@ class Outputs(Case):
     def test_a_name_that_cannot_be_written_is_refused_before_the_work(self):
         self.refused(2, '"x.png": outputs are EXR files', "makevismap", "quad.obj", "-o", "x.png")
         self.refused(1, 'no folder "missing"', "makevismap", "quad.obj", "-o", "missing/x.exr")
+        if os.path.isdir("/proc"):  # takes no files, though root may write to it
+            self.refused(1, '"/proc/x.exr": the folder "/proc" cannot be written: ', "makevismap", "gone.obj", "-o",
+                         "/proc/x.exr")
         os.mkdir(self.path("folder.exr"))
         self.refused(1, '"folder.exr": is a folder', "makevismap", "quad.obj", "-o", "folder.exr")
         os.mkdir(self.path("pipes"))
@@ -308,6 +311,9 @@ class Meshes(Case):
     def test_a_mesh_without_uvs_says_so(self):
         self.file("bare.obj", QUAD_WITHOUT_UV)
         self.refused(1, '"bare.obj": no texture coordinates', "makevismap", "bare.obj", "-o", "x.exr")
+        os.mkdir(self.path("meshes"))
+        self.file("meshes/bare.obj", QUAD_WITHOUT_UV)
+        self.refused(1, '"meshes/bare.obj": no texture coordinates', "makevismap", "meshes/bare.obj", "-o", "x.exr")
         self.file("quad.obj", QUAD)
         self.refused(1, "no texture coordinates", "makevismap", "quad.obj", "-o", "x.exr", "--uv-set", "1")
 
@@ -322,7 +328,16 @@ class Meshes(Case):
         self.assertRegex(out, r"WARNING: 36 texels \(56.25 % of those covered\) belong to more than one triangle")
         self.file("outside.obj", QUAD.replace("vt 1 1", "vt 2 2"))
         out = self.done("makevismap", "outside.obj", "-o", "x.exr", "--resolution", "8", "--samples", "4")
-        self.assertIn("reach out of [0,1]", out)
+        self.assertIn("WARNING: 2 of 2 triangles reach out of [0,1]", out)
+        # A map of one texel, and one triangle of two.
+        self.file("one.obj", QUAD.replace("f 1/1/1 2/2/1 3/3/1 4/4/1", "vt 2 2\n" + 2 * "f 1/1/1 2/2/1 3/3/1\n" +
+                                          "f 1/1/1 2/2/1 3/5/1"))
+        out = self.done("makevismap", "one.obj", "-o", "x.exr", "--resolution", "1", "--samples", "4")
+        self.assertIn("uv: 3 triangles cover", out)
+        self.assertIn("; 1 texel overlaps;", out)
+        self.assertIn("WARNING: 1 texel (100.00 % of those covered) belongs to more than one triangle: the first triangle "
+                      "of the file has it", out)
+        self.assertIn("WARNING: 1 of 3 triangles reaches out of [0,1]", out)
 
     def test_an_occluder_casts(self):
         self.file("quad.obj", QUAD)
@@ -369,6 +384,7 @@ class Light(Case):
         self.done("makelightmap", "vm.exr", "sky_acescg.exr", *config, "-o", "b.exr", "--colorspace", "ACEScg")
         self.assert_same_pixels("a.exr", "b.exr", 1e-4)
         self.refused(1, "Nonsense", "makelightmap", "vm.exr", SKY, *config, "-o", "x.exr", "--colorspace", "Nonsense")
+        self.refused(1, "none is set (--colorconfig or $OCIO)", "makecfem", SKY, "--colorspace", "ACEScg", "-o", "x.exr")
         self.refused(1, "missing.ocio", "makecfem", SKY, "--colorconfig", "missing.ocio", "-o", "x.exr")
 
     def test_albedo_multiplies_in_linear_light(self):
