@@ -4,6 +4,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
+#include <vmlight/recipe_check.h>
 #include <vmlight/words.h>
 
 #include <OpenImageIO/imageio.h>
@@ -313,30 +314,6 @@ bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, con
         && (recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
                                 : read_cfem(dst.cfem, recipe, options, error))
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
-}
-
-std::string recipe_fault(const VismapRecipe& recipe)
-{
-    return recipe.mesh.empty() ? "mesh is missing" : "";
-}
-
-std::string recipe_fault(const CfemRecipe& recipe)
-{
-    return recipe.environment.empty() ? "environment is missing" : "";
-}
-
-std::string recipe_fault(const LightmapRecipe& recipe)
-{
-    if (recipe.vismap.empty())
-        return "vismap is missing";
-    if (recipe.environment.empty() && recipe.cfem.empty())
-        return "environment is missing, or cfem";
-    if (!recipe.environment.empty() && !recipe.cfem.empty())
-        return "cfem: environment is given too: one of them must be empty";
-    Rotation rotation;
-    std::string error;
-    lightmap_rotation(rotation, recipe.lightmap_params, error);
-    return error;
 }
 
 std::string image_stage(const std::string& name)

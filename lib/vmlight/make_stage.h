@@ -37,13 +37,6 @@ VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, con
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options = {});
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options = {});
 
-/// What is wrong with a recipe by itself, whatever the files hold, or "": an input that is missing, or one too many;
-/// rotations that are none or exclude one another. Begins with the key and ": " if one key is at fault. Not checked:
-/// single values, which were when they were read.
-VMLIGHT_API std::string recipe_fault(const VismapRecipe& recipe);
-VMLIGHT_API std::string recipe_fault(const CfemRecipe& recipe);
-VMLIGHT_API std::string recipe_fault(const LightmapRecipe& recipe);
-
 /// What a lightmap reads, ready for make_lightmap(): for several lightmaps of the same inputs.
 struct LightmapInputs
 {

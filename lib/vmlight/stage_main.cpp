@@ -174,8 +174,11 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
         error = door.unsaid();
     if (!prints_recipe)
         error = output.empty() ? "-o OUTPUT.exr is missing" : output_name_fault(output);
-    if (error.empty() && door.fault && door.fault() != fault_of_file)
+    if (error.empty() && door.fault() != fault_of_file)
         error = door.fault();
+    for (const auto& [option, text] : given)
+        if (const std::string reason = door.unused(option->name); error.empty() && !reason.empty())
+            error = format("{}{}: {}", flag_of(option->name), option->metavar.empty() ? "" : " " + text, reason);
     if (error.empty() && fault)
         error = fault();
     return error.empty() ? Exit::Done : Exit::Usage;

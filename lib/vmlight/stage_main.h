@@ -8,6 +8,7 @@
 #include <vmlight/params.h>
 #include <vmlight/progress.h>
 #include <vmlight/recipe.h>
+#include <vmlight/recipe_check.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -67,7 +68,8 @@ public:
     }
     /// Take a recipe in place of the operands, and print one (--print-recipe). Flags for what of `recipe` has none yet.
     ///
-    /// @param recipe   the stage; must outlive run(). Flags override what its file or the operands say
+    /// @param recipe   the stage; must outlive run(). Flags override what its file or the operands say; one that cannot
+    ///                 change the picture is wrong usage
     /// @param fill     puts the operands, of which none is a recipe of this stage, into `recipe`
     /// @param unsaid   nullptr, or which of the given flags a recipe cannot hold; "" if none
     template <class Recipe>
@@ -78,7 +80,8 @@ public:
         take_recipe(
             { Recipe::kStage, std::move(fill), std::move(unsaid),
               [&recipe](const std::string& name, std::string& error) { return read_recipe(recipe, name, error); },
-              [&recipe] { return recipe_fault(recipe); }, [&recipe] { return recipe_text(recipe); } });
+              [&recipe] { return recipe_fault(recipe); }, [&recipe] { return recipe_text(recipe); },
+              [&recipe](const std::string& name) { return unused_reason(recipe, name); } });
     }
     /// Takes the flag's value ("true" for one without); false and `error` refuse it. A flag may come more than once.
     /// All are taken in their order, when the operands are in their places.
@@ -120,6 +123,7 @@ private:
         std::function<std::string()> unsaid;
         std::function<bool(const std::string& name, std::string& error)> read;
         std::function<std::string()> fault, text;
+        std::function<std::string(const std::string& name)> unused;
     };
     bool has_option(const std::string& name) const;
     void take_recipe(RecipeDoor door);

@@ -180,6 +180,28 @@ class Usage(Case):
         self.refused(2, "only one of rotate", "makelightmap", "mirror.lightmap", "-o", "x.exr", "--rotate", "0,90,0")
         self.done("makelightmap", "mirror.lightmap", "-o", "x.exr", "--rotate", "0,90,0", "--matrix=")
 
+    def test_a_flag_that_cannot_change_the_picture_is_refused(self):
+        self.done("makecfem", "sky.exr", "-o", "cfem.exr", "--order", "2", "--filter", "sh")
+        bake = ["makevismap", "quad.obj", "-o", "x.exr"]
+        lit, filtered = ["makelightmap", "vm.exr", "cfem.exr", "-o", "x.exr"], '"cfem.exr" is filtered already'
+        environment = ["makelightmap", "vm.exr", "sky.exr", "-o", "x.exr"]
+        for text, words in (
+                ("--order 3: only the filter sh uses it", ["makecfem", "sky.exr", "-o", "x.exr", "--order", "3"]),
+                ("--cfem-order 2: only the filter sh uses it", [*environment, "--cfem-order=2"]),
+                ("--albedo-colorspace ACEScg: there is no albedo", [*environment, "--albedo-colorspace", "ACEScg"]),
+                ("--cfem-filter sh: there is no environment to filter: " + filtered, [*lit, "--cfem-filter", "sh"]),
+                ("--cfem-sanitize: there is no environment to filter: " + filtered, [*lit, "--cfem-sanitize"]),
+                ("--colorspace data: there is no environment to convert: " + filtered, [*lit, "--colorspace", "data"]),
+                ("--cfem-resolution 8: there is no environment", [*environment, "--is-cfem", "--cfem-resolution", "8"]),
+                ("--crease-angle 30: flat normals", [*bake, "--normals", "flat", "--crease-angle", "30"]),
+                ("--resolution 8: width and height", [*bake, "--resolution", "8", "--width", "4", "--height", "4"])):
+            self.refused(2, f"{words[0]} ERROR: {text}", *words)
+        # By flags only: a recipe may keep what it does not use just now.
+        self.file("a.lightmap", 'vismap = "vm.exr"\ncfem = "cfem.exr"\ncfem_order = 5\ncolorspace = "data"\n')
+        self.done("makelightmap", "a.lightmap", "-o", "x.exr")
+        self.done(*environment, "--cfem-filter=sh", "--cfem-order=2")
+        self.done(*bake, "--resolution=8x9", "--height=4", "--samples=1")
+
 
 class Outputs(Case):
     def setUp(self):
