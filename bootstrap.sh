@@ -19,7 +19,7 @@ packages=(
     ca-certificates cmake g++ ninja-build
     libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev
     libgtest-dev libbenchmark-dev
-    python3 openimageio-tools opencolorio-tools
+    python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools
 )
 
 install_packages() {

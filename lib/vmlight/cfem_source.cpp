@@ -92,21 +92,26 @@ bool stamp_config(std::string& stamp, const std::string& colorconfig, std::strin
 
 PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain)
 {
-    if (recipe.environment.empty())
-        error = "environment: not given";
+    error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.cfem_params, error))
         return nullptr;
-    PixelSourcePointer environment = open_source(recipe.environment, error, chain);
+    PixelSourcePointer environment
+        = open_input(recipe, "environment", recipe.environment, Input::Panorama, error, chain);
+    if (!environment)
+        return nullptr;
     std::string config;
-    if (!environment || !stamp_config(config, recipe.colorconfig, error)) {
-        error = (environment ? "colorconfig: " : "environment: ") + error;
+    if (!stamp_config(config, recipe.colorconfig, error)) {
+        error = placed(recipe, "colorconfig", chain, error);
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + config + environment->key();
     if (PixelSourcePointer known = find_source(key))
         return known;
     auto source = std::make_shared<CfemSource>(key, recipe, std::move(environment));
-    return source->describe(error) ? keep_source(source) : nullptr;
+    if (source->describe(error))
+        return keep_source(source);
+    error = placed(recipe, "environment", chain, error);
+    return nullptr;
 }
 
 } // namespace vmlight

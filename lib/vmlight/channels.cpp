@@ -7,6 +7,21 @@ namespace vmlight {
 
 using OIIO::Strutil::fmt::format;
 
+namespace {
+
+// OIIO 2's oiiotool and maketx write the whole command that made the file.
+std::string converting_flag(const OIIO::ImageSpec& spec)
+{
+    const std::string software = spec.get_string_attribute("Software");
+    for (const char* flag :
+         { "--colorconvert", "--tocolorspace", "--ociodisplay", "--ociolook", "--ociofiletransform" })
+        if (software.find(flag) != std::string::npos)
+            return flag;
+    return "";
+}
+
+} // namespace
+
 bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
 {
     const std::string stage = spec.get_string_attribute("vmlight:stage");
@@ -22,7 +37,17 @@ bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
             return false;
         }
     }
-    return true;
+    const std::string space = spec.get_string_attribute("colorInteropID", "data");
+    if (space != "data" && space != "unknown") {
+        error = format("not a visibility map any more: tagged as colour, \"{}\"", space);
+        return false;
+    }
+    const std::string flag = converting_flag(spec);
+    if (!flag.empty())
+        error = format("not a visibility map any more: its Software says that a program converted colour ({}); bake it "
+                       "anew, or erase the attribute if that was of another image",
+                       flag);
+    return flag.empty();
 }
 
 bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error)

@@ -26,7 +26,10 @@ constexpr const char* kCoverageChannel = "coverage";
 ///
 /// @param index    set to the channels' places in the order of kVismapChannels
 /// @param error    set to what is missing and what was found, if any is missing or `vmlight:stage` says another stage
-/// @returns false if the image is not a visibility map. An image without `vmlight:stage` passes on its channels alone.
+/// @returns false if the image is not a visibility map, or none any more: its `colorInteropID` is a colour space's, or
+///          the program that wrote it (`Software`) says that it converted colour. OIIO 2.4 converts data as readily as
+///          colour, and nothing in the pixels would tell. An image without `vmlight:stage` passes on its channels
+///          alone.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
 /// Find the colour channels R, G, B; a map of one channel, or of one named Y, serves as all three.

@@ -34,16 +34,20 @@ public:
     {
     }
 
-    bool describe(std::string& error)
+    bool describe(const RecipeChain& chain, std::string& error)
     {
         std::array<int, 3> channels;
         if (!find_vismap_channels(m_inputs.vismap->spec(), m_index, error))
-            error = format("\"{}\": {}", m_recipe.vismap, error);
+            error = placed(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         else if (m_inputs.albedo && !find_color_channels(m_inputs.albedo->spec(), channels, error))
-            error = format("\"{}\": {}", m_recipe.albedo, error);
+            error = placed(m_recipe, "albedo", chain, format("\"{}\": {}", m_recipe.albedo, error));
         Rotation rotation;
-        if (!error.empty() || !lightmap_rotation(rotation, m_recipe.lightmap_params, error))
+        if (!error.empty())
             return false;
+        if (!lightmap_rotation(rotation, m_recipe.lightmap_params, error)) {
+            error = chain.empty() ? error : format("\"{}\": {}", chain.back(), error);
+            return false;
+        }
         m_spec = describe_lightmap(m_inputs.vismap->spec(), m_inputs.cfem->spec(), m_recipe.lightmap_params);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
@@ -111,66 +115,38 @@ private:
     std::atomic<size_t> m_bytes { 0 };
 };
 
-bool check_recipe(const LightmapRecipe& recipe, std::string& error)
-{
-    if (recipe.vismap.empty())
-        error = "vismap: not given";
-    else if (recipe.environment.empty() == recipe.cfem.empty())
-        error = recipe.cfem.empty() ? "neither environment nor cfem is given"
-                                    : "both environment and cfem are given; one of them is the light";
-    return error.empty() && check_params(recipe.lightmap_params, error) && check_params(recipe.cfem_params, error);
-}
-
-// An environment that is filtered already is taken as it is, as makelightmap does.
 PixelSourcePointer open_light(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
 {
-    const bool given = !recipe.cfem.empty();
-    PixelSourcePointer light = open_source(given ? recipe.cfem : recipe.environment, error, chain);
-    if (!light) {
-        error = (given ? "cfem: " : "environment: ") + error;
+    if (!recipe.cfem.empty())
+        return open_input(recipe, "cfem", recipe.cfem, Input::Cfem, error, chain);
+    if (!open_input(recipe, "environment", recipe.environment, Input::Environment, error, chain))
         return nullptr;
-    }
-    const std::string stage = light->spec().get_string_attribute("vmlight:stage");
-    if (stage == kVismapStage || stage == kLightmapStage) {
-        error = format("{}: \"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"",
-                       given ? "cfem" : "environment", given ? recipe.cfem : recipe.environment, stage);
-        return nullptr;
-    }
-    if (given || stage == kCfemStage)
-        return light;
     CfemRecipe filter;
     filter.environment = recipe.environment;
     filter.colorspace = recipe.colorspace;
     filter.colorconfig = recipe.colorconfig;
     filter.cfem_params = recipe.cfem_params;
-    return open_source(filter, error, chain);
+    return open_source(filter, error);
 }
 
 } // namespace
 
 PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
 {
-    if (!check_recipe(recipe, error))
+    error = recipe_fault(recipe, chain);
+    if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error))
         return nullptr;
     Inputs inputs;
-    inputs.vismap = open_source(recipe.vismap, error, chain);
-    if (!inputs.vismap) {
-        error = "vismap: " + error;
+    inputs.vismap = open_input(recipe, "vismap", recipe.vismap, Input::Vismap, error, chain);
+    if (inputs.vismap)
+        inputs.cfem = open_light(recipe, error, chain);
+    if (inputs.cfem && !recipe.albedo.empty())
+        inputs.albedo = open_input(recipe, "albedo", recipe.albedo, Input::Albedo, error, chain);
+    if (!error.empty())
         return nullptr;
-    }
-    inputs.cfem = open_light(recipe, error, chain);
-    if (!inputs.cfem)
-        return nullptr;
-    if (!recipe.albedo.empty()) {
-        inputs.albedo = open_source(recipe.albedo, error, chain);
-        if (!inputs.albedo) {
-            error = "albedo: " + error;
-            return nullptr;
-        }
-    }
     std::string config;
     if (!stamp_config(config, recipe.colorconfig, error)) {
-        error = "colorconfig: " + error;
+        error = placed(recipe, "colorconfig", chain, error);
         return nullptr;
     }
     std::string key = recipe_key(recipe) + config + inputs.vismap->key() + inputs.cfem->key();
@@ -179,7 +155,7 @@ PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error,
     if (PixelSourcePointer known = find_source(key))
         return known;
     auto source = std::make_shared<LightmapSource>(key, recipe, std::move(inputs));
-    return source->describe(error) ? keep_source(source) : nullptr;
+    return source->describe(chain, error) ? keep_source(source) : nullptr;
 }
 
 } // namespace vmlight

@@ -4,7 +4,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/image_file.h>
-#include <vmlight/recipe_check.h>
+#include <vmlight/recipe_chain.h>
 #include <vmlight/words.h>
 
 #include <OpenImageIO/imageio.h>
@@ -13,17 +13,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-// Each recipe reads its inputs by recursion.
-constexpr size_t kLongestChain = 64;
-// No stage makes one.
-constexpr const char* kEnvironment = "environment";
 
 void tell(const std::function<void(const std::string&)>& listener, const std::string& line)
 {
@@ -43,94 +37,47 @@ bool failed(OIIO::ImageBuf& dst, const std::string& reason)
     return false;
 }
 
-// The same file by another path is the same recipe.
-std::string identity(const std::string& name)
-{
-    const std::string path = recipe_path(name);
-    std::error_code ignored;
-    const auto whole = std::filesystem::weakly_canonical(path, ignored);
-    return (ignored ? path : whole.string()) + name.substr(path.size());
-}
-
-std::string chain_fault(const std::vector<std::string>& chain, const std::string& name)
-{
-    const auto same = [&](const std::string& other) { return identity(other) == identity(name); };
-    const auto first = std::find_if(chain.begin(), chain.end(), same);
-    std::string path;
-    for (auto at = first; at != chain.end(); ++at)
-        path += format("\"{}\" -> ", *at);
-    if (first != chain.end())
-        return format("\"{}\" reads itself: {}\"{}\"", name, path, name);
-    return chain.size() >= kLongestChain
-        ? format("\"{}\": more than {} recipes, each within the last", name, kLongestChain)
-        : "";
-}
-
-template <class Recipe> std::string value_of(Recipe recipe, const std::string& key)
-{
-    std::string text;
-    recipe.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (key == name)
-            text = value_text(value, allowed);
-    });
-    return text;
-}
-
-// Where the user can mend it: unless a flag or a caller has put another value in the recipe's place.
-template <class Recipe>
-std::string placed(const Recipe& recipe, const std::string& key, const MakeOptions& options, const std::string& reason)
-{
-    Recipe read;
-    std::string ignored;
-    if (options.chain.empty() || !read_recipe(read, options.chain.back(), ignored)
-        || value_of(read, key) != value_of(recipe, key))
-        return reason;
-    return recipe_place(options.chain.back(), key) + ": " + reason;
-}
-
-// recipe_fault(), with the place.
-template <class Recipe> std::string placed_fault(const Recipe& recipe, const MakeOptions& options)
-{
-    const std::string fault = recipe_fault(recipe);
-    const std::string key = fault.substr(0, fault.find(": "));
-    if (fault.empty() || options.chain.empty())
-        return fault;
-    return key.size() < fault.size() ? placed(recipe, key, options, fault.substr(key.size() + 2))
-                                     : format("\"{}\": {}", options.chain.back(), fault);
-}
-
-template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const std::string& name, const MakeOptions& options)
+// The recipe that `options.chain` ends with.
+template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const MakeOptions& options)
 {
     Recipe recipe;
     std::string error;
-    if (!read_recipe(recipe, name, error))
-        return failed(dst, error);
-    MakeOptions inner = options;
-    inner.chain.push_back(name);
-    return make_image(dst, recipe, inner);
+    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : failed(dst, error);
 }
 
-// An image, or what its recipe makes. `wanted` is what a recipe there must be; "" is any.
-bool read_input(OIIO::ImageBuf& dst, const std::string& name, const std::string& wanted, const MakeOptions& options,
-                std::string& error)
+// An image, or what its recipe makes.
+bool read_image_or_recipe(OIIO::ImageBuf& dst, const std::string& name, Input wanted, const MakeOptions& options,
+                          std::string& error)
 {
     const std::string found = recipe_stage(name);
-    if (found.empty())
-        return read_image(dst, name, error);
-    error = chain_fault(options.chain, name);
+    if (found.empty()) {
+        if (read_image(dst, name, error))
+            error = input_fault(name, dst.spec().get_string_attribute("vmlight:stage"), wanted);
+        return error.empty();
+    }
+    MakeOptions inner = options;
+    if (!link_recipe(inner.chain, name, error))
+        return false;
+    error = input_fault(name, found, wanted);
     if (!error.empty())
         return false;
-    if (!wanted.empty() && found != wanted) {
-        error = format("\"{}\": the recipe of a {}, not of {} {}", name, found, wanted == kEnvironment ? "an" : "a",
-                       wanted);
-        return false;
-    }
-    const bool good = found == VismapRecipe::kStage ? make_named<VismapRecipe>(dst, name, options)
-        : found == CfemRecipe::kStage               ? make_named<CfemRecipe>(dst, name, options)
-                                                    : make_named<LightmapRecipe>(dst, name, options);
+    const bool good = found == VismapRecipe::kStage ? make_named<VismapRecipe>(dst, inner)
+        : found == CfemRecipe::kStage               ? make_named<CfemRecipe>(dst, inner)
+                                                    : make_named<LightmapRecipe>(dst, inner);
     if (!good)
         error = dst.geterror();
     return good;
+}
+
+// What `recipe` gives as `key`.
+template <class Recipe>
+bool read_input(OIIO::ImageBuf& dst, const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+                const MakeOptions& options, std::string& error)
+{
+    if (read_image_or_recipe(dst, name, wanted, options, error))
+        return true;
+    error = placed(recipe, key, options.chain, error);
+    return false;
 }
 
 // "1 texel"
@@ -186,22 +133,13 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
 template <class Recipe>
 bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOptions& options, std::string& error)
 {
+    constexpr Input kWanted = std::is_same_v<Recipe, LightmapRecipe> ? Input::Environment : Input::Panorama;
     const std::string& name = recipe.environment;
-    const auto refuse = [&](const std::string& reason) {
-        error = placed(recipe, "environment", options, reason);
-        return false;
-    };
     OIIO::ImageBuf environment;
     std::string note;
-    if (!read_input(environment, name, kEnvironment, options, error))
-        return refuse(error);
+    if (!read_input(environment, recipe, "environment", name, kWanted, options, error))
+        return false;
     const int width = environment.spec().width, height = environment.spec().height;
-    const std::string stage = environment.spec().get_string_attribute("vmlight:stage");
-    constexpr bool to_be_lit_by = std::is_same_v<Recipe, LightmapRecipe>;
-    if (to_be_lit_by && stage == kCfemStage)
-        return refuse(format("\"{}\": filtered already: give it as cfem", name));
-    if (to_be_lit_by && !stage.empty())
-        return refuse(format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", name, stage));
     if (!to_scene_linear(environment, name, { recipe.colorconfig, recipe.colorspace }, note, error))
         return false;
     const OIIO::Timer timer;
@@ -224,35 +162,19 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
 bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     std::array<int, 4> channels;
-    if (read_input(dst, recipe.vismap, kVismapStage, options, error)) {
-        if (find_vismap_channels(dst.spec(), channels, error))
-            return true;
-        error = format("\"{}\": {}", recipe.vismap, error);
-    }
-    error = placed(recipe, "vismap", options, error);
-    return false;
-}
-
-bool read_cfem(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
-{
-    if (read_input(dst, recipe.cfem, kCfemStage, options, error)) {
-        const std::string stage = dst.spec().get_string_attribute("vmlight:stage");
-        if (stage.empty() || stage == kCfemStage)
-            return true;
-        error = format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", recipe.cfem, stage);
-    }
-    error = placed(recipe, "cfem", options, error);
+    if (!read_input(dst, recipe, "vismap", recipe.vismap, Input::Vismap, options, error))
+        return false;
+    if (find_vismap_channels(dst.spec(), channels, error))
+        return true;
+    error = placed(recipe, "vismap", options.chain, format("\"{}\": {}", recipe.vismap, error));
     return false;
 }
 
 bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     std::string note;
-    if (!read_input(dst, recipe.albedo, "", options, error)) {
-        error = placed(recipe, "albedo", options, error);
-        return false;
-    }
-    if (!to_scene_linear(dst, recipe.albedo, { recipe.colorconfig, recipe.albedo_colorspace }, note, error))
+    if (!read_input(dst, recipe, "albedo", recipe.albedo, Input::Albedo, options, error)
+        || !to_scene_linear(dst, recipe.albedo, { recipe.colorconfig, recipe.albedo_colorspace }, note, error))
         return false;
     tell(options.say, "albedo: " + note);
     return true;
@@ -262,16 +184,16 @@ bool read_albedo(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOp
 
 bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options)
 {
-    std::string error = placed_fault(recipe, options);
+    std::string error = recipe_fault(recipe, options.chain);
     if (!error.empty())
         return failed(dst, error);
     Mesh mesh;
     std::vector<Mesh> occluders(recipe.occluder.size());
     if (!read_mesh(mesh, recipe.mesh, recipe.mesh_params, error))
-        return failed(dst, placed(recipe, "mesh", options, error));
+        return failed(dst, placed(recipe, "mesh", options.chain, error));
     for (size_t i = 0; i < occluders.size(); ++i)
         if (!read_mesh(occluders[i], recipe.occluder[i], recipe.mesh_params, error))
-            return failed(dst, placed(recipe, "occluder", options, error));
+            return failed(dst, placed(recipe, "occluder", options.chain, error));
     VismapReport report;
     const Size size = recipe.vismap_params.size();
     if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads,
@@ -284,7 +206,7 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptio
 
 bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options)
 {
-    std::string error = placed_fault(recipe, options);
+    std::string error = recipe_fault(recipe, options.chain);
     if (!error.empty() || !filter_environment(dst, recipe, options, error))
         return failed(dst, error);
     return true;
@@ -308,11 +230,11 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
 bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
                           std::string& error)
 {
-    error = placed_fault(recipe, options);
+    error = recipe_fault(recipe, options.chain);
     // The visibility map first, before an environment is filtered in vain.
     return error.empty() && read_vismap(dst.vismap, recipe, options, error)
         && (recipe.cfem.empty() ? filter_environment(dst.cfem, recipe, options, error)
-                                : read_cfem(dst.cfem, recipe, options, error))
+                                : read_input(dst.cfem, recipe, "cfem", recipe.cfem, Input::Cfem, options, error))
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
 }
 

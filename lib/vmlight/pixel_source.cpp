@@ -4,12 +4,10 @@
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <iterator>
 #include <list>
 #include <mutex>
@@ -20,9 +18,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-// Chains are short; one this long is a script that writes recipes gone wrong.
-constexpr size_t kLongestChain = 32;
 
 // Those used last stand first. What is dropped ends after the lock does: it may be large.
 class Sources
@@ -91,44 +86,11 @@ Sources& sources()
     return all;
 }
 
-// One name for one file, however it was reached.
-std::string identity(const std::string& name)
-{
-    const std::string path = without_query(name);
-    std::error_code none;
-    const std::filesystem::path full = std::filesystem::weakly_canonical(path, none);
-    return (none ? path : full.string()) + name.substr(path.size());
-}
-
-bool link_chain(RecipeChain& chain, const std::string& name, std::string& error)
-{
-    const std::string id = identity(name);
-    const auto first = std::find(chain.begin(), chain.end(), id);
-    const bool is_loop = first != chain.end();
-    if (!is_loop && chain.size() < kLongestChain) {
-        chain.push_back(id);
-        return true;
-    }
-    error
-        = is_loop ? format("\"{}\" reads itself", id) : format("more than {} recipes read one another", kLongestChain);
-    for (auto link = is_loop ? first : chain.begin(); link != chain.end(); ++link)
-        error += format("{} \"{}\"", link == (is_loop ? first : chain.begin()) ? ":" : " ->", *link);
-    error += format(" -> \"{}\"", id);
-    return false;
-}
-
-template <class Recipe>
-PixelSourcePointer open_recipe(const std::string& name, std::string& error, const RecipeChain& chain)
+template <class Recipe> PixelSourcePointer open_recipe(const std::string& name, std::string& error, RecipeChain chain)
 {
     Recipe recipe;
-    RecipeChain longer = chain;
-    if (!link_chain(longer, name, error) || !read_recipe(recipe, name, error))
-        return nullptr;
-    PixelSourcePointer source = open_source(recipe, error, longer);
-    // An error of the chain is long enough, and names all that are part of it.
-    if (!source && error.find(" -> ") == std::string::npos)
-        error = format("\"{}\": {}", without_query(name), error);
-    return source;
+    return link_recipe(chain, name, error) && read_recipe(recipe, name, error) ? open_source(recipe, error, chain)
+                                                                               : nullptr;
 }
 
 } // namespace
@@ -158,7 +120,7 @@ bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
 {
     struct stat status;
     // A '?' may stand in a file's name, or begin what another plugin wants to be told.
-    if (::stat(path.c_str(), &status) != 0 && ::stat(without_query(path).c_str(), &status) != 0) {
+    if (::stat(path.c_str(), &status) != 0 && ::stat(recipe_path(path).c_str(), &status) != 0) {
         error = format("\"{}\": {}", path, errno == ENOENT || errno == ENOTDIR ? "no such file" : "cannot be read");
         return false;
     }
@@ -183,14 +145,36 @@ bool check_stamp(const std::string& stamp, const std::string& path, std::string&
 
 PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain)
 {
-    const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(without_query(name), false));
-    if (extension == VismapRecipe::kStage)
-        return open_recipe<VismapRecipe>(name, error, chain);
-    if (extension == CfemRecipe::kStage)
-        return open_recipe<CfemRecipe>(name, error, chain);
-    if (extension == LightmapRecipe::kStage)
-        return open_recipe<LightmapRecipe>(name, error, chain);
-    return open_stored_image(name, error);
+    const std::string stage = recipe_stage(name);
+    return stage == VismapRecipe::kStage  ? open_recipe<VismapRecipe>(name, error, chain)
+        : stage == CfemRecipe::kStage     ? open_recipe<CfemRecipe>(name, error, chain)
+        : stage == LightmapRecipe::kStage ? open_recipe<LightmapRecipe>(name, error, chain)
+                                          : open_stored_image(name, error);
 }
+
+template <class Recipe>
+PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+                              std::string& error, const RecipeChain& chain)
+{
+    const std::string stage = recipe_stage(name);
+    RecipeChain longer = chain;
+    PixelSourcePointer source;
+    // A recipe of the wrong stage is refused before what it reads is opened, but as what it is if it reads itself.
+    if (stage.empty() || link_recipe(longer, name, error))
+        error = stage.empty() ? "" : input_fault(name, stage, wanted);
+    if (error.empty())
+        source = open_source(name, error, chain);
+    if (source)
+        error = input_fault(name, source->spec().get_string_attribute("vmlight:stage"), wanted);
+    if (error.empty())
+        return source;
+    error = placed(recipe, key, chain, error);
+    return nullptr;
+}
+
+template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
+                                       const RecipeChain&);
+template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input, std::string&,
+                                       const RecipeChain&);
 
 } // namespace vmlight

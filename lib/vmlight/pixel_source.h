@@ -5,7 +5,7 @@
 #pragma once
 
 #include <vmlight/export.h>
-#include <vmlight/recipe.h>
+#include <vmlight/recipe_chain.h>
 
 #include <OpenImageIO/imageio.h>
 
@@ -49,14 +49,12 @@ private:
 };
 using PixelSourcePointer = std::shared_ptr<PixelSource>;
 
-/// The recipes on the way from the one that a user opened to the one being opened.
-using RecipeChain = std::vector<std::string>;
-
 /// Open an image by name: a recipe is read and described, any other image is opened by OIIO. Nothing is computed.
 /// What is open already, unchanged, is shared.
 ///
-/// @param chain    the recipes that led here, each the path of its file, with its query
-/// @returns nullptr, with the reason in `error`, if it cannot be read, an input is missing, or it reads itself
+/// @param chain    the recipes that led here
+/// @returns nullptr, with the place and reason in `error`, if it cannot be read, an input is missing or not what it
+///          should be, or it reads itself
 VMLIGHT_API PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain = {});
 
 // The same, for a recipe in memory.
@@ -70,6 +68,16 @@ VMLIGHT_API PixelSourcePointer open_source(const LightmapRecipe& recipe, std::st
 VMLIGHT_API void set_source_limits(size_t bytes, size_t sources);
 
 // ---- For the rooms of the stages --------------------------------------------------------------------------------
+
+/// Open what `recipe`, the last of `chain`, gives as `key`. nullptr, with the place and reason in `error`, if it cannot
+/// be opened or is not `wanted`.
+template <class Recipe>
+PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+                              std::string& error, const RecipeChain& chain);
+extern template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
+                                              const RecipeChain&);
+extern template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input,
+                                              std::string&, const RecipeChain&);
 
 /// The source with this key that is open or was lately, or nullptr. Those that failed are forgotten.
 PixelSourcePointer find_source(const std::string& key);
@@ -93,12 +101,6 @@ template <class Recipe> std::string recipe_key(Recipe recipe)
         key += std::string(name) + "=" + value_text(value, allowed) + "\n";
     });
     return key;
-}
-
-/// `path` without ?query.
-inline std::string without_query(const std::string& path)
-{
-    return path.substr(0, path.find('?'));
 }
 
 } // namespace vmlight

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/recipe.h>
 
+#include <vmlight/recipe_ascii.h>
+#include <vmlight/recipe_value.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
-
-// Inside this file only: nothing of it is linked or exported, and it throws nothing.
-#define TOML_HEADER_ONLY 1
-#define TOML_EXCEPTIONS 0
-#define TOML_ENABLE_FORMATTERS 0
-#define TOML_MAX_NESTED_VALUES 8
-#include <toml++/toml.h>
 
 namespace vmlight {
 namespace {
@@ -23,271 +18,6 @@ using OIIO::string_view;
 using OIIO::Strutil::fmt::format;
 
 constexpr uint64_t kLargestFile = 1 << 20;
-constexpr size_t kMostDots = 100;
-constexpr size_t kLongestReason = 500;
-
-// Texts of the file come back in messages, which are one line.
-std::string one_line(string_view text)
-{
-    std::string line;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        line += byte < 0x20 || byte == 0x7f ? format("\\x{:02x}", byte) : std::string(1, c);
-    }
-    return line;
-}
-
-// A reason with the file's own words in it, which may be many.
-std::string reason_line(string_view reason)
-{
-    return one_line(reason.substr(0, kLongestReason)) + (reason.size() > kLongestReason ? "..." : "");
-}
-
-std::string at_line(const std::string& path, uint64_t line)
-{
-    return line ? format("\"{}\" line {}", path, line) : format("\"{}\"", path);
-}
-
-// ---- TOML that toml++ can take ------------------------------------------------------------------------------------
-// Version 3.3 has undefined behaviour where a character that is not ASCII stands outside quotes, and what it takes for
-// quotes depends on what is wrong before them. So it is given ASCII alone: in quotes, \u says the rest. It also makes a
-// table of each part of a dotted key, one in the other, which it takes down by recursion: hence the limit on dots. What
-// is refused for these is no TOML either, or of no use in a recipe.
-
-// Bytes of the character at the start of `text`, or 0 if they are no UTF-8.
-size_t read_character(string_view text, uint32_t& code)
-{
-    const auto lead = static_cast<unsigned char>(text[0]);
-    const size_t count = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    constexpr std::array<uint32_t, 5> kLeast { 0, 0, 0x80, 0x800, 0x10000 };
-    if (count > text.size() || (count > 1 && lead < 0xc2) || lead > 0xf4)
-        return 0;
-    code = count == 1 ? lead : lead & (0xffu >> (count + 1));
-    for (size_t i = 1; i < count; ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        if ((byte & 0xc0) != 0x80)
-            return 0;
-        code = code << 6 | (byte & 0x3f);
-    }
-    const bool good = code >= kLeast[count] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
-    return good ? count : 0;
-}
-
-// Append `line` to `dst`, and return "" or what is wrong with it.
-std::string append_ascii(std::string& dst, string_view line)
-{
-    enum
-    {
-        Plain,
-        Basic,
-        Literal,
-        Comment
-    } where
-        = Plain;
-    size_t dots = 0, count = 0;
-    for (size_t i = 0; i < line.size(); i += count) {
-        uint32_t code = 0;
-        const char c = line[i];
-        count = read_character(line.substr(i), code);
-        if (count == 0)
-            return "not TOML: its bytes are not UTF-8";
-        if ((code < 0x20 && c != '\t') || code == 0x7f)
-            return format("not TOML: a control character ({})", code);
-        if (count > 1) {
-            if (where == Plain)
-                return "not TOML: a character outside quotes that is not ASCII";
-            dst += where == Comment ? "?" : format("\\U{:08x}", code);
-        } else if (where == Plain && (c == '"' || c == '\'')) {
-            if (line.substr(i, 3) == std::string(3, c))
-                return "three quotes in a row: a recipe's texts are of one line";
-            where = c == '"' ? Basic : Literal;
-            dst += '"';
-        } else if (where == Plain) {
-            where = c == '#' ? Comment : Plain;
-            dots += c == '.';
-            dst += c;
-            if (dots > kMostDots)
-                return format("more than {} dots outside quotes", kMostDots);
-        } else if (where == Literal) {
-            where = c == '\'' ? Plain : Literal;
-            dst += c == '\'' ? "\"" : c == '"' || c == '\\' ? std::string { '\\', c } : std::string(1, c);
-        } else {
-            const bool escapes
-                = where == Basic && c == '\\' && i + 1 < line.size() && (line[i + 1] == '"' || line[i + 1] == '\\');
-            where = where == Basic && c == '"' ? Plain : where;
-            count = escapes ? 2 : 1;
-            dst.append(line.data() + i, count);
-        }
-    }
-    return "";
-}
-
-bool to_ascii(std::string& dst, string_view text, const std::string& path, std::string& error)
-{
-    if (OIIO::Strutil::starts_with(text, "\xEF\xBB\xBF")) // an editor's mark of UTF-8
-        text.remove_prefix(3);
-    for (uint64_t number = 1; !text.empty(); ++number) {
-        const size_t end = std::min(text.find('\n'), text.size());
-        string_view line = text.substr(0, end);
-        if (end < text.size() && !line.empty() && line.back() == '\r')
-            line.remove_suffix(1);
-        const std::string fault = append_ascii(dst, line);
-        if (!fault.empty()) {
-            error = at_line(path, number) + ": " + fault;
-            return false;
-        }
-        dst += '\n';
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return true;
-}
-
-// ---- TOML values as the texts that parse_value() takes -----------------------------------------------------------
-
-const char* kind_of(const toml::node& node)
-{
-    switch (node.type()) {
-    case toml::node_type::table:
-        return "a table";
-    case toml::node_type::array:
-        return "an array";
-    case toml::node_type::string:
-        return "a string";
-    case toml::node_type::integer:
-        return "an integer";
-    case toml::node_type::floating_point:
-        return "a float";
-    case toml::node_type::boolean:
-        return "a boolean";
-    default:
-        return "a date or time";
-    }
-}
-
-bool misfit(const toml::node& node, const std::string& wanted, std::string& reason)
-{
-    reason = format("{} where {} is needed", kind_of(node), wanted);
-    return false;
-}
-
-bool number_text(std::string& text, const toml::node& node, bool integral)
-{
-    if (const auto* integer = node.as_integer())
-        text = format("{}", integer->get());
-    else if (const auto* number = node.as_floating_point(); number && !integral)
-        text = format("{}", number->get());
-    else
-        return false;
-    return true;
-}
-
-bool word_text(std::string& text, const toml::node& node, const Range& allowed, const char* wanted, std::string& reason)
-{
-    const auto* word = node.as_string();
-    if (!allowed.word || !word)
-        return misfit(node, allowed.word ? format("{} or \"{}\"", wanted, allowed.word) : wanted, reason);
-    if (word->get() != allowed.word) {
-        reason = format("\"{}\" is neither {} nor \"{}\"", word->get(), wanted, allowed.word);
-        return false;
-    }
-    text = word->get();
-    return true;
-}
-
-bool string_text(std::string& text, const toml::node& node, const char* wanted, std::string& reason)
-{
-    const auto* string = node.as_string();
-    if (!string)
-        return misfit(node, wanted, reason);
-    text = string->get();
-    return true;
-}
-
-bool node_text(std::string& text, const toml::node& node, const int&, const Range& allowed, std::string& reason)
-{
-    return number_text(text, node, true) || word_text(text, node, allowed, "an integer", reason);
-}
-
-bool node_text(std::string& text, const toml::node& node, const double&, const Range& allowed, std::string& reason)
-{
-    return number_text(text, node, false) || word_text(text, node, allowed, "a number", reason);
-}
-
-bool node_text(std::string& text, const toml::node& node, const Size&, const SizeRange&, std::string& reason)
-{
-    const char* wanted = "a width, [width, height] or \"WIDTHxHEIGHT\"";
-    if (number_text(text, node, true))
-        return true;
-    const toml::array* sides = node.as_array();
-    if (!sides)
-        return string_text(text, node, wanted, reason);
-    std::string width, height;
-    if (sides->size() != 2 || !number_text(width, *sides->get(0), true) || !number_text(height, *sides->get(1), true))
-        return misfit(node, wanted, reason);
-    text = width + "x" + height;
-    return true;
-}
-
-bool node_text(std::string& text, const toml::node& node, const std::string&, const Choices&, std::string& reason)
-{
-    return string_text(text, node, "a string", reason);
-}
-
-bool node_text(std::string& text, const toml::node& node, const std::string&, const Text&, std::string& reason)
-{
-    return string_text(text, node, "a string", reason);
-}
-
-bool node_text(std::string& text, const toml::node& node, const std::string&, const Path&, std::string& reason)
-{
-    return string_text(text, node, "a path in quotes", reason);
-}
-
-bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Paths&,
-               std::string& reason)
-{
-    const char* wanted = "an array of paths in quotes";
-    const toml::array* paths = node.as_array();
-    if (!paths)
-        return string_text(text, node, wanted, reason);
-    for (const toml::node& element : *paths) {
-        std::string path;
-        if (!string_text(path, element, "a path in quotes", reason))
-            return false;
-        if (path.empty() || path.find('\n') != std::string::npos) {
-            reason = path.empty() ? "one of its names is empty" : "a name in a list cannot hold a line break";
-            return false;
-        }
-        text += (text.empty() ? "" : "\n") + path;
-    }
-    return true;
-}
-
-bool node_text(std::string& text, const toml::node& node, const std::vector<double>&, const Numbers& allowed,
-               std::string& reason)
-{
-    const toml::array* numbers = node.as_array();
-    if (!numbers)
-        return string_text(text, node, format("an array of {} numbers", allowed.count).c_str(), reason);
-    for (const toml::node& element : *numbers) {
-        std::string number;
-        if (!number_text(number, element, false))
-            return misfit(element, "a number", reason);
-        text += (text.empty() ? "" : ",") + number;
-    }
-    return true;
-}
-
-bool node_text(std::string& text, const toml::node& node, const bool&, const Flag&, std::string& reason)
-{
-    const auto* flag = node.as_boolean();
-    if (!flag)
-        return misfit(node, "true or false", reason);
-    text = flag->get() ? "true" : "false";
-    return true;
-}
-
-// ---- Paths -------------------------------------------------------------------------------------------------------
 
 std::string in_folder(const std::string& folder, const std::string& path)
 {
@@ -308,62 +38,6 @@ void resolve(std::vector<std::string>& paths, const Paths&, const std::string& f
 }
 
 template <class Value, class Allowed> void resolve(Value&, const Allowed&, const std::string&) { }
-
-// ---- Values as TOML ----------------------------------------------------------------------------------------------
-
-std::string quoted(const std::string& text)
-{
-    std::string quoted = "\"";
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            quoted += '\\', quoted += c;
-        else
-            quoted += byte < 0x20 || byte == 0x7f ? format("\\u{:04x}", byte) : std::string(1, c);
-    }
-    return quoted + "\"";
-}
-
-std::string number_toml(const std::string& text, const Range& allowed)
-{
-    return allowed.word && text == allowed.word ? quoted(text) : text;
-}
-
-std::string toml_text(int value, const Range& allowed)
-{
-    return number_toml(value_text(value, allowed), allowed);
-}
-
-std::string toml_text(double value, const Range& allowed)
-{
-    return number_toml(value_text(value, allowed), allowed);
-}
-
-std::string toml_text(bool value, const Flag& allowed)
-{
-    return value_text(value, allowed);
-}
-
-std::string toml_text(const std::vector<double>& value, const Numbers& allowed)
-{
-    return "[" + OIIO::Strutil::replace(value_text(value, allowed), ",", ", ", true) + "]";
-}
-
-std::string toml_text(const std::vector<std::string>& value, const Paths&)
-{
-    std::string text;
-    for (const std::string& path : value)
-        text += "    " + quoted(path) + ",\n";
-    return text.empty() ? "[]" : "[\n" + text + "]";
-}
-
-// Choices, texts, paths and sizes.
-template <class Value, class Allowed> std::string toml_text(const Value& value, const Allowed& allowed)
-{
-    return quoted(value_text(value, allowed));
-}
-
-// ---- Recipes -----------------------------------------------------------------------------------------------------
 
 template <class Recipe>
 bool set_from_node(Recipe& recipe, const std::string& key, const toml::node& node, const std::string& folder,
@@ -519,32 +193,12 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
     return true;
 }
 
-template <class Recipe> std::string recipe_text(const Recipe& recipe)
-{
-    Recipe copy = recipe;
-    Recipe defaults;
-    std::vector<std::string> usual;
-    defaults.visit([&](const char*, auto& value, const auto& allowed, const char*) {
-        usual.push_back(value_text(value, allowed));
-    });
-    std::string text;
-    size_t index = 0;
-    copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (value_text(value, allowed) != usual[index++])
-            text += format("{} = {}\n", name, toml_text(value, allowed));
-    });
-    return text;
-}
-
 template bool read_recipe(VismapRecipe&, const std::string&, std::string&);
 template bool read_recipe(CfemRecipe&, const std::string&, std::string&);
 template bool read_recipe(LightmapRecipe&, const std::string&, std::string&);
 template bool read_recipe_text(VismapRecipe&, string_view, const std::string&, std::string&);
 template bool read_recipe_text(CfemRecipe&, string_view, const std::string&, std::string&);
 template bool read_recipe_text(LightmapRecipe&, string_view, const std::string&, std::string&);
-template std::string recipe_text(const VismapRecipe&);
-template std::string recipe_text(const CfemRecipe&);
-template std::string recipe_text(const LightmapRecipe&);
 
 std::string recipe_path(const std::string& name)
 {

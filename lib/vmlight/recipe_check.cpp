@@ -5,30 +5,6 @@
 
 namespace vmlight {
 
-std::string recipe_fault(const VismapRecipe& recipe)
-{
-    return recipe.mesh.empty() ? "mesh is missing" : "";
-}
-
-std::string recipe_fault(const CfemRecipe& recipe)
-{
-    return recipe.environment.empty() ? "environment is missing" : "";
-}
-
-std::string recipe_fault(const LightmapRecipe& recipe)
-{
-    if (recipe.vismap.empty())
-        return "vismap is missing";
-    if (recipe.environment.empty() && recipe.cfem.empty())
-        return "environment is missing, or cfem";
-    if (!recipe.environment.empty() && !recipe.cfem.empty())
-        return "cfem: environment is given too: one of them must be empty";
-    Rotation rotation;
-    std::string error;
-    lightmap_rotation(rotation, recipe.lightmap_params, error);
-    return error;
-}
-
 std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
 {
     if (key == "crease_angle" && recipe.mesh_params.normals == "flat")

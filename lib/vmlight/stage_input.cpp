@@ -54,7 +54,7 @@ bool StageInput::valid_file(const std::string& name) const
 {
     bool is_ours = false;
     try {
-        is_ours = OIIO::Strutil::iequals(OIIO::Filesystem::extension(without_query(name), false), m_stage);
+        is_ours = recipe_stage(name) == m_stage;
     } catch (...) {
     }
     return is_ours;

@@ -8,6 +8,7 @@
 #include <vmlight/params.h>
 #include <vmlight/progress.h>
 #include <vmlight/recipe.h>
+#include <vmlight/recipe_chain.h>
 #include <vmlight/recipe_check.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -80,7 +81,7 @@ public:
         take_recipe(
             { Recipe::kStage, std::move(fill), std::move(unsaid),
               [&recipe](const std::string& name, std::string& error) { return read_recipe(recipe, name, error); },
-              [&recipe] { return recipe_fault(recipe); }, [&recipe] { return recipe_text(recipe); },
+              [&recipe] { return recipe_fault(recipe, {}); }, [&recipe] { return recipe_text(recipe); },
               [&recipe](const std::string& name) { return unused_reason(recipe, name); } });
     }
     /// Takes the flag's value ("true" for one without); false and `error` refuse it. A flag may come more than once.

@@ -73,20 +73,16 @@ private:
 
 } // namespace
 
-PixelSourcePointer open_source(const VismapRecipe& recipe, std::string& error, const RecipeChain&)
+PixelSourcePointer open_source(const VismapRecipe& recipe, std::string& error, const RecipeChain& chain)
 {
-    VismapParams params = recipe.vismap_params;
-    MeshParams mesh_params = recipe.mesh_params;
-    if (recipe.mesh.empty())
-        error = "mesh: not given";
-    if (!error.empty() || !check_params(params, error) || !check_params(mesh_params, error))
+    error = recipe_fault(recipe, chain);
+    if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error))
         return nullptr;
     std::vector<std::string> stamps(1 + recipe.occluder.size());
     std::string key = recipe_key(recipe);
     for (size_t i = 0; i < stamps.size(); ++i) {
-        const std::string& path = i ? recipe.occluder[i - 1] : recipe.mesh;
-        if (!stamp_file(stamps[i], path, error)) {
-            error = (i ? "occluder: " : "mesh: ") + error;
+        if (!stamp_file(stamps[i], i ? recipe.occluder[i - 1] : recipe.mesh, error)) {
+            error = placed(recipe, i ? "occluder" : "mesh", chain, error);
             return nullptr;
         }
         key += stamps[i];

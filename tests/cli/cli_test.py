@@ -166,7 +166,7 @@ class Usage(Case):
                             ("matrix: a mirror, not a rotation", mirror),
                             ("matrix: not a rotation", ["--matrix", "1,0,0,0,1,0,0,0,2"]),
                             ("quaternion: 0,0,0,0 has no direction", ["--quaternion", "0,0,0,0"]),
-                            ("cfem: environment is given too", ["--cfem", "sky.exr"]),
+                            ("environment is given too", ["--cfem", "sky.exr"]),
                             ("vismap is missing", ["--vismap", ""]),
                             ("environment is missing, or cfem", ["--environment", ""])):
             self.refused(2, "makelightmap ERROR: " + text, "makelightmap", "vm.exr", "sky.exr", "-o", "x.exr", *flags)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stages in programs that know nothing of vmlight. A host that is not installed is skipped, and says so.
 
-Run as: hosts_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder) and VMLIGHT_SOURCE (the repository).
+Run as: hosts_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLIGHT_SOURCE (the repository) and
+OIIO_LIBRARY_PATH (the readers' folder), which is all that a host is told of them.
 """
 import os
 import re
@@ -35,23 +36,41 @@ class Host(unittest.TestCase):
         self.folder = tempfile.mkdtemp(prefix="vmlight-host-")
         self.addCleanup(shutil.rmtree, self.folder)
         self.environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
-        with open(self.path("floor.obj"), "w") as out:
-            out.write(SCENE)
-        with open(self.path("wall.obj"), "w") as out:
-            out.write(WALL)
+        self.write("floor.obj", SCENE)
+        self.write("wall.obj", WALL)
         self.run_program(os.path.join(BIN, "makevismap"), "floor.obj", "--occluder", "wall.obj", "-o",
                          "floor_vismap.exr", "--resolution", "64", "--samples", "64", "--quiet")
         self.run_program(os.path.join(BIN, "makelightmap"), "floor_vismap.exr", SKY, "--rotate", "60,30,0", "-o",
                          "floor_lit.exr", "--quiet")
+        # The same, live.
+        shutil.copy(SKY, self.path("studio.hdr"))
+        self.write("floor.vismap", 'mesh = "floor.obj"\noccluder = "wall.obj"\nresolution = 64\nsamples = 64\n')
+        self.write("studio.cfem", 'environment = "studio.hdr"\n')
+        self.write("floor.lightmap", 'vismap = "floor.vismap"\ncfem = "studio.cfem"\nrotate = [60, 30, 0]\n')
 
     def path(self, name):
         return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as out:
+            out.write(text)
 
     def run_program(self, *words):
         result = subprocess.run(words, capture_output=True, text=True, cwd=self.folder, env=self.environment,
                                 timeout=300)
         self.assertEqual(result.returncode, 0, (words, result.stdout, result.stderr))
         return result.stdout
+
+    def assert_guarded(self, *words):
+        """The program leaves the pixels of floor_vismap.exr alone, or what it writes is taken for no visibility map."""
+        self.run_program(*words)
+        self.run_program("oiiotool", "converted.exr", "-o", "level0.exr")
+        if self.largest_difference("floor_vismap.exr", "level0.exr") == 0:
+            return
+        result = subprocess.run([os.path.join(BIN, "makelightmap"), "converted.exr", SKY, "-o", "x.exr"],
+                                capture_output=True, text=True, cwd=self.folder, env=self.environment)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn('"converted.exr": not a visibility map any more: ', result.stderr)
 
     def largest_difference(self, a, b):
         result = subprocess.run(["idiff", a, b], capture_output=True, text=True, cwd=self.folder)
@@ -71,6 +90,11 @@ class Oiiotool(Host):
         self.run_program("oiiotool", "floor_lit.exr", "floor_vismap.exr", "--ch", "visibility", "--chnames", "A",
                          "--chappend", "--dup", "--ch", "A,A,A,A", "--chnames", "R,G,B,A", "--mul", "--pattern",
                          "constant:color=0.1,0.1,0.1,1", "64x64", "4", "--over", "-o", "over.exr")
+        # The same of the recipes.
+        self.run_program("oiiotool", "floor.lightmap", "floor.vismap", "--ch", "visibility", "--chnames", "A",
+                         "--chappend", "--dup", "--ch", "A,A,A,A", "--chnames", "R,G,B,A", "--mul", "--pattern",
+                         "constant:color=0.1,0.1,0.1,1", "64x64", "4", "--over", "-o", "over_live.exr")
+        self.assertEqual(self.largest_difference("over.exr", "over_live.exr"), 0)
         out = self.run_program("oiiotool", "--info", "-v", "over.exr", "small.exr")
         self.assertIn("64 x   64, 4 channel", out)
         self.assertIn("32 x   32, 3 channel", out)
@@ -78,6 +102,14 @@ class Oiiotool(Host):
     def test_automatic_colour_conversion_leaves_a_visibility_map_alone(self):
         self.run_program("oiiotool", "--colorconfig", CONFIG, "--autocc", "floor_vismap.exr", "-o", "copy_vismap.exr")
         self.assertEqual(self.largest_difference("floor_vismap.exr", "copy_vismap.exr"), 0)
+        # Nor does it convert the recipe on its way to a name that says nothing.
+        for name in "live_vismap.exr", "live.exr":
+            self.run_program("oiiotool", "--colorconfig", CONFIG, "--autocc", "floor.vismap", "-o", name)
+            self.assertEqual(self.largest_difference("floor_vismap.exr", name), 0)
+
+    def test_a_visibility_map_that_was_converted_is_refused_as_one(self):
+        self.assert_guarded("oiiotool", "--colorconfig", CONFIG, "floor_vismap.exr", "--tocolorspace",
+                            "sRGB - Texture", "-o", "converted.exr")
 
     def test_pixels_hold_no_nan(self):
         for name in "floor_vismap.exr", "floor_lit.exr":
@@ -97,6 +129,18 @@ class Maketx(Host):
         self.run_program("oiiotool", "texture_vismap.exr", "--selectmip", "1", "-o", "mip1.exr")
         self.run_program("oiiotool", "floor_vismap.exr", "--resize:filter=box", "32x32", "-o", "box.exr")
         self.assertLess(self.largest_difference("mip1.exr", "box.exr"), 1e-6)
+
+    def test_a_visibility_map_that_was_converted_is_refused_as_one(self):
+        self.assert_guarded("maketx", "--colorconfig", CONFIG, "--colorconvert", "sRGB - Texture", "ACEScg",
+                            "floor_vismap.exr", "-o", "converted.exr")
+
+    def test_textures_are_made_of_recipes(self):
+        for name in "vismap", "lightmap":
+            self.run_program("maketx", f"floor.{name}", "-o", f"live_{name}.exr", "--checknan")
+        self.run_program("maketx", "floor_vismap.exr", "-o", "stored_vismap.exr")
+        self.run_program("maketx", "floor_lit.exr", "-o", "stored_lightmap.exr")
+        for name in "vismap", "lightmap":
+            self.assertEqual(self.largest_difference(f"live_{name}.exr", f"stored_{name}.exr"), 0)
 
     def test_lighting_a_mip_is_near_the_mip_of_the_light(self):
         # Not equal: the lookup direction is not linear in B. Measured here, at the worst texel: 0.021 at level 1 and
@@ -122,11 +166,14 @@ class Python(Host):
         if found.returncode != 0:
             raise unittest.SkipTest("Python's modules OpenImageIO and numpy are not installed")
 
-    def test_python_reads_both_maps(self):
+    def test_python_reads_maps_and_recipes(self):
+        self.run_program(os.path.join(BIN, "makecfem"), SKY, "-o", "studio_cfem.exr", "--quiet")
         out = self.run_program(self.interpreter, os.path.join(SOURCE, "tests/hosts/python_host.py"),
-                               "floor_vismap.exr", "floor_lit.exr").splitlines()
+                               "floor_vismap.exr", "floor_lit.exr", "studio_cfem.exr", "floor.vismap",
+                               "floor.lightmap", "studio.cfem").splitlines()
         self.assertRegex(out[0], r"^64 64 visibility,direction.x,direction.y,direction.z 0\.\d+ ")
         self.assertRegex(out[1], r"^64 64 R,G,B ")
+        self.assertEqual(out[:3], out[3:])
 
 
 class Blender(Host):
@@ -142,6 +189,13 @@ class Blender(Host):
 
     def test_cycles_shows_each_texel_where_it_belongs(self):
         self.assertLess(self.largest_difference("floor_lit.exr", self.render("floor_lit.exr")), 1e-6)
+
+    def test_cycles_renders_a_recipe_as_it_would_its_result(self):
+        out = self.run_program("blender", "--background", "--factory-startup", "--python-expr",
+                               "print('plugins', 'libOpenImageIO.so' in open('/proc/self/maps').read())")
+        if "plugins True" not in out:
+            self.skipTest("this Blender has an OpenImageIO of its own inside, which loads no reader")
+        self.assertLess(self.largest_difference("floor_lit.exr", self.render("floor.lightmap")), 1e-6)
 
 
 if __name__ == "__main__":

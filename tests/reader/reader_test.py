@@ -125,14 +125,17 @@ class Faults(Case):
             self.assertFalse(os.path.exists(self.path("x.exr")))
 
     def test_a_recipe_that_reads_itself_is_named(self):
-        self.file("a.lightmap", 'vismap = "hero.vismap"\nenvironment = "b.cfem"\n')
-        self.file("b.cfem", 'environment = "a.lightmap"\n')
+        rest = 'vismap = "hero.vismap"\ncfem = "studio.cfem"\n'
+        self.file("a.lightmap", rest + 'albedo = "b.lightmap"\n')
+        self.file("b.lightmap", rest + 'albedo = "a.lightmap"\n')
         self.refused('a.lightmap" reads itself', "a.lightmap", "-o", "x.exr")
-        self.refused('b.cfem" reads itself', "b.cfem", "-o", "x.exr")
+        self.file("self.cfem", 'environment = "./self.cfem"\n')
+        self.refused('self.cfem" reads itself', "self.cfem", "-o", "x.exr")
 
     def test_a_missing_input_is_named(self):
         os.remove(self.path("spot.obj"))
-        self.refused("spot.obj", "hero.lightmap", "-o", "x.exr")
+        self.refused('hero.lightmap" line 1: vismap: "hero.vismap" line 1: mesh: "spot.obj": no such file', "hero.lightmap",
+                     "-o", "x.exr")
 
 
 class Symbols(unittest.TestCase):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/color.h>
 
+#include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -244,6 +245,21 @@ TEST_F(Color, TheEnvironmentsConfigIsTheDefault)
     setenv("OCIO", "/nowhere/config.ocio", 1);
     EXPECT_EQ(said("sky.hdr", {}).rfind("ERROR cannot read the OCIO config \"/nowhere/config.ocio\": ", 0), 0u);
     EXPECT_EQ(said("sky.hdr", { kConfig, "" }), "Linear Rec.709 (sRGB) -> ACEScg");
+}
+
+TEST_F(Color, AConfigThatIsBuiltIntoOpenColorIOServes)
+{
+    const ColorSettings built_in { "ocio://cg-config-v1.0.0_aces-v1.3_ocio-v2.1", "" };
+    if (OIIO::ColorConfig::OpenColorIO_version_hex() < 0x02020000) { // none is
+        EXPECT_EQ(said("sky.hdr", built_in).rfind("ERROR cannot read the OCIO config \"ocio://", 0), 0u);
+        return;
+    }
+    ImageBuf image = flat({ 1, 0, 0 });
+    ASSERT_TRUE(convert(image, "sky.exr", { built_in.config, "lin_rec709_scene" })) << error;
+    expect_pixel(image, { 0.613097f, 0.070194f, 0.020616f }, 2e-5f);
+    EXPECT_EQ(id_of(image), "lin_ap1_scene");
+    setenv("OCIO", built_in.config.c_str(), 1);
+    EXPECT_EQ(said("paint.png", { "", "lin_ap1_scene" }), "ACEScg, unchanged");
 }
 
 TEST_F(Color, RefusalsNameTheNearest)

@@ -128,12 +128,12 @@ TEST(StageHost, FaultsOfARecipeAreNamed)
              { "gone.lightmap", "gone.lightmap\"" },
              { "hero.lightmap?rotate=abc", "rotate: \"abc\"" },
              { "hero.lightmap?rotation=1,2,3", "unknown parameter \"rotation\"" },
-             { "comment.vismap", "comment.vismap\": mesh: not given" },
-             { "nomesh.vismap", "nomesh.vismap\": mesh: \"" + (folder / "gone.obj") + "\": no such file" },
-             { "dark.lightmap", "neither environment nor cfem is given" },
-             { "both.lightmap", "both environment and cfem are given" },
-             { "swapped.lightmap", "studio.cfem\": " },
-             { "unlit.lightmap", "its vmlight:stage is \"vismap\"" } })
+             { "comment.vismap", "comment.vismap\": mesh is missing" },
+             { "nomesh.vismap", "nomesh.vismap\" line 1: mesh: \"" + (folder / "gone.obj") + "\": no such file" },
+             { "dark.lightmap", "environment is missing, or cfem" },
+             { "both.lightmap", "both.lightmap\" line 3: cfem: environment is given too" },
+             { "swapped.lightmap", "studio.cfem\": the recipe of a cfem, not of a vismap" },
+             { "unlit.lightmap", "hero.vismap\": the recipe of a vismap, not of a cfem" } })
         EXPECT_NE(error_of_open(folder / name).find(text), std::string::npos) << name << ": " << OIIO::geterror();
 }
 
@@ -141,22 +141,22 @@ TEST(StageHost, ARecipeThatReadsItselfIsNamedWithTheWholeWay)
 {
     const Folder folder;
     folder.write("self.lightmap", "vismap = \"hero.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"self.lightmap\"\n");
-    folder.write("a.lightmap", "vismap = \"hero.vismap\"\nenvironment = \"b.cfem\"\n");
-    folder.write("b.cfem", "environment = \"./c.lightmap\"\n");
-    folder.write("c.lightmap", "vismap = \"hero.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"a.lightmap\"\n");
+    const std::string rest = "vismap = \"hero.vismap\"\ncfem = \"studio.cfem\"\n";
+    folder.write("a.lightmap", rest + "albedo = \"b.lightmap\"\n");
+    folder.write("b.lightmap", rest + "albedo = \"./c.lightmap\"\n");
+    folder.write("c.lightmap", rest + "albedo = \"a.lightmap\"\n");
     const std::string self = error_of_open(folder / "self.lightmap");
     EXPECT_NE(self.find("self.lightmap\" reads itself: "), std::string::npos) << self;
     const std::string ring = error_of_open(folder / "a.lightmap");
     EXPECT_NE(ring.find("a.lightmap\" reads itself: "), std::string::npos) << ring;
-    const size_t b = ring.find(" -> \"" + (folder / "b.cfem")), c = ring.find(" -> \"" + (folder / "c.lightmap"));
+    const size_t b = ring.find(" -> \"" + (folder / "b.lightmap")), c = ring.find(" -> \"" + (folder / "./c.lightmap"));
     EXPECT_LT(b, c) << ring;
     EXPECT_NE(c, std::string::npos) << ring;
     // Each name differs from the last: a ring that never closes.
-    folder.write("deep.cfem", "environment = \"studio.exr\"\n");
-    for (int i = 0; i < 40; ++i)
-        folder.write("deep" + std::to_string(i) + ".cfem",
-                     "environment = \"deep" + (i < 39 ? std::to_string(i + 1) : "") + ".cfem\"\n");
-    EXPECT_NE(error_of_open(folder / "deep0.cfem").find("more than 32 recipes"), std::string::npos);
+    for (int i = 0; i < 70; ++i)
+        folder.write("deep" + std::to_string(i) + ".lightmap",
+                     rest + "albedo = \"deep" + std::to_string(i + 1) + ".lightmap\"\n");
+    EXPECT_NE(error_of_open(folder / "deep0.lightmap").find("more than 64 recipes"), std::string::npos);
 }
 
 TEST(StageHost, AThreadsFloatingPointModeIsLeftAsItWas)

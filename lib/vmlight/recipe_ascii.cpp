@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/recipe_ascii.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vmlight {
+namespace {
+
+using OIIO::string_view;
+using OIIO::Strutil::fmt::format;
+
+constexpr size_t kMostDots = 100;
+constexpr size_t kLongestReason = 500;
+
+// Bytes of the character at the start of `text`, or 0 if they are no UTF-8.
+size_t read_character(string_view text, uint32_t& code)
+{
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const size_t count = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    constexpr std::array<uint32_t, 5> kLeast { 0, 0, 0x80, 0x800, 0x10000 };
+    if (count > text.size() || (count > 1 && lead < 0xc2) || lead > 0xf4)
+        return 0;
+    code = count == 1 ? lead : lead & (0xffu >> (count + 1));
+    for (size_t i = 1; i < count; ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        if ((byte & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (byte & 0x3f);
+    }
+    const bool good = code >= kLeast[count] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
+    return good ? count : 0;
+}
+
+// Append `line` to `dst`, and return "" or what is wrong with it.
+std::string append_ascii(std::string& dst, string_view line)
+{
+    enum
+    {
+        Plain,
+        Basic,
+        Literal,
+        Comment
+    } where
+        = Plain;
+    size_t dots = 0, count = 0;
+    for (size_t i = 0; i < line.size(); i += count) {
+        uint32_t code = 0;
+        const char c = line[i];
+        count = read_character(line.substr(i), code);
+        if (count == 0)
+            return "not TOML: its bytes are not UTF-8";
+        if ((code < 0x20 && c != '\t') || code == 0x7f)
+            return format("not TOML: a control character ({})", code);
+        if (count > 1) {
+            if (where == Plain)
+                return "not TOML: a character outside quotes that is not ASCII";
+            dst += where == Comment ? "?" : format("\\U{:08x}", code);
+        } else if (where == Plain && (c == '"' || c == '\'')) {
+            if (line.substr(i, 3) == std::string(3, c))
+                return "three quotes in a row: a recipe's texts are of one line";
+            where = c == '"' ? Basic : Literal;
+            dst += '"';
+        } else if (where == Plain) {
+            where = c == '#' ? Comment : Plain;
+            dots += c == '.';
+            dst += c;
+            if (dots > kMostDots)
+                return format("more than {} dots outside quotes", kMostDots);
+        } else if (where == Literal) {
+            where = c == '\'' ? Plain : Literal;
+            dst += c == '\'' ? "\"" : c == '"' || c == '\\' ? std::string { '\\', c } : std::string(1, c);
+        } else {
+            const bool escapes
+                = where == Basic && c == '\\' && i + 1 < line.size() && (line[i + 1] == '"' || line[i + 1] == '\\');
+            where = where == Basic && c == '"' ? Plain : where;
+            count = escapes ? 2 : 1;
+            dst.append(line.data() + i, count);
+        }
+    }
+    return "";
+}
+
+} // namespace
+
+std::string one_line(string_view text)
+{
+    std::string line;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        line += byte < 0x20 || byte == 0x7f ? format("\\x{:02x}", byte) : std::string(1, c);
+    }
+    return line;
+}
+
+std::string reason_line(string_view reason)
+{
+    return one_line(reason.substr(0, kLongestReason)) + (reason.size() > kLongestReason ? "..." : "");
+}
+
+std::string at_line(const std::string& path, uint64_t line)
+{
+    return line ? format("\"{}\" line {}", path, line) : format("\"{}\"", path);
+}
+
+bool to_ascii(std::string& dst, string_view text, const std::string& path, std::string& error)
+{
+    if (OIIO::Strutil::starts_with(text, "\xEF\xBB\xBF")) // an editor's mark of UTF-8
+        text.remove_prefix(3);
+    for (uint64_t number = 1; !text.empty(); ++number) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        string_view line = text.substr(0, end);
+        if (end < text.size() && !line.empty() && line.back() == '\r')
+            line.remove_suffix(1);
+        const std::string fault = append_ascii(dst, line);
+        if (!fault.empty()) {
+            error = at_line(path, number) + ": " + fault;
+            return false;
+        }
+        dst += '\n';
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return true;
+}
+
+} // namespace vmlight
