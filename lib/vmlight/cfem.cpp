@@ -67,7 +67,7 @@ bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams&
     OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
     if (const int64_t mended = rows.bad_values())
         spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
-    dst.reset(spec);
+    dst.reset(spec, OIIO::InitializePixels::No);
     return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
 }
 

@@ -115,7 +115,8 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
         error = fault_text(faults);
         return false;
     }
-    m_resized.reset(OIIO::ImageSpec(roi.width(), roi.height(), image.nchannels(), OIIO::TypeFloat));
+    m_resized.reset(OIIO::ImageSpec(roi.width(), roi.height(), image.nchannels(), OIIO::TypeFloat),
+                    OIIO::InitializePixels::No);
     if (!oiio::resize(m_resized, image, m_resized.roi(), nthreads)) {
         error = named(image, oiio::reason(m_resized));
         return false;

@@ -2,6 +2,8 @@
 /// Things that are made once, however many threads ask for them.
 #pragma once
 
+#include <vmlight/parallel.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -15,7 +17,8 @@
 namespace vmlight {
 
 /// Work that the first thread to ask does, while the others wait. Its failure is kept; what it throws is not.
-/// The work must not wait for OIIO's thread pool to run other tasks: one of them may want this very result.
+/// The work must not wait for OIIO's thread pool to run other tasks (get_pixels() of many pixels does, and so does
+/// making an ImageBuf of zeros): a host's task may want this very result. Those of parallel_items() do no harm.
 class Once
 {
 public:
@@ -23,6 +26,7 @@ public:
     {
         if (m_state == State::good)
             return true;
+        const Busy busy;
         const std::lock_guard<std::mutex> lock(m_mutex);
         if (m_state == State::open)
             m_state = work(m_error) ? State::good : State::bad;
@@ -69,6 +73,7 @@ public:
         m_entries.emplace(key, Entry {});
         lock.unlock();
         Pointer value;
+        const Busy busy;
         try {
             value = make();
         } catch (...) {

@@ -14,6 +14,8 @@
 namespace vmlight {
 namespace {
 
+thread_local int t_busy = 0;
+
 // Who is at work. OIIO's own wait runs whatever task is queued while it waits; a task that needs what the waiting
 // thread is about to make would wait for itself. Here the caller works until nothing is left, turns away the helpers
 // that have not begun, and waits for the others, which are at work on the last items.
@@ -48,6 +50,16 @@ private:
 
 } // namespace
 
+Busy::Busy()
+{
+    ++t_busy;
+}
+
+Busy::~Busy()
+{
+    --t_busy;
+}
+
 int worker_count(int nthreads)
 {
     return nthreads > 0 ? nthreads : std::max(1, OIIO::get_int_attribute("threads"));
@@ -69,6 +81,7 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
             stopped = true;
     };
     const auto run = [&](int worker) {
+        const Busy busy;
         for (int64_t item; !stopped && (item = next++) < items;) {
             try {
                 work(item, worker);
@@ -95,7 +108,7 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
     const auto crew = std::make_shared<Crew>();
     for (int worker = 1; worker < workers; ++worker)
         OIIO::default_thread_pool()->push([crew, worker, &run](int) {
-            if (crew->enter()) {
+            if (t_busy == 0 && crew->enter()) {
                 run(worker);
                 crew->leave();
             }

@@ -23,6 +23,18 @@ namespace vmlight {
 VMLIGHT_API bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t item, int worker)>& work,
                                 const Progress& progress = {});
 
+/// While one of these lives, its thread takes up none of the items that other calls of parallel_items() hand out. OIIO
+/// waits for its own loops by running whatever task is queued: a thread that holds a lock could take up one that wants
+/// the same lock. A thread that does an item is busy without being told.
+class VMLIGHT_API Busy
+{
+public:
+    Busy();
+    ~Busy();
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+};
+
 /// How many workers parallel_items() uses for this `nthreads`.
 VMLIGHT_API int worker_count(int nthreads);
 
