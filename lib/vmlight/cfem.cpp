@@ -6,6 +6,8 @@
 #include <vmlight/cfem_sh.h>
 #include <vmlight/channels.h>
 
+#include <OpenImageIO/filesystem.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,6 +38,11 @@ OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& para
         if (const OIIO::ParamValue* value = env.find_attribute(name))
             spec.extra_attribs.add_or_replace(*value);
     return spec;
+}
+
+void record_environment(OIIO::ImageSpec& cfem, const std::string& image)
+{
+    cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(image.substr(0, image.find('?'))));
 }
 
 bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, int nthreads,

@@ -42,6 +42,7 @@ public:
         if (!describe_scene_linear(spec, m_recipe.environment, m_color, error))
             return false;
         m_spec = describe_cfem(spec, m_recipe.cfem_params);
+        record_environment(m_spec, m_recipe.environment);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
         return true;

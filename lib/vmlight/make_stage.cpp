@@ -149,6 +149,7 @@ bool filter_environment(OIIO::ImageBuf& dst, const Recipe& recipe, const MakeOpt
         error = format("\"{}\": {}", name, dst.geterror());
         return false;
     }
+    record_environment(dst.specmod(), name);
     tell(options.say, "colour: " + note);
     tell(options.say,
          format("filter: {}x{} to {}x{} in {:.3f} s", width, height, dst.spec().width, dst.spec().height, timer()));
