@@ -6,6 +6,8 @@
 #include <vmlight/cfem_sh.h>
 #include <vmlight/channels.h>
 
+#include <OpenImageIO/filesystem.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,6 +40,11 @@ OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& para
     return spec;
 }
 
+void record_environment(OIIO::ImageSpec& cfem, const std::string& image)
+{
+    cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(image.substr(0, image.find('?'))));
+}
+
 bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, int nthreads,
                const Progress& progress)
 {
@@ -67,7 +74,7 @@ bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams&
     OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
     if (const int64_t mended = rows.bad_values())
         spec.attribute("vmlight:sanitized", int(std::min<int64_t>(mended, std::numeric_limits<int>::max())));
-    dst.reset(spec);
+    dst.reset(spec, OIIO::InitializePixels::No);
     return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
 }
 

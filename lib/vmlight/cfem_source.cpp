@@ -13,6 +13,7 @@
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
+#include <algorithm>
 #include <array>
 
 namespace vmlight {
@@ -43,6 +44,7 @@ public:
             return false;
         m_spec = describe_cfem(spec, m_recipe.cfem_params);
         tag_udim(m_spec, m_recipe.udim);
+        record_environment(m_spec, m_recipe.environment);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
         return true;
@@ -52,9 +54,12 @@ public:
     {
         if (!m_make.run([&](std::string& reason) { return make(reason); }, error))
             return false;
-        roi.chbegin = 0;
-        roi.chend = 3;
-        return m_cfem.get_pixels(roi, OIIO::TypeFloat, dst);
+        // By hand: get_pixels() waits for OIIO's pool, and the caller may hold a lock.
+        const auto* pixels = static_cast<const float*>(m_cfem.localpixels());
+        const size_t row = 3 * size_t(roi.width());
+        for (int y = roi.ybegin; y < roi.yend; ++y, dst += row)
+            std::copy_n(pixels + 3 * (size_t(y) * m_spec.width + size_t(roi.xbegin)), row, dst);
+        return true;
     }
 
     bool failed() const override { return m_make.failed(); }

@@ -28,6 +28,14 @@ std::string folder_of(const std::string& path)
     return folder.empty() ? "." : folder;
 }
 
+// A name beside `path` that no file has.
+std::string temporary_path(const std::string& path)
+{
+    // Cut, since the file system may take no longer names than this. Every % becomes a random digit: not the folder's.
+    const std::string name = OIIO::Filesystem::filename(path).substr(0, 200);
+    return folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
+}
+
 // A file that keeps its failure to itself: OpenEXR's writing threads, told of a full disk, wait for one another for
 // ever.
 class OutputFile : public OIIO::Filesystem::IOFile
@@ -110,17 +118,25 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
     }
     dst.reset(path);
     if (!dst.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-        error = format("\"{}\": {}", path, oiio::reason(dst));
+        error = oiio::named_reason(path, oiio::reason(dst));
         dst.clear();
         return false;
     }
     return true;
 }
 
+std::string output_name_fault(const std::string& path)
+{
+    return OIIO::Strutil::iends_with(path, ".exr")
+        ? ""
+        : format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+}
+
 std::string output_fault(const std::string& path)
 {
-    if (!OIIO::Strutil::iends_with(path, ".exr"))
-        return format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+    const std::string name_fault = output_name_fault(path);
+    if (!name_fault.empty())
+        return name_fault;
     if (OIIO::Filesystem::is_directory(path))
         return format("\"{}\": is a folder", path);
     if (OIIO::Filesystem::exists(path) && !OIIO::Filesystem::is_regular(path))
@@ -128,8 +144,13 @@ std::string output_fault(const std::string& path)
     const std::string folder = folder_of(path);
     if (!OIIO::Filesystem::is_directory(folder))
         return format("\"{}\": no folder \"{}\"", path, folder);
-    if (::access(folder.c_str(), W_OK) != 0)
-        return format("\"{}\": the folder \"{}\" cannot be written", path, folder);
+    // Rights alone do not tell: some folders (/proc) take no files from anyone.
+    const std::string trial = temporary_path(path);
+    const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
+    if (file < 0)
+        return format("\"{}\": the folder \"{}\" cannot be written: {}", path, folder, std::strerror(errno));
+    ::close(file);
+    ::unlink(trial.c_str());
     return "";
 }
 
@@ -143,9 +164,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!error.empty())
         return false;
 
-    const std::string name = OIIO::Filesystem::filename(path);
-    // Every % becomes a random digit: the folder's must stay.
-    const std::string temporary = folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
+    const std::string temporary = temporary_path(path);
     OIIO::ImageSpec spec = image.spec();
     spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
@@ -153,7 +172,8 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     spec.attribute("DateTime", "");
 
     const auto failed = [&](const std::string& reason) {
-        error = format("\"{}\": {}", path, reason);
+        // The temporary file's name would tell the user nothing.
+        error = oiio::named_reason(path, OIIO::Strutil::replace(reason, temporary, path, true));
         OIIO::Filesystem::remove(temporary);
         return false;
     };
@@ -178,9 +198,8 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!file.sound())
         return failed(file.reason());
     file.close();
-    std::string reason;
-    if (!OIIO::Filesystem::rename(temporary, path, reason))
-        return failed(reason);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0)
+        return failed(std::strerror(errno));
     flush_folder(folder_of(path));
     return true;
 }

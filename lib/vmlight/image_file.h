@@ -14,9 +14,12 @@ namespace vmlight {
 /// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`.
 VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error);
 
-/// Why `path` cannot be the name of an output, or "": it must end in .exr (other formats lose channel names, range or
-/// the mark that says data from colour), lie in a folder that exists and can be written, and not be a folder, a device
-/// or a pipe.
+/// Why `path` cannot be the name of an output, wherever it is, or "": it must end in .exr (other formats lose channel
+/// names, range or the mark that says data from colour).
+VMLIGHT_API std::string output_name_fault(const std::string& path);
+
+/// Why no output can be written to `path` as things are, or "": besides its name, it must lie in a folder that exists
+/// and can be written, and not be a folder, a device or a pipe.
 VMLIGHT_API std::string output_fault(const std::string& path);
 
 /// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a temporary file beside `path`, flushed
