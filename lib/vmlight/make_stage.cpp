@@ -3,6 +3,7 @@
 
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
+#include <vmlight/fail.h>
 #include <vmlight/image_file.h>
 #include <vmlight/recipe_chain.h>
 #include <vmlight/words.h>
@@ -30,19 +31,12 @@ Progress step(const MakeOptions& options, const char* name, int64_t width, int64
     return options.progress ? options.progress(name, width * height) : Progress {};
 }
 
-bool failed(OIIO::ImageBuf& dst, const std::string& reason)
-{
-    dst.reset();
-    dst.errorfmt("{}", reason);
-    return false;
-}
-
 // The recipe that `options.chain` ends with.
 template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const MakeOptions& options)
 {
     Recipe recipe;
     std::string error;
-    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : failed(dst, error);
+    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : fail(dst, error);
 }
 
 // An image, or what its recipe makes.
@@ -187,14 +181,14 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptio
 {
     std::string error = recipe_fault(recipe, options.chain);
     if (!error.empty())
-        return failed(dst, error);
+        return fail(dst, error);
     Mesh mesh;
     std::vector<Mesh> occluders(recipe.occluder.size());
     if (!read_mesh(mesh, recipe.mesh, recipe.mesh_params, error))
-        return failed(dst, placed(recipe, "mesh", options.chain, error));
+        return fail(dst, placed(recipe, "mesh", options.chain, error));
     for (size_t i = 0; i < occluders.size(); ++i)
         if (!read_mesh(occluders[i], recipe.occluder[i], recipe.mesh_params, error))
-            return failed(dst, placed(recipe, "occluder", options.chain, error));
+            return fail(dst, placed(recipe, "occluder", options.chain, error));
     VismapReport report;
     const Size size = recipe.vismap_params.size();
     if (!make_vismap(dst, mesh, occluders, recipe.vismap_params, &report, options.threads,
@@ -209,7 +203,7 @@ bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions
 {
     std::string error = recipe_fault(recipe, options.chain);
     if (!error.empty() || !filter_environment(dst, recipe, options, error))
-        return failed(dst, error);
+        return fail(dst, error);
     return true;
 }
 
@@ -218,7 +212,7 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
     LightmapInputs inputs;
     std::string error;
     if (!read_lightmap_inputs(inputs, recipe, options, error))
-        return failed(dst, error);
+        return fail(dst, error);
     const OIIO::Timer timer;
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
                        options.threads,
