@@ -5,6 +5,7 @@
 #include <vmlight/cfem_rows.h>
 #include <vmlight/cfem_sh.h>
 #include <vmlight/channels.h>
+#include <vmlight/fail.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -14,17 +15,6 @@
 #include <vector>
 
 namespace vmlight {
-
-namespace {
-
-bool fail(OIIO::ImageBuf& dst, const std::string& reason)
-{
-    dst.reset();
-    dst.errorfmt("{}", reason);
-    return false;
-}
-
-} // namespace
 
 OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& params)
 {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include <fcntl.h>
@@ -26,6 +27,20 @@ std::string folder_of(const std::string& path)
 {
     const std::string folder = OIIO::Filesystem::parent_path(path);
     return folder.empty() ? "." : folder;
+}
+
+// Where the links lead that `path` may be, whether there is a file or not; "" if in circles.
+std::string link_target(std::string path)
+{
+    constexpr int kMostLinks = 40; // as the system's
+    std::error_code fault;
+    for (int link = 0; link < kMostLinks; ++link) {
+        const auto target = std::filesystem::read_symlink(path, fault);
+        if (fault)
+            return path;
+        path = target.is_absolute() ? target.string() : folder_of(path) + "/" + target.string();
+    }
+    return "";
 }
 
 // A name beside `path` that no file has.
@@ -137,15 +152,18 @@ std::string output_fault(const std::string& path)
     const std::string name_fault = output_name_fault(path);
     if (!name_fault.empty())
         return name_fault;
-    if (OIIO::Filesystem::is_directory(path))
+    const std::string target = link_target(path);
+    if (target.empty())
+        return format("\"{}\": a link that leads in circles", path);
+    if (OIIO::Filesystem::is_directory(target))
         return format("\"{}\": is a folder", path);
-    if (OIIO::Filesystem::exists(path) && !OIIO::Filesystem::is_regular(path))
+    if (OIIO::Filesystem::exists(target) && !OIIO::Filesystem::is_regular(target))
         return format("\"{}\": is a device or a pipe, which a file would replace", path);
-    const std::string folder = folder_of(path);
+    const std::string folder = folder_of(target);
     if (!OIIO::Filesystem::is_directory(folder))
         return format("\"{}\": no folder \"{}\"", path, folder);
     // Rights alone do not tell: some folders (/proc) take no files from anyone.
-    const std::string trial = temporary_path(path);
+    const std::string trial = temporary_path(target);
     const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
     if (file < 0)
         return format("\"{}\": the folder \"{}\" cannot be written: {}", path, folder, std::strerror(errno));
@@ -164,7 +182,7 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!error.empty())
         return false;
 
-    const std::string temporary = temporary_path(path);
+    const std::string target = link_target(path), temporary = temporary_path(target);
     OIIO::ImageSpec spec = image.spec();
     spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
@@ -198,9 +216,9 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std
     if (!file.sound())
         return failed(file.reason());
     file.close();
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
+    if (std::rename(temporary.c_str(), target.c_str()) != 0)
         return failed(std::strerror(errno));
-    flush_folder(folder_of(path));
+    flush_folder(folder_of(target));
     return true;
 }
 

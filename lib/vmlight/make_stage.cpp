@@ -4,6 +4,7 @@
 #include <vmlight/bake_scene.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
+#include <vmlight/fail.h>
 #include <vmlight/image_file.h>
 #include <vmlight/recipe_chain.h>
 #include <vmlight/recipe_udim.h>
@@ -35,19 +36,12 @@ Progress step(const MakeOptions& options, const char* name, int64_t width, int64
     return options.progress ? options.progress(name, width * height) : Progress {};
 }
 
-bool failed(OIIO::ImageBuf& dst, const std::string& reason)
-{
-    dst.reset();
-    dst.errorfmt("{}", reason);
-    return false;
-}
-
 // The recipe that `options.chain` ends with.
 template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const MakeOptions& options)
 {
     Recipe recipe;
     std::string error;
-    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : failed(dst, error);
+    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : fail(dst, error);
 }
 
 // An image, or what its recipe makes.
@@ -259,7 +253,7 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOption
     BakeScenePointer scene;
     double build_seconds = 0;
     if (!error.empty() || !make_scene(scene, recipe, options, build_seconds, error))
-        return failed(dst, error);
+        return fail(dst, error);
     VismapReport report;
     const Size size = recipe.vismap_params.size();
     if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads,
@@ -276,7 +270,7 @@ bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& given, const MakeOptions&
     const CfemRecipe recipe = resolve_udim(given);
     std::string error = recipe_fault(recipe, options.chain);
     if (!error.empty() || !filter_environment(dst, recipe, options, error))
-        return failed(dst, error);
+        return fail(dst, error);
     tag_udim(dst.specmod(), recipe.udim);
     return true;
 }
@@ -286,7 +280,7 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
     LightmapInputs inputs;
     std::string error;
     if (!read_lightmap_inputs(inputs, recipe, options, error))
-        return failed(dst, error);
+        return fail(dst, error);
     const OIIO::Timer timer;
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
                        options.threads,

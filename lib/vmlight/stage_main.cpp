@@ -4,6 +4,7 @@
 #include <vmlight/image_file.h>
 #include <vmlight/interrupt.h>
 #include <vmlight/progress_line.h>
+#include <vmlight/udim.h>
 
 #include <OpenImageIO/argparse.h>
 #include <OpenImageIO/filesystem.h>

@@ -447,7 +447,8 @@ class Light(Case):
         # Little-endian PFM, bottom row first.
         flipped = b"".join(rows[i:i + 96] for i in range(0, len(rows), 96))
         self.file("bad.pfm", b"PF\n8 4\n-1.0\n" + flipped)
-        self.refused(1, "2 NaN or infinite", "makecfem", "bad.pfm", "-o", "x.exr")
+        self.refused(1, "environment has 3 values that are NaN, infinite or negative, the first at pixel (2, 1) channel ",
+                     "makecfem", "bad.pfm", "-o", "x.exr")
         out = self.done("makecfem", "bad.pfm", "-o", "x.exr", "--sanitize")
         self.assertIn("3 bad values of the environment were mended", out)
         self.assertNotIn("nan", self.oiiotool("x.exr", "--printstats").lower().replace("nancount: 0", ""))

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <sys/stat.h>
@@ -163,6 +164,38 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
                   "\"" + folder / "dir.exr/a.exr" + "\": the folder \"" + folder / "dir.exr"
                       + "\" cannot be written: Permission denied");
     }
+}
+
+TEST(ImageFile, ALinkStaysAndWhatItLeadsToIsWritten)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    ASSERT_EQ(::mkdir((folder / "disk").c_str(), 0755), 0);
+    ASSERT_TRUE(write(vismap_like(4, 4), folder / "disk/old.exr", error)) << error;
+    // Relative and absolute, in one step and in two; to a file and to none yet.
+    ASSERT_EQ(::symlink("disk/old.exr", (folder / "old.exr").c_str()), 0);
+    ASSERT_EQ(::symlink("old.exr", (folder / "twice.exr").c_str()), 0);
+    ASSERT_EQ(::symlink((folder / "disk/new.exr").c_str(), (folder / "dangling.exr").c_str()), 0);
+    int width = 8;
+    for (const auto& [link, file] : { std::pair("old.exr", "disk/old.exr"),
+                                      { "twice.exr", "disk/old.exr" },
+                                      { "dangling.exr", "disk/new.exr" } }) {
+        EXPECT_TRUE(write(vismap_like(++width, 4), folder / link, error)) << error;
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / link)) << link;
+        EXPECT_FALSE(std::filesystem::is_symlink(folder / file)) << file;
+        EXPECT_EQ(OIIO::ImageInput::open(folder / file)->spec().width, width) << link;
+    }
+    ASSERT_EQ(::symlink("none/a.exr", (folder / "nowhere.exr").c_str()), 0);
+    ASSERT_EQ(::symlink("circle.exr", (folder / "circle.exr").c_str()), 0);
+    ASSERT_EQ(::symlink("disk", (folder / "folder.exr").c_str()), 0);
+    for (const auto& [link, reason] : { std::pair("nowhere.exr", "no folder \"" + folder / "none" + "\""),
+                                        { "circle.exr", "a link that leads in circles" },
+                                        { "folder.exr", "is a folder" } }) {
+        EXPECT_FALSE(write(vismap_like(4, 4), folder / link, error));
+        EXPECT_EQ(error, "\"" + folder / link + "\": " + reason);
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / link)) << link;
+    }
+    EXPECT_EQ(folder.names().size(), 7u); // no debris
 }
 
 TEST(ImageFile, AnyNameTheFileSystemTakesWorks)
