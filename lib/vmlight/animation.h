@@ -13,15 +13,21 @@ namespace vmlight {
 
 struct Animation
 {
+    /// Numbers of the frames; `asked` says that the user gave them.
     std::vector<int> frames { 1 };
-    /// Whether the user gave the frames.
     bool asked = false;
-    /// Degrees about y that the object turns by, after its other turns.
+    /// Degrees about y, after the object's own rotation.
     Ramp rotate_y;
 
     bool turns() const { return rotate_y.first != 0 || rotate_y.last != 0; }
 
-    /// The parameters of the frame at `index` of `frames`. Sets `error` if those of `params` make no rotation.
+    /// Why this cannot be written to files named `output`, or "".
+    VMLIGHT_API std::string fault(const std::string& output) const;
+
+    /// Where the frame at `index` of `frames` goes.
+    VMLIGHT_API std::string path(const std::string& output, size_t index) const;
+
+    /// `params` for the frame at `index`: both turns as one matrix. Their rotation must be sound, or `error` says why.
     VMLIGHT_API LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const;
 };
 

@@ -9,13 +9,13 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
                       std::string& error)
 {
     using OIIO::Strutil::fmt::format;
+    const std::string& path = mesh->path.empty() ? mesh->name : mesh->path;
     if (mesh->triangles.empty()) {
-        error = format("\"{}\": no triangle in it", mesh->name);
+        error = format("\"{}\": no triangle in it", path);
         return false;
     }
     if (mesh->uvs.empty()) {
-        error = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them",
-                       mesh->name);
+        error = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", path);
         return false;
     }
     std::vector<const Mesh*> casters { mesh.get() };

@@ -6,6 +6,9 @@
 #include <vmlight/cfem_rows.h>
 #include <vmlight/cfem_sh.h>
 #include <vmlight/channels.h>
+#include <vmlight/fail.h>
+
+#include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +16,6 @@
 #include <vector>
 
 namespace vmlight {
-
-namespace {
-
-bool fail(OIIO::ImageBuf& dst, const std::string& reason)
-{
-    dst.reset();
-    dst.errorfmt("{}", reason);
-    return false;
-}
-
-} // namespace
 
 OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& params)
 {
@@ -37,6 +29,11 @@ OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& para
         if (const OIIO::ParamValue* value = env.find_attribute(name))
             spec.extra_attribs.add_or_replace(*value);
     return spec;
+}
+
+void record_environment(OIIO::ImageSpec& cfem, const std::string& image)
+{
+    cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(image.substr(0, image.find('?'))));
 }
 
 bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, int nthreads,
@@ -75,7 +72,7 @@ bool set_cfem(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vecto
             return false;
         }
     }
-    dst.reset(spec);
+    dst.reset(spec, OIIO::InitializePixels::No);
     return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
 }
 

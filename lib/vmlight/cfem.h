@@ -61,4 +61,8 @@ VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const
 /// `vmlight:sanitized`, which takes the pixels to know.
 VMLIGHT_API OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& params);
 
+/// Record in a CFEM's metadata what it was made from: `vmlight:environment`, the file name of `image` (which may be a
+/// recipe with ?query) without its folder.
+VMLIGHT_API void record_environment(OIIO::ImageSpec& cfem, const std::string& image);
+
 } // namespace vmlight

@@ -3,6 +3,7 @@
 
 #include <vmlight/channels.h>
 #include <vmlight/oiio.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -62,13 +63,13 @@ bool EnvironmentRows::read(int row, float* rgb)
         while (m_loaded < m_grid.height)
             if (!load(m_loaded))
                 return false;
-        std::string what;
-        if (m_nonfinite > 0)
-            what = format("{} NaN or infinite", m_nonfinite);
-        if (m_negative > 0)
-            what += format("{}{} negative", what.empty() ? "" : " and ", m_negative);
-        m_error = format("environment has {} value{}, the first at pixel ({}, {}); --sanitize mends them", what,
-                         bad_values() == 1 ? "" : "s", m_first_bad_x, m_first_bad_y);
+        const char* wrong = !m_negative.any() ? "NaN or infinite"
+            : !m_not_finite.any()             ? "negative"
+                                              : "NaN, infinite or negative";
+        Faults all = m_not_finite;
+        all.merge(m_negative);
+        m_error = all.text("environment", wrong, m_env.spec().channelnames) + "; --sanitize mends "
+            + plural(all.count(), "it", "them");
         return false;
     }
     std::copy(window(row).begin(), window(row).end(), rgb);
@@ -108,14 +109,9 @@ bool EnvironmentRows::load(int row)
     for (int x = 0; x < m_grid.width; ++x)
         for (int k = 0; k < distinct; ++k) {
             const float value = rgb[size_t(3) * x + k];
-            const bool nonfinite = !std::isfinite(value);
-            if (!nonfinite && value >= 0)
-                continue;
-            if (bad_values() == 0) {
-                m_first_bad_x = m_roi.xbegin + x;
-                m_first_bad_y = roi.ybegin;
-            }
-            ++(nonfinite ? m_nonfinite : m_negative);
+            const bool finite = std::isfinite(value);
+            if (!finite || value < 0)
+                (finite ? m_negative : m_not_finite).add(m_roi.xbegin + x, roi.ybegin, m_roi.chbegin + m_channels[k]);
         }
     return true;
 }

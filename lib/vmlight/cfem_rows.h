@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vmlight/cfem_grid.h>
+#include <vmlight/faults.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -29,7 +30,7 @@ public:
     bool read(int row, float* rgb);
 
     /// Bad values met so far.
-    int64_t bad_values() const { return m_nonfinite + m_negative; }
+    int64_t bad_values() const { return m_not_finite.count() + m_negative.count(); }
     const std::string& error() const { return m_error; }
 
 private:
@@ -47,8 +48,7 @@ private:
     std::array<std::vector<float>, 3> m_window;
     std::array<bool, 3> m_window_bad {};
     int m_loaded = 0; // rows
-    int64_t m_nonfinite = 0, m_negative = 0;
-    int m_first_bad_x = 0, m_first_bad_y = 0;
+    Faults m_not_finite, m_negative;
     std::string m_error;
 };
 

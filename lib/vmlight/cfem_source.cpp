@@ -13,6 +13,7 @@
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
+#include <algorithm>
 #include <array>
 
 namespace vmlight {
@@ -46,6 +47,7 @@ public:
                 = m_specs.emplace_back(m_recipe.stack ? describe_cfem_level(spec, m_recipe.cfem_params, level)
                                                       : describe_cfem(spec, m_recipe.cfem_params));
             tag_udim(own, m_recipe.udim);
+            record_environment(own, m_recipe.environment);
             own.tile_width = own.tile_height = kTileSize;
             own.tile_depth = 1;
         }
@@ -60,9 +62,12 @@ public:
     {
         if (!m_make.run([&](std::string& reason) { return make(reason); }, error))
             return false;
-        roi.chbegin = 0;
-        roi.chend = 3;
-        return m_cfem[size_t(subimage)].get_pixels(roi, OIIO::TypeFloat, dst);
+        // By hand: get_pixels() waits for OIIO's pool, and the caller may hold a lock.
+        const auto* pixels = static_cast<const float*>(m_cfem[size_t(subimage)].localpixels());
+        const size_t row = 3 * size_t(roi.width());
+        for (int y = roi.ybegin; y < roi.yend; ++y, dst += row)
+            std::copy_n(pixels + 3 * (size_t(y) * m_spec.width + size_t(roi.xbegin)), row, dst);
+        return true;
     }
 
     bool failed() const override { return m_make.failed(); }

@@ -127,9 +127,9 @@ bool decide_without_config(Decision& decision, const OIIO::ImageSpec& spec, cons
 
     std::string from = asked;
     if (!asked.empty() && !is_known(asked)) {
-        error
-            = format("colour space \"{}\" needs an OCIO config, and none is set; without one there are {}, {} and data",
-                     asked, kSrgb, kLinearRec709);
+        error = format("colour space \"{}\" needs an OCIO config, and none is set (--colorconfig or $OCIO); without "
+                       "one there are {}, {} and data",
+                       asked, kSrgb, kLinearRec709);
         return false;
     }
     if (from.empty() && !id.empty() && !is_whole_number(settings.stored))

@@ -24,6 +24,7 @@ public:
     }
 
     bool any() const { return m_count > 0; }
+    int64_t count() const { return m_count; }
 
     /// "visibility map has 3 values that are not finite, the first at pixel (4, 2) channel "direction.x"".
     /// @param wrong    what the values are: "not finite"

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <vector>
 
@@ -27,6 +28,28 @@ std::string folder_of(const std::string& path)
 {
     const std::string folder = OIIO::Filesystem::parent_path(path);
     return folder.empty() ? "." : folder;
+}
+
+// Where the links lead that `path` may be, whether there is a file or not; "" if in circles.
+std::string link_target(std::string path)
+{
+    constexpr int kMostLinks = 40; // as the system's
+    std::error_code fault;
+    for (int link = 0; link < kMostLinks; ++link) {
+        const auto target = std::filesystem::read_symlink(path, fault);
+        if (fault)
+            return path;
+        path = target.is_absolute() ? target.string() : folder_of(path) + "/" + target.string();
+    }
+    return "";
+}
+
+// A name beside `path` that no file has.
+std::string temporary_path(const std::string& path)
+{
+    // Cut, since the file system may take no longer names than this. Every % becomes a random digit: not the folder's.
+    const std::string name = OIIO::Filesystem::filename(path).substr(0, 200);
+    return folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
 }
 
 // A file that keeps its failure to itself: OpenEXR's writing threads, told of a full disk, wait for one another for
@@ -111,26 +134,42 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
     }
     dst.reset(path, subimage);
     if (!dst.read(subimage, 0, true, OIIO::TypeDesc::FLOAT)) {
-        error = format("\"{}\": {}", path, oiio::reason(dst));
+        error = oiio::named_reason(path, oiio::reason(dst));
         dst.clear();
         return false;
     }
     return true;
 }
 
+std::string output_name_fault(const std::string& path)
+{
+    return OIIO::Strutil::iends_with(path, ".exr")
+        ? ""
+        : format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+}
+
 std::string output_fault(const std::string& path)
 {
-    if (!OIIO::Strutil::iends_with(path, ".exr"))
-        return format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
-    if (OIIO::Filesystem::is_directory(path))
+    const std::string name_fault = output_name_fault(path);
+    if (!name_fault.empty())
+        return name_fault;
+    const std::string target = link_target(path);
+    if (target.empty())
+        return format("\"{}\": a link that leads in circles", path);
+    if (OIIO::Filesystem::is_directory(target))
         return format("\"{}\": is a folder", path);
-    if (OIIO::Filesystem::exists(path) && !OIIO::Filesystem::is_regular(path))
+    if (OIIO::Filesystem::exists(target) && !OIIO::Filesystem::is_regular(target))
         return format("\"{}\": is a device or a pipe, which a file would replace", path);
-    const std::string folder = folder_of(path);
+    const std::string folder = folder_of(target);
     if (!OIIO::Filesystem::is_directory(folder))
         return format("\"{}\": no folder \"{}\"", path, folder);
-    if (::access(folder.c_str(), W_OK) != 0)
-        return format("\"{}\": the folder \"{}\" cannot be written", path, folder);
+    // Rights alone do not tell: some folders (/proc) take no files from anyone.
+    const std::string trial = temporary_path(target);
+    const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
+    if (file < 0)
+        return format("\"{}\": the folder \"{}\" cannot be written: {}", path, folder, std::strerror(errno));
+    ::close(file);
+    ::unlink(trial.c_str());
     return "";
 }
 
@@ -151,9 +190,7 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     if (!error.empty())
         return false;
 
-    const std::string name = OIIO::Filesystem::filename(path);
-    // Every % becomes a random digit: the folder's must stay.
-    const std::string temporary = folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
+    const std::string target = link_target(path), temporary = temporary_path(target);
     std::vector<OIIO::ImageSpec> specs;
     for (const OIIO::ImageBuf& image : images) {
         OIIO::ImageSpec& spec = specs.emplace_back(image.spec());
@@ -164,7 +201,8 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     }
 
     const auto failed = [&](const std::string& reason) {
-        error = format("\"{}\": {}", path, reason);
+        // The temporary file's name would tell the user nothing.
+        error = oiio::named_reason(path, OIIO::Strutil::replace(reason, temporary, path, true));
         OIIO::Filesystem::remove(temporary);
         return false;
     };
@@ -193,10 +231,9 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     if (!file.sound())
         return failed(file.reason());
     file.close();
-    std::string reason;
-    if (!OIIO::Filesystem::rename(temporary, path, reason))
-        return failed(reason);
-    flush_folder(folder_of(path));
+    if (std::rename(temporary.c_str(), target.c_str()) != 0)
+        return failed(std::strerror(errno));
+    flush_folder(folder_of(target));
     return true;
 }
 

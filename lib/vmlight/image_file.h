@@ -14,15 +14,19 @@ namespace vmlight {
 /// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`.
 VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage = 0);
 
-/// Why `path` cannot be the name of an output, or "": it must end in .exr (other formats lose channel names, range or
-/// the mark that says data from colour), lie in a folder that exists and can be written, and not be a folder, a device
-/// or a pipe.
+/// Why `path` cannot be the name of an output, wherever it is, or "": it must end in .exr (other formats lose channel
+/// names, range or the mark that says data from colour).
+VMLIGHT_API std::string output_name_fault(const std::string& path);
+
+/// Why no output can be written to `path` as things are, or "": besides its name, it must lie in a folder that exists
+/// and can be written, and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
 VMLIGHT_API std::string output_fault(const std::string& path);
 
 /// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a temporary file beside `path`, flushed
-/// to the disk, then renamed. On failure, and when `progress` returns false, `path` is as it was and nothing is left
-/// over. The bytes depend on the pixels and metadata alone: no date, host or command line. False, with the reason in
-/// `error`; a value beyond the range of half is refused, never written as infinity.
+/// to the disk, then renamed. A link stays, and the file that it leads to is replaced or made. On failure, and when
+/// `progress` returns false, `path` is as it was and nothing is left over. The bytes depend on the pixels and metadata
+/// alone: no date, host or command line. False, with the reason in `error`; a value beyond the range of half is
+/// refused, never written as infinity.
 VMLIGHT_API bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format,
                              const Progress& progress, std::string& error);
 /// The same for several images in one file, the first of them what opens by default. Each has its name in

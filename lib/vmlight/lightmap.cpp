@@ -2,6 +2,7 @@
 #include <vmlight/lightmap.h>
 
 #include <vmlight/channels.h>
+#include <vmlight/fail.h>
 #include <vmlight/lightmap_input.h>
 #include <vmlight/lightmap_shader.h>
 #include <vmlight/parallel.h>
@@ -138,11 +139,7 @@ bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> 
                    const ImageBuf* albedo, int nthreads, const Progress& progress)
 {
     std::string error;
-    if (make(dst, vismap, cfem, params, albedo, nthreads, progress, error))
-        return true;
-    dst.clear();
-    dst.errorfmt("{}", error);
-    return false;
+    return make(dst, vismap, cfem, params, albedo, nthreads, progress, error) || fail(dst, error);
 }
 
 } // namespace vmlight

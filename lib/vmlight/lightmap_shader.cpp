@@ -21,6 +21,23 @@ void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
         dst.extra_attribs.push_back(*value);
 }
 
+// How the light was filtered, under the keys of a lightmap's recipe, whoever filtered it: `vmlight:order` of a CFEM is
+// `vmlight:cfem_order` here.
+void copy_filter(ImageSpec& dst, const ImageSpec& cfem)
+{
+    const std::string prefix = "vmlight:";
+    if (cfem.get_string_attribute("vmlight:stage") != kCfemStage)
+        return;
+    for (OIIO::ParamValue value : cfem.extra_attribs) {
+        const std::string name = value.name().string();
+        if (!OIIO::Strutil::starts_with(name, prefix) || name == "vmlight:stage" || name == "vmlight:version")
+            continue;
+        if (name != "vmlight:environment")
+            value = OIIO::ParamValue(prefix + "cfem_" + name.substr(prefix.size()), value.type(), 1, value.data());
+        dst.extra_attribs.push_back(value);
+    }
+}
+
 void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const float* texels, Faults& faults)
 {
     const bool last = order == VismapOrder::visibility_last;
@@ -45,6 +62,7 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
     spec.attribute("vmlight:model", lightmap_model(params, has_stack));
     for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
         copy_attribute(spec, vismap, name);
+    copy_filter(spec, cfem);
     for (const char* name : { "colorInteropID", "chromaticities" })
         copy_attribute(spec, cfem, name);
     return spec;

@@ -5,6 +5,7 @@
 #include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
+#include <vmlight/fail.h>
 #include <vmlight/image_file.h>
 #include <vmlight/lobe_lookup.h>
 #include <vmlight/recipe_chain.h>
@@ -12,6 +13,7 @@
 #include <vmlight/scene_cache.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/vismap_baker.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -31,16 +33,9 @@ void tell(const std::function<void(const std::string&)>& listener, const std::st
         listener(line);
 }
 
-Progress step(const MakeOptions& options, const char* name)
+Progress step(const MakeOptions& options, const char* name, int64_t width, int64_t height)
 {
-    return options.progress ? options.progress(name) : Progress {};
-}
-
-bool failed(OIIO::ImageBuf& dst, const std::string& reason)
-{
-    dst.reset();
-    dst.errorfmt("{}", reason);
-    return false;
+    return options.progress ? options.progress(name, width * height) : Progress {};
 }
 
 // The recipe that `options.chain` ends with.
@@ -48,7 +43,7 @@ template <class Recipe> bool make_named(OIIO::ImageBuf& dst, const MakeOptions& 
 {
     Recipe recipe;
     std::string error;
-    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : failed(dst, error);
+    return read_recipe(recipe, options.chain.back(), error) ? make_image(dst, recipe, options) : fail(dst, error);
 }
 
 // What the name of a cfem's recipe, which `options.chain` ends with, asks for.
@@ -110,6 +105,12 @@ bool read_input(OIIO::ImageBuf& dst, const Recipe& recipe, const char* key, cons
     return false;
 }
 
+// "1 texel"
+std::string counted(int64_t count, const char* one, const char* many)
+{
+    return format("{} {}", count, plural(count, one, many));
+}
+
 double percent(int64_t part, int64_t whole)
 {
     return whole ? 100.0 * double(part) / double(whole) : 0.0;
@@ -122,17 +123,19 @@ void report_outside(const MakeOptions& options, const UvReport& uv, const Vismap
     const int64_t across = uv.outside - uv.elsewhere;
     if (!recipe.udim_given && uv.outside > 0)
         tell(options.warn,
-             format("{} of {} triangles reach out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
-                    uv.triangles, uv.outside > uv.beyond ? "; it is in other UDIM tiles, see udim" : ""));
+             format("{} of {} {} out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
+                    counted(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
+                    uv.outside > uv.beyond ? "; it is in other UDIM tiles, see udim" : ""));
     if (recipe.udim_given && across > 0)
         tell(options.warn,
-             format("{} of {} triangles reach out of tile {} in uv: what lies outside is not in its map", across,
-                    uv.triangles, recipe.vismap_params.udim));
+             format("{} of {} {} out of tile {} in uv: what lies outside is not in its map", across,
+                    counted(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
+                    recipe.vismap_params.udim));
     if (recipe.udim_given && uv.beyond > 0 && !options.again)
         tell(options.warn,
-             format("{} of {} triangles reach out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies "
-                    "there is not baked",
-                    uv.beyond, uv.triangles));
+             format("{} of {} {} out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies there is not "
+                    "baked",
+                    uv.beyond, counted(uv.triangles, "triangle", "triangles"), plural(uv.beyond, "reaches", "reach")));
 }
 
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
@@ -141,25 +144,30 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
     const UvReport& uv = report.uv;
     const std::string tile = recipe.udim_given ? format("tile {}", recipe.vismap_params.udim) : "[0,1]";
     tell(options.say,
-         format("uv: {} triangles cover {:.1f} % of {}x{} texels; {} texels overlap; triangles: {} reach out of "
-                "{}, {} lie elsewhere, {} mirrored, {} without area in uv, {} in space, {} without uv",
-                uv.triangles, percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-                uv.outside - uv.elsewhere, tile, uv.elsewhere, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d,
-                uv.without_uv));
+         format(
+             "uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach out of {}, {} lie elsewhere, {} mirrored, "
+             "{} without area in uv, {} in space, {} without uv",
+             uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
+             percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
+             plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside - uv.elsewhere, tile,
+             uv.elsewhere, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
     tell(options.say,
          format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
                 double(report.rays) * 1e-6, report.bake_seconds,
                 double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,
                 report.margin_seconds));
     if (report.overlapping > 0)
-        tell(options.warn,
-             format("{} texels ({:.2f} % of those covered) belong to more than one triangle: the first triangle of the "
-                    "file has them",
-                    report.overlapping, percent(report.overlapping, report.covered)));
+        tell(
+            options.warn,
+            format("{} ({:.2f} % of those covered) {} to more than one triangle: the first triangle of the file has {}",
+                   counted(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
+                   plural(report.overlapping, "belongs", "belong"), plural(report.overlapping, "it", "them")));
     report_outside(options, uv, recipe);
     if (uv.without_uv > 0 && !options.again)
         tell(options.warn,
-             format("{} of {} triangles have no uv: they cast, and are not baked", uv.without_uv, uv.triangles));
+             format("{} of {} {}", uv.without_uv, counted(uv.triangles, "triangle", "triangles"),
+                    plural(uv.without_uv, "has no uv: it casts, and is not baked",
+                           "have no uv: they cast, and are not baked")));
     if (report.covered == 0)
         tell(options.warn, "no texel centre is covered: the map is empty");
     else if (report.dark > report.covered / 2)
@@ -200,21 +208,25 @@ bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, 
         return false;
     const OIIO::Timer timer;
     dst.resize(1);
-    const bool made = stack
-        ? make_cfem_stack(dst, environment, recipe.cfem_params, error, options.threads, step(options, "filter"))
-        : make_cfem(dst[0], environment, recipe.cfem_params, options.threads, step(options, "filter"));
+    const Size size = recipe.cfem_params.resolution;
+    const Progress progress = step(options, "filter", size.width, size.height);
+    const bool made = stack ? make_cfem_stack(dst, environment, recipe.cfem_params, error, options.threads, progress)
+                            : make_cfem(dst[0], environment, recipe.cfem_params, options.threads, progress);
     if (!made) {
         error = format("\"{}\": {}", name, stack ? error : dst[0].geterror());
         return false;
     }
     ++stage_counts().cfems_made;
-    const OIIO::ImageSpec& spec = dst[0].spec();
+    for (OIIO::ImageBuf& level : dst)
+        record_environment(level.specmod(), name);
     tell(options.say, "colour: " + note);
     tell(options.say,
          format("filter: {}x{} to {}{}x{} in {:.3f} s", width, height, stack ? format("{} of ", dst.size()) : "",
-                spec.width, spec.height, timer()));
-    if (const int mended = spec.get_int_attribute("vmlight:sanitized"))
-        tell(options.warn, format("{} bad values of the environment were mended", mended));
+                size.width, size.height, timer()));
+    if (const int mended = dst[0].spec().get_int_attribute("vmlight:sanitized"))
+        tell(options.warn,
+             format("{} of the environment {} mended", counted(mended, "bad value", "bad values"),
+                    plural(mended, "was", "were")));
     return true;
 }
 
@@ -285,9 +297,11 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOption
     BakeScenePointer scene;
     double build_seconds = 0;
     if (!error.empty() || !make_scene(scene, recipe, options, build_seconds, error))
-        return failed(dst, error);
+        return fail(dst, error);
     VismapReport report;
-    if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads, step(options, "bake")))
+    const Size size = recipe.vismap_params.size();
+    if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads,
+                     step(options, "bake", size.width, size.height)))
         return false;
     report.build_seconds += build_seconds;
     append_params(dst.specmod(), recipe.mesh_params);
@@ -312,7 +326,7 @@ bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions
     std::vector<OIIO::ImageBuf> images;
     std::string error;
     if (!make_images(images, recipe, options, error))
-        return failed(dst, error);
+        return fail(dst, error);
     dst = std::move(images[0]);
     return true;
 }
@@ -322,10 +336,11 @@ bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOpt
     LightmapInputs inputs;
     std::string error;
     if (!read_lightmap_inputs(inputs, recipe, options, error))
-        return failed(dst, error);
+        return fail(dst, error);
     const OIIO::Timer timer;
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, recipe.lightmap_params, inputs.albedo_or_none(),
-                       options.threads, step(options, "light")))
+                       options.threads,
+                       step(options, "light", inputs.vismap.spec().width, inputs.vismap.spec().height)))
         return false;
     tag_udim(dst.specmod(), recipe.udim);
     tell(options.say, format("light: 1 map of {}x{} in {:.3f} s", dst.spec().width, dst.spec().height, timer()));

@@ -24,8 +24,8 @@ struct MakeOptions
     std::vector<std::string> chain;
     /// 0 means OIIO's default.
     int threads = 0;
-    /// A progress for one step of the work: "bake", "filter", "light".
-    std::function<Progress(const std::string& step)> progress;
+    /// A progress for one step of the work ("bake", "filter", "light"), which makes an image of so many texels.
+    std::function<Progress(const std::string& step, int64_t texels)> progress;
     /// One line on what was done, and one on what may surprise.
     std::function<void(const std::string&)> say, warn;
     /// nullptr, or what keeps the mesh and the ray tracer's scene of the last vismap for the next call to share.

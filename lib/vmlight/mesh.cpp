@@ -172,6 +172,7 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
 {
     dst = Mesh();
     dst.name = OIIO::Filesystem::filename(path);
+    dst.path = path;
     if (!OIIO::Filesystem::is_regular(path)) {
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;

@@ -22,6 +22,8 @@ struct Mesh
 {
     /// File name without its folder.
     std::string name;
+    /// The file as it was asked for, or "": for messages.
+    std::string path;
     /// Double, because meshes far from the origin lose their shape in float; assimp itself delivers float.
     std::vector<Imath::V3d> positions;
     std::vector<Imath::V3f> normals;

@@ -22,6 +22,20 @@ template <class Object> std::string reason(Object& object)
     return OIIO::Strutil::join(lines, "; ");
 }
 
+/// `reason`, which OIIO gives for `path`, led by the path in quotes: once, though OIIO may name it too.
+inline std::string named_reason(const std::string& path, std::string reason)
+{
+    using namespace OIIO::Strutil;
+    const std::string quoted = "\"" + path + "\"", prefix = "Invalid image file " + quoted + ": ";
+    if (starts_with(reason, prefix))
+        reason.erase(0, prefix.size());
+    if (starts_with(reason, quoted + " "))
+        reason.erase(0, quoted.size() + 1);
+    reason = replace(reason, "image file " + quoted, "image file", true);
+    reason = replace(reason, "reader for " + quoted, "reader for it", true);
+    return quoted + ": " + reason;
+}
+
 /// Resize by a triangle filter, one pixel of the smaller image wide.
 inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, OIIO::ROI roi, int nthreads)
 {

@@ -84,6 +84,7 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
             stopped = true;
     };
     const auto run = [&](int worker) {
+        const InlineLoops inline_loops; // an item may hold a lock that another item wants
         for (int64_t item; !stopped && (item = next++) < items;) {
             try {
                 work(item, worker);

@@ -24,7 +24,8 @@ VMLIGHT_API bool parallel_items(int64_t items, int nthreads, const std::function
                                 const Progress& progress = {});
 
 /// While it lives, loops of OpenImageIO that this thread starts run on this thread alone. OIIO's own wait for its pool
-/// runs whatever task is queued; under a lock, that may be one which wants the lock.
+/// runs whatever task is queued; under a lock, that may be one which wants the lock. Items of parallel_items() have
+/// one.
 class InlineLoops
 {
 public:

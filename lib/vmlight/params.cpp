@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/params.h>
 
+#include <vmlight/words.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -151,7 +153,8 @@ bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allo
         numbers.push_back(value);
     }
     if (!numbers.empty() && numbers.size() != allowed.count) {
-        error = format("\"{}\" has {} numbers, {} are needed", text, numbers.size(), allowed.count);
+        error = format("\"{}\" has {} {}, {} are needed", text, numbers.size(),
+                       plural(int64_t(numbers.size()), "number", "numbers"), allowed.count);
         return false;
     }
     dst = numbers;

@@ -32,6 +32,16 @@ std::string missing(const std::string& what, const RecipeChain& chain)
     return (chain.empty() ? "" : format("\"{}\": ", chain.back())) + what + " is missing";
 }
 
+// `reason` begins with its key and ": ", or is about more than one key.
+std::string placed_parameter(const LightmapRecipe& recipe, const RecipeChain& chain, const std::string& reason)
+{
+    const size_t colon = reason.find(": ");
+    if (chain.empty())
+        return reason;
+    return colon == std::string::npos ? format("\"{}\": {}", chain.back(), reason)
+                                      : placed(recipe, reason.substr(0, colon), chain, reason.substr(colon + 2));
+}
+
 } // namespace
 
 bool link_recipe(RecipeChain& chain, const std::string& name, std::string& error)
@@ -80,9 +90,11 @@ std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
         return missing("vismap", chain);
     if (recipe.cfem.empty() && recipe.environment.empty())
         return missing("environment", chain) + ", or cfem";
-    return recipe.cfem.empty() || recipe.environment.empty()
-        ? ""
-        : placed(recipe, "cfem", chain, "environment is given too: one of them must be empty");
+    if (!recipe.cfem.empty() && !recipe.environment.empty())
+        return placed(recipe, "cfem", chain, "environment is given too: one of them must be empty");
+    Rotation rotation;
+    std::string error;
+    return lightmap_rotation(rotation, recipe.lightmap_params, error) ? "" : placed_parameter(recipe, chain, error);
 }
 
 template std::string placed(const VismapRecipe&, const std::string&, const RecipeChain&, const std::string&);

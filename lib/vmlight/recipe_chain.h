@@ -23,10 +23,10 @@ template <class Recipe>
 std::string placed(const Recipe& recipe, const std::string& key, const RecipeChain& chain, const std::string& reason);
 
 /// What keeps `recipe` from being made, led by its place, or "": an input that is not given, or two where one is
-/// wanted. Not checked: that the inputs exist, and the parameters.
-std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain);
-std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain);
-std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain);
+/// wanted; rotations that are none or exclude one another. Not checked: that the inputs exist, and single parameters.
+VMLIGHT_API std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain);
+VMLIGHT_API std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain);
+VMLIGHT_API std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain);
 
 /// What an input of a recipe must be. An environment lights a lightmap; a cfem filters a panorama, in which a pipeline
 /// may have left the tags of anything.

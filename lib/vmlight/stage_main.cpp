@@ -2,49 +2,21 @@
 #include <vmlight/stage_main.h>
 
 #include <vmlight/image_file.h>
+#include <vmlight/interrupt.h>
+#include <vmlight/progress_line.h>
+#include <vmlight/udim.h>
 
 #include <OpenImageIO/argparse.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
-#include <OpenImageIO/timer.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
-
-#include <unistd.h>
 
 namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-std::atomic<bool> s_interrupted { false };
-std::atomic<bool> s_leaves_debris { false }; // while an output is being written
-static_assert(std::atomic<bool>::is_always_lock_free);
-char s_farewell[64]; // what to say from within a signal handler, which may format nothing
-
-// Reading a mesh or building its tree does not look at s_interrupted for seconds. While no output is being written
-// there is nothing to tidy up, and no need to wait for them.
-void interrupt(int)
-{
-    if (!s_interrupted.exchange(true) && s_leaves_debris)
-        return; // the second time the user means it
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_farewell, std::strlen(s_farewell));
-    ::_exit(int(Exit::Failed));
-}
-
-// A signal that the parent ignores (nohup, a shell's background) stays ignored.
-void catch_interrupts(const std::string& name)
-{
-    std::snprintf(s_farewell, sizeof(s_farewell), "%s%s ERROR: interrupted\n", ::isatty(STDERR_FILENO) ? "\n" : "",
-                  name.c_str());
-    for (int number : { SIGINT, SIGTERM, SIGHUP })
-        if (std::signal(number, interrupt) == SIG_IGN)
-            std::signal(number, SIG_IGN);
-}
 
 std::string flag_of(const std::string& name)
 {
@@ -87,6 +59,7 @@ struct StageMain::State
 
     void message(const char* kind, const std::string& text) const
     {
+        end_progress_line();
         std::fprintf(stderr, "%s %s: %s\n", name.c_str(), kind, text.c_str());
     }
     std::vector<std::string> flags() const
@@ -191,9 +164,11 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
         error = format("\"{}\": one recipe makes all tiles: <UDIM> goes into the paths within it", operands[0]);
         return Exit::Usage;
     }
+    std::string fault_of_file; // the work tells it, with its line
     if (given_recipe()) {
         if (!door.read(operands[0], error))
             return Exit::Failed;
+        fault_of_file = door.fault();
     } else if (door.fill) {
         door.fill(operands);
     }
@@ -202,8 +177,13 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
             return Exit::Usage;
     if (prints_recipe && door.unsaid)
         error = door.unsaid();
-    if (!prints_recipe && output.empty())
-        error = "-o OUTPUT.exr is missing";
+    if (!prints_recipe)
+        error = output.empty() ? "-o OUTPUT.exr is missing" : output_name_fault(output);
+    if (error.empty() && door.fault() != fault_of_file)
+        error = door.fault();
+    for (const auto& [option, text] : given)
+        if (const std::string reason = door.unused(option->name); error.empty() && !reason.empty())
+            error = format("{}{}: {}", flag_of(option->name), option->metavar.empty() ? "" : " " + text, reason);
     for (const auto& check : checks)
         if (error.empty() && !prints_recipe)
             error = check();
@@ -283,9 +263,11 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         } else if (exit == Exit::Done && !helped) {
             if (state.common.threads > 0)
                 OIIO::attribute("threads", state.common.threads);
-            catch_interrupts(state.name);
+            catch_interrupts(state.name, int(Exit::Failed));
             exit = Exit::Failed;
-            exit = work(error) ? Exit::Done : Exit::Failed;
+            if (!has_udim(state.output)) // else each tile's file is looked at
+                error = output_fault(state.output);
+            exit = error.empty() && work(error) ? Exit::Done : Exit::Failed;
         }
     } catch (const std::bad_alloc&) {
         error = "out of memory";
@@ -308,31 +290,17 @@ MakeOptions StageMain::make_options()
     if (m_state->given_recipe())
         options.chain.push_back(m_state->operands[0]);
     options.threads = m_state->common.threads;
-    options.progress = [this](const std::string& step) { return progress(step); };
+    options.progress = [this](const std::string& step, int64_t texels) { return progress(step, texels); };
     options.say = [this](const std::string& line) { say(line); };
     options.warn = [this](const std::string& line) { warn(line); };
     return options;
 }
 
-Progress StageMain::progress(const std::string& step)
+Progress StageMain::progress(const std::string& step, int64_t texels)
 {
     if (m_state->common.quiet)
-        return [](double) { return !s_interrupted; };
-    const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    auto timer = std::make_shared<OIIO::Timer>();
-    auto last = std::make_shared<double>(-1); // seconds on a terminal, tenths elsewhere
-    return [=](double done) {
-        const double seconds = (*timer)();
-        if (terminal && (seconds - *last > 0.1 || done >= 1)) {
-            *last = seconds;
-            std::fprintf(stderr, "\r%s %3.0f %%  %.0f s, %.0f s left   %s", step.c_str(), 100 * done, seconds,
-                         done > 0 ? seconds / done - seconds : 0.0, done >= 1 ? "\n" : "");
-        } else if (!terminal && int(10 * done) > *last && seconds > 1) {
-            *last = int(10 * done);
-            std::fprintf(stderr, "%s %3.0f %%  %.0f s\n", step.c_str(), 100 * done, seconds);
-        }
-        return !s_interrupted;
-    };
+        return [](double) { return !interrupted(); };
+    return progress_on_stderr(step, texels, [] { return !interrupted(); });
 }
 
 void StageMain::say(const std::string& line) const
@@ -358,11 +326,9 @@ bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std:
 
 bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error)
 {
-    s_leaves_debris = true;
-    const bool written = write_images(
-        images, path, m_state->common.format, [](double) { return !s_interrupted; }, error);
-    s_leaves_debris = false;
-    return written;
+    const WhileWriting writing;
+    return write_images(
+        images, path, m_state->common.format, [](double) { return !interrupted(); }, error);
 }
 
 } // namespace vmlight

@@ -8,6 +8,8 @@
 #include <vmlight/params.h>
 #include <vmlight/progress.h>
 #include <vmlight/recipe.h>
+#include <vmlight/recipe_chain.h>
+#include <vmlight/recipe_check.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -67,7 +69,8 @@ public:
     }
     /// Take a recipe in place of the operands, and print one (--print-recipe). Flags for what of `recipe` has none yet.
     ///
-    /// @param recipe   the stage; must outlive run(). Flags override what its file or the operands say
+    /// @param recipe   the stage; must outlive run(). Flags override what its file or the operands say; one that cannot
+    ///                 change the picture is wrong usage
     /// @param fill     puts the operands, of which none is a recipe of this stage, into `recipe`
     /// @param unsaid   nullptr, or which of the given flags a recipe cannot hold; "" if none
     template <class Recipe>
@@ -78,7 +81,8 @@ public:
         take_recipe(
             { Recipe::kStage, std::move(fill), std::move(unsaid),
               [&recipe](const std::string& name, std::string& error) { return read_recipe(recipe, name, error); },
-              [&recipe] { return recipe_text(recipe); } });
+              [&recipe] { return recipe_fault(recipe, {}); }, [&recipe] { return recipe_text(recipe); },
+              [&recipe](const std::string& name) { return unused_reason(recipe, name); } });
     }
     /// Takes the flag's value ("true" for one without); false and `error` refuse it. A flag may come more than once.
     /// All are taken in their order, when the operands are in their places.
@@ -92,7 +96,8 @@ public:
     /// code is that of wrong usage. Not asked where only a recipe is printed.
     void check(std::function<std::string()> fault);
 
-    /// Parse the command line, then call `work`, which returns false and sets `error` on failure. Catches exceptions.
+    /// Parse the command line, see that the output can be written, then call `work`, which returns false and sets
+    /// `error` on failure. Catches exceptions.
     /// @returns the process's exit code.
     int run(int argc, const char** argv, const std::function<bool(std::string& error)>& work);
 
@@ -100,8 +105,9 @@ public:
     const std::string& output() const;
     /// Threads, progress and messages as the user asked for; and the recipe, if one was given.
     MakeOptions make_options();
-    /// A progress line for one step of the work, on stderr; stops the work when the user interrupts.
-    Progress progress(const std::string& step);
+    /// A progress line for one step of the work, which makes an image of so many texels, on stderr; stops the work when
+    /// the user interrupts.
+    Progress progress(const std::string& step, int64_t texels);
     /// One line on stdout, unless --quiet.
     void say(const std::string& line) const;
     /// One line on stderr: the result is right, but may surprise.
@@ -120,7 +126,8 @@ private:
         std::function<void(const std::vector<std::string>&)> fill;
         std::function<std::string()> unsaid;
         std::function<bool(const std::string& name, std::string& error)> read;
-        std::function<std::string()> text;
+        std::function<std::string()> fault, text;
+        std::function<std::string(const std::string& name)> unused;
     };
     bool has_option(const std::string& name) const;
     void take_recipe(RecipeDoor door);

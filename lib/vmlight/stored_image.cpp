@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stored_image.h>
 
+#include <vmlight/oiio.h>
 #include <vmlight/once_cache.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -79,7 +80,7 @@ public:
     {
         const auto file = OIIO::ImageInput::open(m_path);
         if (!file) {
-            error = format("\"{}\": {}", m_path, OIIO::geterror());
+            error = oiio::named_reason(m_path, OIIO::geterror());
             return false;
         }
         m_spec = file->spec();
@@ -135,7 +136,7 @@ public:
             file->threads(1);
         if (file && file->read_image(subimage, 0, 0, spec_of(subimage).nchannels, OIIO::TypeFloat, dst))
             return true;
-        error = format("\"{}\": {}", m_path, file ? file->geterror() : OIIO::geterror());
+        error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
         return false;
     }
 

@@ -27,7 +27,9 @@ void name_tile(MakeOptions& options, int udim)
     const std::string tile = format("tile {}: ", udim);
     options.say = [tile, say = options.say](const std::string& line) { say(tile + line); };
     options.warn = [tile, warn = options.warn](const std::string& line) { warn(tile + line); };
-    options.progress = [tile, progress = options.progress](const std::string& step) { return progress(tile + step); };
+    options.progress = [tile, progress = options.progress](const std::string& step, int64_t texels) {
+        return progress(tile + step, texels);
+    };
 }
 
 } // namespace
@@ -135,8 +137,7 @@ template <class Recipe> bool UdimRun<Recipe>::each(const Make& make, std::string
     std::shared_ptr<const BakeScene> scene; // lives as long as the run: tiles of one mesh share it
     MakeOptions options = m_stage.make_options();
     options.scene = &scene;
-    error = output_fault(udim_path(m_stage.output(), kFirstUdim)); // before a mesh is read in vain
-    if (!error.empty() || !find_tiles(options, error))
+    if (!find_tiles(options, error))
         return false;
     const bool named = !is_one() || m_recipe.udim_given;
     for (const int udim : m_tiles) {

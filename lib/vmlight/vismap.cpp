@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap.h>
 
+#include <vmlight/fail.h>
 #include <vmlight/margin.h>
 #include <vmlight/vismap_baker.h>
 
@@ -9,13 +10,6 @@
 
 namespace vmlight {
 namespace {
-
-bool fail(OIIO::ImageBuf& dst, const std::string& text)
-{
-    dst.clear();
-    dst.errorfmt("{}", text);
-    return false;
-}
 
 OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapParams& params)
 {

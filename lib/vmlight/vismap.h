@@ -23,6 +23,7 @@ struct VismapParams
     int width = 0, height = 0;
     /// The part of uv space that is baked: 1001 + u + 10 v for the square with its lower left corner at (u, v).
     int udim = kFirstUdim;
+    Size size() const { return { width ? width : resolution.width, height ? height : resolution.height }; }
     /// Measured on six scenes: at 64 rays the paper's model is within 2.2 % of the shading error it has at 4096 rays, a
     /// model that also uses |B| is within 2 % at 128.
     int samples = 128;

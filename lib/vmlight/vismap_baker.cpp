@@ -15,12 +15,12 @@ namespace {
 
 int width_of(const VismapParams& params)
 {
-    return params.width ? params.width : params.resolution.width;
+    return params.size().width;
 }
 
 int height_of(const VismapParams& params)
 {
-    return params.height ? params.height : params.resolution.height;
+    return params.size().height;
 }
 
 } // namespace

@@ -47,6 +47,8 @@ int main(int argc, const char** argv)
                                                         : tiles.unsaid();
         });
 
+    stage.check([&] { return animation.fault(stage.output()); });
+
     LightmapInputs inputs; // the light stays from tile to tile
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& options, std::string& error) {
         if (!read_lightmap_inputs(inputs, tile, options, error))
@@ -54,14 +56,13 @@ int main(int argc, const char** argv)
         const OIIO::Timer timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
             const LightmapParams frame = animation.at(tile.lightmap_params, i, error);
-            const std::string path = animation.asked ? frame_path(output, animation.frames[i]) : output;
             OIIO::ImageBuf lightmap;
             if (error.empty()
                 && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
-                                  options.progress("light")))
+                                  options.progress("light", int64_t(inputs.vismap.spec().image_pixels()))))
                 error = lightmap.geterror();
             tag_udim(lightmap.specmod(), tile.udim);
-            if (!error.empty() || !stage.write(lightmap, path, error))
+            if (!error.empty() || !stage.write(lightmap, animation.path(output, i), error))
                 return false;
         }
         options.say(format("light: {} of {}x{} in {:.3f} s",
@@ -69,13 +70,5 @@ int main(int argc, const char** argv)
                            inputs.vismap.spec().width, inputs.vismap.spec().height, timer()));
         return true;
     };
-    return stage.run(argc, argv, [&](std::string& error) {
-        if (animation.frames.size() > 1 && stage.output().find('#') == std::string::npos)
-            error = format("\"{}\": {} frames need a name with #### for the number", stage.output(),
-                           animation.frames.size());
-        if (error.empty() && !animation.asked && animation.rotate_y.first != animation.rotate_y.last)
-            error = format("rotate_y: from {} to {} degrees needs --frames", animation.rotate_y.first,
-                           animation.rotate_y.last);
-        return error.empty() && tiles.each(make, error);
-    });
+    return stage.run(argc, argv, [&](std::string& error) { return tiles.each(make, error); });
 }

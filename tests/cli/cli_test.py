@@ -5,6 +5,7 @@ Run as: cli_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLI
 on the path. Each TestCase is one CTest test.
 """
 import os
+import pty
 import resource
 import shutil
 import signal
@@ -156,8 +157,50 @@ class Usage(Case):
         self.refused(2, "is not FIRST:LAST or one number", *lightmap, "-o", "x.#.exr", "--rotate-y", "0:b")
         for endless in "1-2000000000", "1-3x0", "1-3x", "1-3x00,5":
             self.refused(2, "up to 999999", *lightmap, "-o", "x.#.exr", "--frames", endless)
-        self.refused(1, "from 0 to 90 degrees needs --frames", *lightmap, "-o", "x.exr", "--rotate-y", "0:90")
-        self.refused(1, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
+        self.refused(2, "from 0 to 90 degrees needs --frames", *lightmap, "-o", "x.exr", "--rotate-y", "0:90")
+        self.refused(2, "4 frames need a name with ####", *lightmap, "-o", "x.exr", "--frames", "1-4")
+
+    def test_flags_that_do_not_go_together_are_wrong_usage_before_any_work(self):
+        mirror = ["--matrix", "-1,0,0,0,1,0,0,0,1"]
+        for text, flags in (("only one of rotate, matrix and quaternion", ["--rotate", "1,2,3", *mirror]),
+                            ("matrix: a mirror, not a rotation", mirror),
+                            ("matrix: not a rotation", ["--matrix", "1,0,0,0,1,0,0,0,2"]),
+                            ("quaternion: 0,0,0,0 has no direction", ["--quaternion", "0,0,0,0"]),
+                            ("environment is given too", ["--cfem", "sky.exr"]),
+                            ("vismap is missing", ["--vismap", ""]),
+                            ("environment is missing, or cfem", ["--environment", ""])):
+            self.refused(2, "makelightmap ERROR: " + text, "makelightmap", "vm.exr", "sky.exr", "-o", "x.exr", *flags)
+            # Nothing was read: none of these files is there.
+            self.refused(2, text, "makelightmap", "gone.exr", "gone.exr", "-o", "x.exr", *flags)
+        for tool, operands in self.TOOLS.items():
+            self.refused(2, " is missing", tool, *[""] * len(operands), "-o", "x.exr")
+        # The fault of a recipe is none of the command line, unless its flags made it.
+        self.file("mirror.lightmap", 'vismap = "vm.exr"\nenvironment = "sky.exr"\nmatrix = [-1, 0, 0, 0, 1, 0, 0, 0, 1]\n')
+        self.refused(1, '"mirror.lightmap" line 3: matrix: a mirror', "makelightmap", "mirror.lightmap", "-o", "x.exr")
+        self.refused(2, "only one of rotate", "makelightmap", "mirror.lightmap", "-o", "x.exr", "--rotate", "0,90,0")
+        self.done("makelightmap", "mirror.lightmap", "-o", "x.exr", "--rotate", "0,90,0", "--matrix=")
+
+    def test_a_flag_that_cannot_change_the_picture_is_refused(self):
+        self.done("makecfem", "sky.exr", "-o", "cfem.exr", "--order", "2", "--filter", "sh")
+        bake = ["makevismap", "quad.obj", "-o", "x.exr"]
+        lit, filtered = ["makelightmap", "vm.exr", "cfem.exr", "-o", "x.exr"], '"cfem.exr" is filtered already'
+        environment = ["makelightmap", "vm.exr", "sky.exr", "-o", "x.exr"]
+        for text, words in (
+                ("--order 3: only the filter sh uses it", ["makecfem", "sky.exr", "-o", "x.exr", "--order", "3"]),
+                ("--cfem-order 2: only the filter sh uses it", [*environment, "--cfem-order=2"]),
+                ("--albedo-colorspace ACEScg: there is no albedo", [*environment, "--albedo-colorspace", "ACEScg"]),
+                ("--cfem-filter sh: there is no environment to filter: " + filtered, [*lit, "--cfem-filter", "sh"]),
+                ("--cfem-sanitize: there is no environment to filter: " + filtered, [*lit, "--cfem-sanitize"]),
+                ("--colorspace data: there is no environment to convert: " + filtered, [*lit, "--colorspace", "data"]),
+                ("--cfem-resolution 8: there is no environment", [*environment, "--is-cfem", "--cfem-resolution", "8"]),
+                ("--crease-angle 30: flat normals", [*bake, "--normals", "flat", "--crease-angle", "30"]),
+                ("--resolution 8: width and height", [*bake, "--resolution", "8", "--width", "4", "--height", "4"])):
+            self.refused(2, f"{words[0]} ERROR: {text}", *words)
+        # By flags only: a recipe may keep what it does not use just now.
+        self.file("a.lightmap", 'vismap = "vm.exr"\ncfem = "cfem.exr"\ncfem_order = 5\ncolorspace = "data"\n')
+        self.done("makelightmap", "a.lightmap", "-o", "x.exr")
+        self.done(*environment, "--cfem-filter=sh", "--cfem-order=2")
+        self.done(*bake, "--resolution=8x9", "--height=4", "--samples=1")
 
 
 class Outputs(Case):
@@ -167,8 +210,11 @@ class Outputs(Case):
         self.file("old.exr", "the old picture")
 
     def test_a_name_that_cannot_be_written_is_refused_before_the_work(self):
-        self.refused(1, '"x.png": outputs are EXR files', "makevismap", "quad.obj", "-o", "x.png")
+        self.refused(2, '"x.png": outputs are EXR files', "makevismap", "quad.obj", "-o", "x.png")
         self.refused(1, 'no folder "missing"', "makevismap", "quad.obj", "-o", "missing/x.exr")
+        if os.path.isdir("/proc"):  # takes no files, though root may write to it
+            self.refused(1, '"/proc/x.exr": the folder "/proc" cannot be written: ', "makevismap", "gone.obj", "-o",
+                         "/proc/x.exr")
         os.mkdir(self.path("folder.exr"))
         self.refused(1, '"folder.exr": is a folder', "makevismap", "quad.obj", "-o", "folder.exr")
         os.mkdir(self.path("pipes"))
@@ -244,6 +290,29 @@ class Outputs(Case):
         self.assertEqual((process.returncode, rest), (1, "makevismap ERROR: interrupted\n"))
         self.assertEqual(self.contents(), before)
 
+    def test_progress_tells_share_rate_and_time_left(self):
+        words = [os.path.join(BIN, "makevismap"), SPOT, "-o", "x.exr", "--resolution", "256", "--samples", "2048",
+                 "--threads", "1"]
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        shown = b""
+        try:
+            while piece := os.read(ours, 4096):
+                shown += piece
+        except OSError:  # the other side is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(timeout=60), 0, shown)
+        line = rb" %  [\d.]+ [kMG]? ?texels/s  \d\d:\d\d"
+        self.assertRegex(shown, rb"\rbake +\d+" + line + b" left *\r")
+        self.assertRegex(shown, rb"\rbake 100" + line + b" *\r\n")
+        # In a file: a line for each tenth, and no carriage return.
+        lines = self.run_tool(*words).stderr
+        self.assertRegex(lines, r"(?m)^bake +\d+ %  [\d.]+ k texels/s  \d\d:\d\d left$")
+        self.assertLessEqual(lines.count("bake"), 11)
+        self.assertNotIn("\r", lines)
+
 
 class Meshes(Case):
     def test_what_is_not_a_mesh_is_refused_in_words(self):
@@ -264,6 +333,9 @@ class Meshes(Case):
     def test_a_mesh_without_uvs_says_so(self):
         self.file("bare.obj", QUAD_WITHOUT_UV)
         self.refused(1, '"bare.obj": no texture coordinates', "makevismap", "bare.obj", "-o", "x.exr")
+        os.mkdir(self.path("meshes"))
+        self.file("meshes/bare.obj", QUAD_WITHOUT_UV)
+        self.refused(1, '"meshes/bare.obj": no texture coordinates', "makevismap", "meshes/bare.obj", "-o", "x.exr")
         self.file("quad.obj", QUAD)
         self.refused(1, "no texture coordinates", "makevismap", "quad.obj", "-o", "x.exr", "--uv-set", "1")
 
@@ -278,7 +350,16 @@ class Meshes(Case):
         self.assertRegex(out, r"WARNING: 36 texels \(56.25 % of those covered\) belong to more than one triangle")
         self.file("outside.obj", QUAD.replace("vt 1 1", "vt 2 2"))
         out = self.done("makevismap", "outside.obj", "-o", "x.exr", "--resolution", "8", "--samples", "4")
-        self.assertIn("reach out of [0,1]", out)
+        self.assertIn("WARNING: 2 of 2 triangles reach out of [0,1]", out)
+        # A map of one texel, and one triangle of two.
+        self.file("one.obj", QUAD.replace("f 1/1/1 2/2/1 3/3/1 4/4/1", "vt 2 2\n" + 2 * "f 1/1/1 2/2/1 3/3/1\n" +
+                                          "f 1/1/1 2/2/1 3/5/1"))
+        out = self.done("makevismap", "one.obj", "-o", "x.exr", "--resolution", "1", "--samples", "4")
+        self.assertIn("uv: 3 triangles cover", out)
+        self.assertIn("; 1 texel overlaps;", out)
+        self.assertIn("WARNING: 1 texel (100.00 % of those covered) belongs to more than one triangle: the first triangle "
+                      "of the file has it", out)
+        self.assertIn("WARNING: 1 of 3 triangles reaches out of [0,1]", out)
 
     def test_an_occluder_casts(self):
         self.file("quad.obj", QUAD)
@@ -367,6 +448,7 @@ class Light(Case):
         self.done("makelightmap", "vm.exr", "sky_acescg.exr", *config, "-o", "b.exr", "--colorspace", "ACEScg")
         self.assert_same_pixels("a.exr", "b.exr", 1e-4)
         self.refused(1, "Nonsense", "makelightmap", "vm.exr", SKY, *config, "-o", "x.exr", "--colorspace", "Nonsense")
+        self.refused(1, "none is set (--colorconfig or $OCIO)", "makecfem", SKY, "--colorspace", "ACEScg", "-o", "x.exr")
         self.refused(1, "missing.ocio", "makecfem", SKY, "--colorconfig", "missing.ocio", "-o", "x.exr")
 
     def test_albedo_multiplies_in_linear_light(self):
@@ -396,7 +478,6 @@ class Light(Case):
             self.refused(1, f'"{name}": ', "makecfem", name, "-o", "x.exr")
             self.refused(1, f'"{name}": ', "makelightmap", "vm.exr", name, "-o", "x.exr")
             self.refused(1, f'"{name}": ', "makelightmap", name, "cfem.exr", "-o", "x.exr")
-        self.refused(1, "mirror", "makelightmap", "vm.exr", "cfem.exr", "--matrix", "-1,0,0,0,1,0,0,0,1", "-o", "x.exr")
 
     def test_bad_pixels_are_refused_unless_mending_is_asked_for(self):
         rows = b""
@@ -408,7 +489,8 @@ class Light(Case):
         # Little-endian PFM, bottom row first.
         flipped = b"".join(rows[i:i + 96] for i in range(0, len(rows), 96))
         self.file("bad.pfm", b"PF\n8 4\n-1.0\n" + flipped)
-        self.refused(1, "2 NaN or infinite", "makecfem", "bad.pfm", "-o", "x.exr")
+        self.refused(1, "environment has 3 values that are NaN, infinite or negative, the first at pixel (2, 1) channel ",
+                     "makecfem", "bad.pfm", "-o", "x.exr")
         out = self.done("makecfem", "bad.pfm", "-o", "x.exr", "--sanitize")
         self.assertIn("3 bad values of the environment were mended", out)
         self.assertNotIn("nan", self.oiiotool("x.exr", "--printstats").lower().replace("nancount: 0", ""))

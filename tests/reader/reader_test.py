@@ -168,6 +168,33 @@ class Info(Case):
         self.refused("broken.obj", "x.vismap?resolution=64", "-o", "y.exr")
         self.refused("cut.exr", "x.cfem", "-o", "y.exr")
 
+    def test_a_recipe_and_the_executable_say_the_same(self):
+        self.make("makevismap", "hero.vismap", "-o", "vm.exr")
+        self.make("makecfem", "studio.cfem", "-o", "cfem.exr")
+        self.make("makelightmap", "hero.lightmap", "-o", "lit.exr")
+        self.file("env.lightmap", 'vismap = "hero.vismap"\nenvironment = "./studio_small_03.hdr"\ncfem_filter = "sh"\n'
+                  'cfem_order = 4\n')
+        self.make("makelightmap", "env.lightmap", "-o", "env.exr")
+        for recipe, image in (("hero.vismap", "vm.exr"), ("studio.cfem", "cfem.exr"), ("hero.lightmap", "lit.exr"),
+                              ("env.lightmap", "env.exr")):
+            # But for what takes the mesh's vertices to know; and a file keeps no empty texts.
+            told = [sorted(line for line in self.done("oiiotool", "--info", "-v", name).splitlines()
+                           if line.strip().startswith(("vmlight:", "colorInteropID", "chromaticities"))
+                           and "vmlight:meshHash" not in line and not line.endswith(': ""'))
+                    for name in (recipe, image)]
+            self.assertGreater(len(told[0]), 6)
+            self.assertEqual(*told)
+        for line in ('vmlight:environment: "studio_small_03.hdr"', 'vmlight:cfem_filter: "sh"', 'vmlight:cfem_order: "4"',
+                     'vmlight:cfem_resolution: "256x128"', 'vmlight:cfem_sanitize: "false"'):
+            self.assertIn("    " + line, told[1])
+        # The same, however the environment came to be filtered.
+        self.make("makelightmap", "vm.exr", "cfem.exr", "--rotate", "0,30,0", "-o", "apart.exr")
+        self.make("makelightmap", "vm.exr", "studio_small_03.hdr", "--cfem-resolution", "64", "--rotate", "0,30,0", "-o",
+                  "whole.exr")
+        for name in "apart.exr", "whole.exr":
+            with open(self.path(name), "rb") as image, open(self.path("lit.exr"), "rb") as expected:
+                self.assertEqual(image.read(), expected.read(), name)
+
 
 class Faults(Case):
     def test_foreign_files_are_left_to_their_readers(self):

@@ -80,13 +80,18 @@ TEST(Cfem, BadPixelsAreCountedAndRefused)
     map.at(0, 8)[0] = INFINITY;
     map.at(1, 31)[2] = -0.25f;
     EXPECT_EQ(refusal(image(map)),
-              "environment has 2 NaN or infinite and 1 negative values, the first at pixel (31, 7); "
+              "environment has 3 values that are NaN, infinite or negative, the first at pixel (31, 7) channel \"G\"; "
               "--sanitize mends them");
     EXPECT_EQ(refusal(image(map), harmonics(3, 4, 2)), refusal(image(map)));
     Map one(4, 2, 1);
     one.at(3, 1)[0] = -1;
     EXPECT_EQ(refusal(image(one)),
-              "environment has 1 negative value, the first at pixel (3, 1); --sanitize mends them");
+              "environment has 1 value that is negative, at pixel (3, 1) channel \"R\"; --sanitize mends it");
+    one.at(3, 1)[0] = 1;
+    one.at(0, 0)[2] = one.at(0, 1)[0] = NAN;
+    EXPECT_EQ(refusal(image(one)),
+              "environment has 2 values that are NaN or infinite, the first at pixel (0, 0) channel \"B\"; "
+              "--sanitize mends them");
 }
 
 TEST(Cfem, WrongImagesAndParametersAreRefused)

@@ -219,7 +219,8 @@ TEST_F(Color, WithoutAConfigOnlySrgbIsConverted)
     EXPECT_EQ(said("paint.png", { "", "linear" }, OIIO::TypeUInt8), "lin_rec709_scene, unchanged (no OCIO config)");
     EXPECT_EQ(said("map.exr", { "", "raw" }), "data, used as lin_rec709_scene unchanged (no OCIO config)");
     EXPECT_EQ(said("map.exr", { "", "ACEScg" }),
-              "ERROR colour space \"ACEScg\" needs an OCIO config, and none is set; without one there are "
+              "ERROR colour space \"ACEScg\" needs an OCIO config, and none is set (--colorconfig or $OCIO); without "
+              "one there are "
               "srgb_rec709_scene, lin_rec709_scene and data");
 
     ImageBuf image = flat({ 0.8f, 0.2f, 0.02f, 0.5f }, OIIO::TypeUInt16);

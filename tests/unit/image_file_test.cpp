@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <sys/stat.h>
@@ -186,23 +187,59 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
     ASSERT_EQ(::mkdir((folder / "dir.exr").c_str(), 0755), 0);
     EXPECT_EQ(refusal(folder / "dir.exr"), "\"" + folder / "dir.exr" + "\": is a folder");
     EXPECT_EQ(output_fault("a.exr"), "");
+    EXPECT_EQ(output_name_fault(folder / "none/a.exr"), ""); // where it would be is another matter
+    EXPECT_EQ(output_name_fault(folder / "a.png"), output_fault(folder / "a.png"));
     EXPECT_EQ(output_fault(folder / "A.EXR"), "");
     if (::geteuid() != 0) { // nothing is forbidden to root
         ASSERT_EQ(::chmod((folder / "dir.exr").c_str(), 0555), 0);
         EXPECT_EQ(refusal(folder / "dir.exr/a.exr"),
-                  "\"" + folder / "dir.exr/a.exr" + "\": the folder \"" + folder / "dir.exr" + "\" cannot be written");
+                  "\"" + folder / "dir.exr/a.exr" + "\": the folder \"" + folder / "dir.exr"
+                      + "\" cannot be written: Permission denied");
     }
+}
+
+TEST(ImageFile, ALinkStaysAndWhatItLeadsToIsWritten)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    ASSERT_EQ(::mkdir((folder / "disk").c_str(), 0755), 0);
+    ASSERT_TRUE(write(vismap_like(4, 4), folder / "disk/old.exr", error)) << error;
+    // Relative and absolute, in one step and in two; to a file and to none yet.
+    ASSERT_EQ(::symlink("disk/old.exr", (folder / "old.exr").c_str()), 0);
+    ASSERT_EQ(::symlink("old.exr", (folder / "twice.exr").c_str()), 0);
+    ASSERT_EQ(::symlink((folder / "disk/new.exr").c_str(), (folder / "dangling.exr").c_str()), 0);
+    int width = 8;
+    for (const auto& [link, file] : { std::pair("old.exr", "disk/old.exr"),
+                                      { "twice.exr", "disk/old.exr" },
+                                      { "dangling.exr", "disk/new.exr" } }) {
+        EXPECT_TRUE(write(vismap_like(++width, 4), folder / link, error)) << error;
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / link)) << link;
+        EXPECT_FALSE(std::filesystem::is_symlink(folder / file)) << file;
+        EXPECT_EQ(OIIO::ImageInput::open(folder / file)->spec().width, width) << link;
+    }
+    ASSERT_EQ(::symlink("none/a.exr", (folder / "nowhere.exr").c_str()), 0);
+    ASSERT_EQ(::symlink("circle.exr", (folder / "circle.exr").c_str()), 0);
+    ASSERT_EQ(::symlink("disk", (folder / "folder.exr").c_str()), 0);
+    for (const auto& [link, reason] : { std::pair("nowhere.exr", "no folder \"" + folder / "none" + "\""),
+                                        { "circle.exr", "a link that leads in circles" },
+                                        { "folder.exr", "is a folder" } }) {
+        EXPECT_FALSE(write(vismap_like(4, 4), folder / link, error));
+        EXPECT_EQ(error, "\"" + folder / link + "\": " + reason);
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / link)) << link;
+    }
+    EXPECT_EQ(folder.names().size(), 7u); // no debris
 }
 
 TEST(ImageFile, AnyNameTheFileSystemTakesWorks)
 {
     const TemporaryFolder folder;
     std::string error;
-    for (const char* name : { "50%.exr", "%%%%%%%%.exr", "a b.exr", "\xc3\xa4.exr", ".exr" }) {
+    const std::string longest = std::string(251, 'x') + ".exr";
+    for (const char* name : { "50%.exr", "%%%%%%%%.exr", "a b.exr", "\xc3\xa4.exr", ".exr", longest.c_str() }) {
         EXPECT_TRUE(write(vismap_like(4, 4), folder / name, error)) << error;
         EXPECT_FALSE(folder.bytes(name).empty()) << name;
     }
-    EXPECT_EQ(folder.names().size(), 5u);
+    EXPECT_EQ(folder.names().size(), 6u);
     ASSERT_EQ(::mkdir((folder / "100%").c_str(), 0755), 0);
     EXPECT_TRUE(write(vismap_like(4, 4), folder / "100%/a.exr", error)) << error;
 }
@@ -222,8 +259,10 @@ TEST(ImageFile, WhatCannotBeReadIsRefusedWithItsPath)
     EXPECT_GT(error.size(), (folder / "noise.exr").size() + 6);
     EXPECT_EQ(error.find('\n'), std::string::npos);
     EXPECT_FALSE(image.initialized());
+    EXPECT_EQ(error.rfind("noise.exr"), error.find("noise.exr")) << "named twice: " << error;
     ASSERT_TRUE(write(vismap_like(300, 300), folder / "cut.exr", error)) << error;
     folder.write("cut.exr", folder.bytes("cut.exr").substr(0, 3000));
     EXPECT_FALSE(read_image(image, folder / "cut.exr", error));
     EXPECT_EQ(error.find("\"" + folder / "cut.exr" + "\": "), 0u) << error;
+    EXPECT_EQ(error.rfind("cut.exr"), error.find("cut.exr")) << "named twice: " << error;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/margin.h>
 
+#include <Imath/ImathVec.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <random>
 
 using namespace vmlight;
+using Imath::V3f;
 
 namespace {
 
@@ -80,6 +82,27 @@ TEST(Margin, OpposedDirectionsDoNotCancelWhereTwoMarginsMeet)
     }
 }
 
+TEST(Margin, WhereTwoMarginsMeetEachTexelLooksAsOneOfThemDoes)
+{
+    // 80 degrees apart: half way between them another light might be.
+    const V3f left(0.6f, 0, 0), right(0.6f * std::cos(1.4f), 0.6f * std::sin(1.4f), 0);
+    for (int gap = 1; gap < 12; ++gap) {
+        Image image(gap + 2, 5);
+        for (int y = 0; y < 5; ++y) {
+            image.cover(0, y, { 1, left.x, left.y, left.z });
+            image.cover(gap + 1, y, { 1, right.x, right.y, right.z });
+        }
+        image.fill(-1);
+        for (int y = 0; y < 5; ++y)
+            for (int x = 0; x < gap + 2; ++x) {
+                const float* texel = image.at(x, y);
+                const V3f direction(texel[1], texel[2], texel[3]);
+                EXPECT_LT(std::min((direction - left).length(), (direction - right).length()), 1e-6f)
+                    << gap << ": " << x << "," << y;
+            }
+    }
+}
+
 TEST(Margin, EveryRingIsOneTexelWide)
 {
     for (const auto& [width, height] : { std::pair(40, 30), { 63, 5 }, { 64, 64 }, { 65, 3 }, { 200, 33 }, { 1, 70 } })
@@ -127,11 +150,11 @@ TEST(Margin, AFilledTexelIsTheMeanOfItsFilledNeighbours)
 {
     Image image(5, 3);
     image.cover(0, 1, { 1, 0, 0, 0.5f });
-    image.cover(2, 1, { 0, 0.25f, 0, 0 });
+    image.cover(2, 1, { 0, 0.25f, 0, 0.375f });
     image.fill(2);
     EXPECT_EQ(image.at(1, 0)[0], 0.5f); // between the two
     EXPECT_EQ(image.at(1, 0)[1], 0.125f);
-    EXPECT_EQ(image.at(1, 0)[3], 0.25f);
+    EXPECT_EQ(image.at(1, 0)[3], 0.4375f);
     EXPECT_EQ(image.at(0, 0)[0], 1); // the right one is two texels away
     EXPECT_EQ(image.at(3, 2)[0], 0);
     EXPECT_EQ(image.at(4, 1)[1], 0.25f); // second ring: of the three of the first

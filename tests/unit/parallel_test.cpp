@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/parallel.h>
 
+#include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/thread.h>
 
 #include <gtest/gtest.h>
@@ -134,4 +135,24 @@ TEST(Parallel, WhoWaitsDoesNotTakeUpOtherTasks)
         for (std::future<void>& task : tasks)
             task.wait();
     }
+}
+
+TEST(Parallel, AThreadAtAnItemTakesUpNoOther)
+{
+    // OIIO waits for its own loops by running what is queued. Here that would be another worker of the same call, which
+    // wants the mutex that the waiting thread holds. With one thread in the pool some workers stay queued.
+    const int threads = OIIO::default_thread_pool()->size();
+    OIIO::default_thread_pool()->resize(1);
+    for (int repetition = 0; repetition < 20; ++repetition) {
+        std::mutex making;
+        std::atomic<int> done { 0 };
+        const auto work = [&](int64_t, int) {
+            const std::lock_guard<std::mutex> lock(making);
+            const OIIO::ImageBuf zeros(OIIO::ImageSpec(512, 512, 1, OIIO::TypeFloat), OIIO::InitializePixels::Yes);
+            ++done;
+        };
+        EXPECT_TRUE(parallel_items(16, 4, work));
+        EXPECT_EQ(done, 16);
+    }
+    OIIO::default_thread_pool()->resize(threads);
 }

@@ -78,6 +78,7 @@ public:
         EXPECT_TRUE(sky.read(0, 0, true, OIIO::TypeFloat)) << sky.geterror();
         EXPECT_TRUE(to_scene_linear(sky, *this / "studio.exr", {}, note, error)) << error;
         EXPECT_TRUE(make_cfem(image, sky, params)) << image.geterror();
+        record_environment(image.specmod(), "elsewhere/studio.exr");
         return image;
     }
 };

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/interrupt.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include <unistd.h>
+
+namespace vmlight {
+namespace {
+
+std::atomic<bool> s_interrupted { false };
+std::atomic<bool> s_leaves_debris { false }; // while an output is being written
+static_assert(std::atomic<bool>::is_always_lock_free);
+char s_farewell[64]; // what to say from within a signal handler, which may format nothing
+int s_exit_code = 1;
+
+// Reading a mesh or building its tree does not look at s_interrupted for seconds. While no output is being written
+// there is nothing to tidy up, and no need to wait for them.
+void interrupt(int)
+{
+    if (!s_interrupted.exchange(true) && s_leaves_debris)
+        return; // the second time the user means it
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_farewell, std::strlen(s_farewell));
+    ::_exit(s_exit_code);
+}
+
+} // namespace
+
+void catch_interrupts(const std::string& name, int exit_code)
+{
+    s_exit_code = exit_code;
+    std::snprintf(s_farewell, sizeof(s_farewell), "%s%s ERROR: interrupted\n", ::isatty(STDERR_FILENO) ? "\n" : "",
+                  name.c_str());
+    // A signal that the parent ignores (nohup, a shell's background) stays ignored.
+    for (int number : { SIGINT, SIGTERM, SIGHUP })
+        if (std::signal(number, interrupt) == SIG_IGN)
+            std::signal(number, SIG_IGN);
+}
+
+bool interrupted()
+{
+    return s_interrupted;
+}
+
+WhileWriting::WhileWriting()
+{
+    s_leaves_debris = true;
+}
+
+WhileWriting::~WhileWriting()
+{
+    s_leaves_debris = false;
+}
+
+} // namespace vmlight

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/recipe_check.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight {
+
+std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
+{
+    if (key == "crease_angle" && recipe.mesh_params.normals == "flat")
+        return "flat normals have no creases";
+    if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
+        return "width and height take its place";
+    return "";
+}
+
+std::string unused_reason(const CfemRecipe& recipe, const std::string& key)
+{
+    return key == "order" && recipe.cfem_params.filter != "sh" ? "only the filter sh uses it" : "";
+}
+
+std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
+{
+    const bool is_filter = OIIO::Strutil::starts_with(key, "cfem_");
+    if ((is_filter || key == "colorspace") && !recipe.cfem.empty())
+        return OIIO::Strutil::fmt::format("there is no environment to {}: \"{}\" is filtered already",
+                                          is_filter ? "filter" : "convert", recipe.cfem);
+    if (key == "cfem_order" && recipe.cfem_params.filter != "sh")
+        return "only the filter sh uses it";
+    if (key == "albedo_colorspace" && recipe.albedo.empty())
+        return "there is no albedo";
+    return "";
+}
+
+} // namespace vmlight
