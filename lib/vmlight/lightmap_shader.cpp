@@ -22,7 +22,7 @@ void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
 }
 
 // How the light was filtered, under the keys of a lightmap's recipe, whoever filtered it: `vmlight:order` of a CFEM is
-// `vmlight:cfem_order` here.
+// `vmlight:cfem_order` here. Which level of a stack is at hand says nothing: the model does.
 void copy_filter(ImageSpec& dst, const ImageSpec& cfem)
 {
     const std::string prefix = "vmlight:";
@@ -30,7 +30,9 @@ void copy_filter(ImageSpec& dst, const ImageSpec& cfem)
         return;
     for (OIIO::ParamValue value : cfem.extra_attribs) {
         const std::string name = value.name().string();
-        if (!OIIO::Strutil::starts_with(name, prefix) || name == "vmlight:stage" || name == "vmlight:version")
+        const auto same = [&](const char* other) { return name == other; };
+        const std::array kOthers { "vmlight:stage", "vmlight:version", "vmlight:stack", "vmlight:lobe" };
+        if (!OIIO::Strutil::starts_with(name, prefix) || std::any_of(kOthers.begin(), kOthers.end(), same))
             continue;
         if (name != "vmlight:environment")
             value = OIIO::ParamValue(prefix + "cfem_" + name.substr(prefix.size()), value.type(), 1, value.data());

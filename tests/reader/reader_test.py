@@ -189,9 +189,11 @@ class Info(Case):
             self.assertIn("    " + line, told[1])
         # The same, however the environment came to be filtered.
         self.make("makelightmap", "vm.exr", "cfem.exr", "--rotate", "0,30,0", "-o", "apart.exr")
-        self.make("makelightmap", "vm.exr", "studio_small_03.hdr", "--cfem-resolution", "64", "--rotate", "0,30,0", "-o",
-                  "whole.exr")
-        for name in "apart.exr", "whole.exr":
+        self.make("makelightmap", "vm.exr", "studio_small_03.hdr", "--cfem-resolution", "64", "--rotate", "0,30,0",
+                  "--model", "paper", "-o", "whole.exr")
+        self.make("makecfem", "studio.cfem", "--stack", "-o", "stack.exr")
+        self.make("makelightmap", "vm.exr", "stack.exr", "--rotate", "0,30,0", "--model", "paper", "-o", "level.exr")
+        for name in "apart.exr", "whole.exr", "level.exr":
             with open(self.path(name), "rb") as image, open(self.path("lit.exr"), "rb") as expected:
                 self.assertEqual(image.read(), expected.read(), name)
 
