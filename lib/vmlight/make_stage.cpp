@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/make_stage.h>
 
+#include <vmlight/bake_report.h>
 #include <vmlight/bake_scene.h>
 #include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
@@ -106,76 +107,6 @@ bool read_input(OIIO::ImageBuf& dst, const Recipe& recipe, const char* key, cons
 }
 
 // "1 texel"
-std::string counted(int64_t count, const char* one, const char* many)
-{
-    return format("{} {}", count, plural(count, one, many));
-}
-
-double percent(int64_t part, int64_t whole)
-{
-    return whole ? 100.0 * double(part) / double(whole) : 0.0;
-}
-
-// What lies in other tiles surprises only who did not ask for one; what straddles a border, and what no tile has,
-// everyone.
-void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
-{
-    const int64_t across = uv.outside - uv.elsewhere;
-    if (!recipe.udim_given && uv.outside > 0)
-        tell(options.warn,
-             format("{} of {} {} out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
-                    counted(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
-                    uv.outside > uv.beyond ? "; it is in other UDIM tiles, see udim" : ""));
-    if (recipe.udim_given && across > 0)
-        tell(options.warn,
-             format("{} of {} {} out of tile {} in uv: what lies outside is not in its map", across,
-                    counted(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
-                    recipe.vismap_params.udim));
-    if (recipe.udim_given && uv.beyond > 0 && !options.again)
-        tell(options.warn,
-             format("{} of {} {} out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies there is not "
-                    "baked",
-                    uv.beyond, counted(uv.triangles, "triangle", "triangles"), plural(uv.beyond, "reaches", "reach")));
-}
-
-void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
-                 const VismapRecipe& recipe)
-{
-    const UvReport& uv = report.uv;
-    const std::string tile = recipe.udim_given ? format("tile {}", recipe.vismap_params.udim) : "[0,1]";
-    tell(options.say,
-         format(
-             "uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach out of {}, {} lie elsewhere, {} mirrored, "
-             "{} without area in uv, {} in space, {} without uv",
-             uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
-             percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-             plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside - uv.elsewhere, tile,
-             uv.elsewhere, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
-    tell(options.say,
-         format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
-                double(report.rays) * 1e-6, report.bake_seconds,
-                double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,
-                report.margin_seconds));
-    if (report.overlapping > 0)
-        tell(
-            options.warn,
-            format("{} ({:.2f} % of those covered) {} to more than one triangle: the first triangle of the file has {}",
-                   counted(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
-                   plural(report.overlapping, "belongs", "belong"), plural(report.overlapping, "it", "them")));
-    report_outside(options, uv, recipe);
-    if (uv.without_uv > 0 && !options.again)
-        tell(options.warn,
-             format("{} of {} {}", uv.without_uv, counted(uv.triangles, "triangle", "triangles"),
-                    plural(uv.without_uv, "has no uv: it casts, and is not baked",
-                           "have no uv: they cast, and are not baked")));
-    if (report.covered == 0)
-        tell(options.warn, "no texel centre is covered: the map is empty");
-    else if (report.dark > report.covered / 2)
-        tell(options.warn,
-             format("{:.0f} % of the covered texels see nothing: do the normals point inwards?",
-                    percent(report.dark, report.covered)));
-}
-
 // Made, or that of another tile, map or reader of the same mesh.
 bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOptions& options, double& build_seconds,
                 std::string& error)

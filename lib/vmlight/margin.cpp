@@ -58,13 +58,14 @@ void average_neighbours(float* pixels, int channels, int filled_channels, const 
     });
     // Where the margins of two islands meet, the mean of their directions is neither's, and would be lit from anywhere.
     // Neighbours that look elsewhere than the most decided one are left out. How far that is was measured on three
-    // meshes under two skies: 45 degrees leave 21 texels lit as nothing around them is, 60 leave 81 and 90 leave 187.
-    // The error of mip levels stays within 5 %; with 30 degrees (4 texels) it grows by up to 25 % on a coarse map.
+    // meshes, two skies, eight rotations: 30 degrees leave 60 texels lit as nothing around them is, 45 leave 234 and a
+    // hairline to be seen, 90 leave 2009. The light of mip level 1 is 6 % farther from the truth than with 90, 11 % on
+    // a coarse map; of higher levels 4 %.
     const float* leader = *std::max_element(filled.begin(), filled.begin() + count,
                                             [](const float* a, const float* b) { return dot(a, a) < dot(b, b); });
     const auto looks_elsewhere = [leader](const float* texel) {
         const double product = dot(texel, leader);
-        return product < 0 || 2 * product * product < dot(texel, texel) * dot(leader, leader);
+        return product < 0 || 4 * product * product < 3 * dot(texel, texel) * dot(leader, leader);
     };
     const auto end = std::remove_if(filled.begin(), filled.begin() + count, looks_elsewhere);
     for (int c = 0; c < filled_channels; ++c) {

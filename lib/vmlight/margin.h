@@ -34,7 +34,7 @@ private:
 
 /// Grow `coverage` by `rings` texels (less than 0: until all is filled), setting the first `filled_channels` (four or
 /// more) of each texel that is gained to the mean of those among its eight neighbours that were filled before its ring
-/// and whose direction (the second to the fourth) lies within 45 degrees of the longest. Values stay within the convex
+/// and whose direction (the second to the fourth) lies within 30 degrees of the longest. Values stay within the convex
 /// hull of the covered ones, so that |B| <= V holds in the margin too. Cost grows with the texels filled. `pixels` has
 /// `channels` floats a texel, rows without padding.
 VMLIGHT_API void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, int filled_channels = 4);

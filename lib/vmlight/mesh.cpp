@@ -138,8 +138,8 @@ const aiScene* read_triangles(Assimp::Importer& importer, const std::string& pat
     return &scene;
 }
 
-// Files, and who wants to be told of them.
-class ToldFiles : public Assimp::DefaultIOSystem
+// Files, and who wants to be told of them. By holding assimp's own, which may not be derived from in assimp 6.
+class ToldFiles : public Assimp::IOSystem
 {
 public:
     explicit ToldFiles(const std::function<void(const std::string& path)>& opens)
@@ -150,11 +150,15 @@ public:
     {
         if (m_opens)
             m_opens(path);
-        return DefaultIOSystem::Open(path, mode);
+        return m_files.Open(path, mode);
     }
+    bool Exists(const char* path) const override { return m_files.Exists(path); }
+    char getOsSeparator() const override { return m_files.getOsSeparator(); }
+    void Close(Assimp::IOStream* file) override { m_files.Close(file); }
 
 private:
     const std::function<void(const std::string& path)>& m_opens;
+    Assimp::DefaultIOSystem m_files;
 };
 
 bool is_z_up(const aiScene& scene, const std::string& up)

@@ -101,7 +101,7 @@ public:
         const auto open_file = [&](std::string& reason) {
             m_file = OIIO::ImageInput::open(m_path);
             if (!m_file)
-                reason = format("\"{}\": {}", m_path, OIIO::geterror());
+                reason = oiio::named_reason(m_path, OIIO::geterror());
             else if (is_unchanged(key(), m_path, reason) && OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec))
                 reason = format("\"{}\": changed since it was opened", m_path);
             return reason.empty();
@@ -121,7 +121,7 @@ public:
                     copy(OIIO::roi_intersection(own, roi), own, block->pixels.data(), roi, dst);
                 }
         } catch (const BadBlock& bad) {
-            error = format("\"{}\": {}", m_path, bad.what());
+            error = oiio::named_reason(m_path, bad.what());
         }
         return error.empty();
     }

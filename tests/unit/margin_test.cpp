@@ -84,8 +84,8 @@ TEST(Margin, OpposedDirectionsDoNotCancelWhereTwoMarginsMeet)
 
 TEST(Margin, WhereTwoMarginsMeetEachTexelLooksAsOneOfThemDoes)
 {
-    // 80 degrees apart: half way between them another light might be.
-    const V3f left(0.6f, 0, 0), right(0.6f * std::cos(1.4f), 0.6f * std::sin(1.4f), 0);
+    // 35 degrees apart: half way between them another light might be.
+    const V3f left(0.6f, 0, 0), right(0.6f * std::cos(0.61f), 0.6f * std::sin(0.61f), 0);
     for (int gap = 1; gap < 12; ++gap) {
         Image image(gap + 2, 5);
         for (int y = 0; y < 5; ++y) {
@@ -150,14 +150,14 @@ TEST(Margin, AFilledTexelIsTheMeanOfItsFilledNeighbours)
 {
     Image image(5, 3);
     image.cover(0, 1, { 1, 0, 0, 0.5f });
-    image.cover(2, 1, { 0, 0.25f, 0, 0.375f });
+    image.cover(2, 1, { 0, 0.125f, 0, 0.375f });
     image.fill(2);
     EXPECT_EQ(image.at(1, 0)[0], 0.5f); // between the two
-    EXPECT_EQ(image.at(1, 0)[1], 0.125f);
+    EXPECT_EQ(image.at(1, 0)[1], 0.0625f);
     EXPECT_EQ(image.at(1, 0)[3], 0.4375f);
     EXPECT_EQ(image.at(0, 0)[0], 1); // the right one is two texels away
     EXPECT_EQ(image.at(3, 2)[0], 0);
-    EXPECT_EQ(image.at(4, 1)[1], 0.25f); // second ring: of the three of the first
+    EXPECT_EQ(image.at(4, 1)[1], 0.125f); // second ring: of the three of the first
 }
 
 TEST(Margin, FilledValuesStayAmongTheCoveredOnes)

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vmlight/make_stage.h>
+#include <vmlight/recipe.h>
+#include <vmlight/vismap.h>
+
+#include <OpenImageIO/imageio.h>
+
+namespace vmlight {
+
+/// Tell a user what was baked, and warn of what may surprise: overlap, triangles out of the tile or without uvs, a map
+/// that is empty or mostly dark.
+void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
+                 const VismapRecipe& recipe);
+
+} // namespace vmlight
