@@ -33,6 +33,7 @@ inline std::string named_reason(const std::string& path, std::string reason)
         reason.erase(0, quoted.size() + 1);
     reason = replace(reason, "image file " + quoted, "image file", true);
     reason = replace(reason, "reader for " + quoted, "reader for it", true);
+    reason = replace(reason, " (" + path + ")", "", true); // OpenEXR 3.4's own words
     return quoted + ": " + reason;
 }
 

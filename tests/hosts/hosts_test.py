@@ -138,6 +138,9 @@ class Maketx(Host):
         self.assertLess(self.largest_difference("mip1.exr", "box.exr"), 1e-6)
 
     def test_a_visibility_map_that_was_converted_is_refused_as_one(self):
+        version = self.run_program("oiiotool", "--version")
+        if not version.startswith("2."):
+            self.skipTest("from version 3 on maketx leaves no trace of what it did but a hash")
         self.assert_guarded("maketx", "--colorconfig", CONFIG, "--colorconvert", "sRGB - Texture", "ACEScg",
                             "floor_vismap.exr", "-o", "converted.exr")
 
