@@ -71,7 +71,7 @@ TEST(StageTexture, SixteenThreadsOfARendererSeeWhatAFileWouldShow)
     EXPECT_EQ(work.meshes_read, 0) << "what was read to be stored is still there";
     EXPECT_EQ(work.cfems_made, 0);
     EXPECT_EQ(work.tiles_baked, 0);
-    OIIO::TextureSystem::destroy(system);
+    OIIO::TextureSystem::destroy(system, true);
 }
 
 TEST(StageTexture, ABrokenRecipeIsAFailedLookupThatNamesIt)
@@ -82,5 +82,5 @@ TEST(StageTexture, ABrokenRecipeIsAFailedLookupThatNamesIt)
     Color color {};
     EXPECT_FALSE(look(system, folder / "broken.lightmap", { 0.5f, 0.5f, 0.01f }, color));
     EXPECT_NE(system->geterror().find("broken.lightmap\" line 1: vismap: "), std::string::npos);
-    OIIO::TextureSystem::destroy(system);
+    OIIO::TextureSystem::destroy(system, true);
 }

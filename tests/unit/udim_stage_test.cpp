@@ -185,7 +185,7 @@ TEST(UdimStage, ATextureSystemFindsTheTilesOfOneRecipeUnderSeveralNames)
                     ASSERT_EQ(rgb[c], expected[size_t(40 * y + x) * 3 + size_t(c)]) << udim << " " << x << " " << y;
             }
     }
-    OIIO::TextureSystem::destroy(textures);
+    OIIO::TextureSystem::destroy(textures, true);
 }
 
 TEST(UdimStage, LinksToOneRecipeAreRecipesOfTheirOwn)
