@@ -4,8 +4,6 @@
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <iterator>
 #include <list>
@@ -14,8 +12,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Those used last stand first. What is dropped ends after the lock does: it may be large.
 class Sources

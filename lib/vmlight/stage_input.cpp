@@ -3,9 +3,6 @@
 
 #include <vmlight/parallel.h>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <exception>
 #include <mutex>
