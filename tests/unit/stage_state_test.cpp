@@ -66,11 +66,13 @@ TEST(StageState, AThreadOfTheHostNeverWaitsForItself)
     ImageBuf albedo(OIIO::ImageSpec(37, 53, 3, OIIO::TypeFloat));
     OIIO::ImageBufAlgo::noise(albedo, "uniform", 0.1f, 0.9f, false, 1);
     ASSERT_TRUE(albedo.write(folder / "albedo.exr"));
-    folder.write("large.cfem", "environment = \"studio.exr\"\nresolution = 1024\n");
+    folder.write("large.cfem", "environment = \"studio.exr\"\nresolution = 512\n");
     folder.write("a.lightmap", "vismap = \"vm.exr\"\ncfem = \"studio.cfem\"\nalbedo = \"albedo.exr\"\n");
     folder.write("b.lightmap", "vismap = \"vm.exr\"\ncfem = \"large.cfem\"\n");
     for (int angle = 0; angle < 30; ++angle)
         for (const char* name : { "a", "b" }) {
+            if (name[0] == 'b' && angle % 3 != 0)
+                continue; // filtering is slow under sanitizers
             set_source_limits(1, 1); // so that each image prepares all it needs
             const auto input
                 = ImageInput::open(folder / (std::string(name) + ".lightmap?rotate=0," + std::to_string(angle) + ",0"));
