@@ -57,8 +57,9 @@ bool find_normal_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
     for (size_t c = 0; c < kNormalChannels.size(); ++c) {
         index[c + 1] = spec.channelindex(kNormalChannels[c]);
         if (index[c + 1] < 0) {
-            error = format("no channel \"{}\" among {}: the model ao needs the normals that makevismap --normal bakes",
-                           kNormalChannels[c], OIIO::Strutil::join(spec.channelnames, ", "));
+            error = format(
+                "no channel \"{}\" among {}: the model ao needs the normals that makevismap --channels normal bakes",
+                kNormalChannels[c], OIIO::Strutil::join(spec.channelnames, ", "));
             return false;
         }
     }

@@ -59,6 +59,16 @@ bool parse_number(double& dst, string_view text, const Range& allowed, bool inte
     return true;
 }
 
+std::vector<std::string> in_order(std::vector<std::string> words, const Words& allowed)
+{
+    const auto place = [&](const std::string& word) {
+        return std::find(allowed.words.begin(), allowed.words.end(), word) - allowed.words.begin();
+    };
+    std::stable_sort(words.begin(), words.end(),
+                     [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+    return words;
+}
+
 } // namespace
 
 bool parse_value(int& dst, string_view text, const Range& allowed, std::string& error)
@@ -104,6 +114,29 @@ bool parse_value(std::string& dst, string_view text, const Choices& allowed, std
         }
     error = format("\"{}\" is not one of {}", text, OIIO::Strutil::join(allowed.words, ", "));
     return false;
+}
+
+bool parse_value(std::vector<std::string>& dst, string_view text, const Words& allowed, std::string& error)
+{
+    const std::vector<std::string> known(allowed.words.begin(), allowed.words.end());
+    std::vector<std::string> words;
+    if (!OIIO::Strutil::strip(text).empty())
+        words = OIIO::Strutil::splits(text, ",");
+    for (auto word = words.begin(); word != words.end(); ++word) {
+        *word = std::string(OIIO::Strutil::strip(*word));
+        if (std::find(known.begin(), known.end(), *word) == known.end()) {
+            const std::string near = nearest_name(*word, known);
+            error = format("\"{}\" is not one of {}{}", *word, OIIO::Strutil::join(known, ", "),
+                           near.empty() ? "" : format("; did you mean \"{}\"?", near));
+            return false;
+        }
+        if (std::find(words.begin(), word, *word) != word) {
+            error = format("\"{}\" comes twice", *word);
+            return false;
+        }
+    }
+    dst = in_order(words, allowed);
+    return true;
 }
 
 bool parse_value(std::string& dst, string_view text, const Text&, std::string&)
@@ -191,6 +224,11 @@ std::string value_text(const std::string& value, const Choices&)
     return value;
 }
 
+std::string value_text(const std::vector<std::string>& value, const Words& allowed)
+{
+    return OIIO::Strutil::join(in_order(value, allowed), ",");
+}
+
 std::string value_text(const std::string& value, const Text&)
 {
     return value;
@@ -233,6 +271,11 @@ std::string allowed_text(const SizeRange& allowed)
 std::string allowed_text(const Choices& allowed)
 {
     return OIIO::Strutil::join(allowed.words, "|");
+}
+
+std::string allowed_text(const Words& allowed)
+{
+    return OIIO::Strutil::join(allowed.words, ",");
 }
 
 std::string allowed_text(const Text&)

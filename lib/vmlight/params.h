@@ -36,6 +36,12 @@ struct Choices
 {
     std::vector<const char*> words;
 };
+/// Some of these words, each at most once, separated by commas. Their order says nothing: they are kept in that of
+/// `words`, so that one choice has one text.
+struct Words
+{
+    std::vector<const char*> words;
+};
 /// Any text.
 struct Text
 { };
@@ -61,6 +67,8 @@ VMLIGHT_API bool parse_value(int& dst, OIIO::string_view text, const Range& allo
 VMLIGHT_API bool parse_value(double& dst, OIIO::string_view text, const Range& allowed, std::string& error);
 VMLIGHT_API bool parse_value(Size& dst, OIIO::string_view text, const SizeRange& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Choices& allowed, std::string& error);
+VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const Words& allowed,
+                             std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Text& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Path& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const Paths& allowed,
@@ -74,6 +82,7 @@ VMLIGHT_API std::string value_text(int value, const Range& allowed);
 VMLIGHT_API std::string value_text(double value, const Range& allowed);
 VMLIGHT_API std::string value_text(const Size& value, const SizeRange& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Choices& allowed);
+VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Words& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Text& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Path& allowed);
 VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Paths& allowed);
@@ -84,6 +93,7 @@ VMLIGHT_API std::string value_text(bool value, const Flag& allowed);
 VMLIGHT_API std::string allowed_text(const Range& allowed);
 VMLIGHT_API std::string allowed_text(const SizeRange& allowed);
 VMLIGHT_API std::string allowed_text(const Choices& allowed);
+VMLIGHT_API std::string allowed_text(const Words& allowed);
 VMLIGHT_API std::string allowed_text(const Text& allowed);
 VMLIGHT_API std::string allowed_text(const Path& allowed);
 VMLIGHT_API std::string allowed_text(const Paths& allowed);

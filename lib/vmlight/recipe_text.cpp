@@ -47,6 +47,12 @@ std::string toml_text(const std::vector<double>& value, const Numbers& allowed)
     return "[" + OIIO::Strutil::replace(value_text(value, allowed), ",", ", ", true) + "]";
 }
 
+std::string toml_text(const std::vector<std::string>& value, const Words& allowed)
+{
+    const std::string words = value_text(value, allowed);
+    return words.empty() ? "[]" : "[" + OIIO::Strutil::replace(quoted(words), ",", "\", \"", true) + "]";
+}
+
 std::string toml_text(const std::vector<std::string>& value, const Paths&)
 {
     std::string text;

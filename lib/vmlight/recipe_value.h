@@ -112,6 +112,25 @@ inline bool node_text(std::string& text, const toml::node& node, const std::stri
     return string_text(text, node, "a string", reason);
 }
 
+inline bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Words&,
+                      std::string& reason)
+{
+    const toml::array* words = node.as_array();
+    if (!words)
+        return string_text(text, node, "an array of words in quotes", reason);
+    for (const toml::node& element : *words) {
+        std::string word;
+        if (!string_text(word, element, "a word in quotes", reason))
+            return false;
+        if (word.empty() || word.find(',') != std::string::npos) {
+            reason = word.empty() ? "one of its words is empty" : "a word in a list cannot hold a comma";
+            return false;
+        }
+        text += (text.empty() ? "" : ",") + word;
+    }
+    return true;
+}
+
 inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Text&, std::string& reason)
 {
     return string_text(text, node, "a string", reason);

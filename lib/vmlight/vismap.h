@@ -11,6 +11,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,14 @@ struct VismapParams
     double max_distance = 0;
     /// Texels around what the mesh covers that are filled from it; -1 is all.
     int margin = 16;
-    /// Add the channels `normal.x`, `normal.y`, `normal.z`: the interpolated normal in object space, of unit length. In
-    /// the margin a mean of neighbours, as B is, and so shorter: what uses it must not rely on its length.
-    bool normal = false;
-    /// Add the channel `coverage`: 1 where a triangle covers the texel's centre.
-    bool coverage = false;
+    /// What to store beside V and B. `normal`: channels `normal.x`, `normal.y`, `normal.z`, the interpolated normal in
+    /// object space, of unit length; in the margin a mean of neighbours, as B is, and so shorter: what uses it must not
+    /// rely on its length. `coverage`: a channel that is 1 where a triangle covers the texel's centre.
+    std::vector<std::string> channels;
+    bool has(const char* channel) const
+    {
+        return std::find(channels.begin(), channels.end(), channel) != channels.end();
+    }
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -56,8 +60,8 @@ struct VismapParams
         field("measure", measure, Choices { { "cosine", "uniform" } }, "Weight of a direction in visibility");
         field("max_distance", max_distance, Range { 0, 1e30, "infinite", 0 }, "Ignore what is farther, in mesh units");
         field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Texels to fill around what the mesh covers");
-        field("normal", normal, Flag {}, "Add channels with the normal, for the model ao");
-        field("coverage", coverage, Flag {}, "Add a channel that is 1 where the mesh covers the texel");
+        field("channels", channels, Words { { "normal", "coverage" } },
+              "Add channels: the normal, for the model ao; 1 where the mesh covers the texel");
     }
 };
 
@@ -76,11 +80,12 @@ struct VismapReport
 /// Bake the visibility map of `mesh`.
 ///
 /// @param dst      set to a float image of the asked-for size with channels `visibility`, `direction.x`, `direction.y`,
-///                 `direction.z` (and those of the normal, and `coverage`): V = (1/pi) Int vis(w) max(0, n.w) dw in [0,
-///                 1], and B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <= V. An open
-///                 texel has V = 1 exactly and B = (2/3) n, one that sees nothing has 0 and 0. n is the interpolated
-///                 normal; directions under the geometric surface count neither as seen nor as blocked. Texels that no
-///                 triangle covers are 0 outside the margin. Row 0 is the top of the UDIM tile, v = 1. Tagged as data
+///                 `direction.z` (and those that `params.channels` asks for): V = (1/pi) Int vis(w) max(0, n.w) dw in
+///                 [0, 1], and B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <= V. An
+///                 open texel has V = 1 exactly and B = (2/3) n, one that sees nothing has 0 and 0. n is the
+///                 interpolated normal; directions under the geometric surface count neither as seen nor as blocked.
+///                 Texels that no triangle covers are 0 outside the margin. Row 0 is the top of the UDIM tile, v = 1.
+///                 Tagged as data
 /// @param mesh     triangles with uvs; a texel that several triangles cover goes to the lowest triangle index.
 ///                 Triangles without uvs cast and are not baked
 /// @param occluders meshes in the same space that cast and are not baked

@@ -28,9 +28,9 @@ int height_of(const VismapParams& params)
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params)
 {
     std::vector<std::string> names(kVismapChannels.begin(), kVismapChannels.end());
-    if (params.normal)
+    if (params.has("normal"))
         names.insert(names.end(), kNormalChannels.begin(), kNormalChannels.end());
-    if (params.coverage)
+    if (params.has("coverage"))
         names.push_back(kCoverageChannel);
     OIIO::ImageSpec spec(width_of(params), height_of(params), int(names.size()), OIIO::TypeDesc::FLOAT);
     spec.channelnames = names;
@@ -58,12 +58,15 @@ struct VismapBaker::Scene
     Scene(BakeScenePointer the_shared, const VismapParams& the_params)
         : shared(std::move(the_shared))
         , params(the_params)
+        , has_normal(params.has("normal"))
+        , has_coverage(params.has("coverage"))
         , pattern(params.sampler, params.samples, params.measure == "uniform")
         , raster(shared->mesh(), width_of(params), height_of(params), params.udim)
     {
     }
     const BakeScenePointer shared;
     const VismapParams params;
+    const bool has_normal, has_coverage;
     const SamplePattern pattern;
     const UvRaster raster;
 };
@@ -117,12 +120,12 @@ int VismapBaker::height() const
 
 int VismapBaker::channels() const
 {
-    return filled_channels() + (m_scene->params.coverage ? 1 : 0);
+    return filled_channels() + (m_scene->has_coverage ? 1 : 0);
 }
 
 int VismapBaker::filled_channels() const
 {
-    return m_scene->params.normal ? 7 : 4;
+    return m_scene->has_normal ? 7 : 4;
 }
 
 int VismapBaker::tiles_across() const
@@ -181,9 +184,9 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         out[0] = float(seen.visibility);
         for (int c = 0; c < 3; ++c)
             out[1 + c] = float(seen.direction[c]);
-        for (int c = 0; c < 3 && m_scene->params.normal; ++c)
+        for (int c = 0; c < 3 && m_scene->has_normal; ++c)
             out[4 + c] = point.normal[c];
-        if (m_scene->params.coverage)
+        if (m_scene->has_coverage)
             out[channel_count - 1] = 1;
     }
     counts.rays = scratch.eye.rays() - rays_before;

@@ -138,12 +138,14 @@ class Usage(Case):
                 ("--max-distance", "nan", 'max_distance: "nan" is not a number'),
                 ("--max-distance", "-1", "max_distance: -1 is not in [0, 1e+30] or \"infinite\""),
                 ("--margin", "-2", "margin: -2 is not in"),
+                ("--channels", "normals", 'channels: "normals" is not one of normal, coverage; did you mean "normal"?'),
+                ("--channels", "normal,normal", 'channels: "normal" comes twice'),
                 ("--format", "double", 'format: "double" is not one of float, half'),
                 ("--threads", "-1", "threads: -1 is not in [0, 1024]"),
                 ("--uv-set", "8", "uv_set: 8 is not in [0, 7]")]:
             self.refused(2, text, "makevismap", "quad.obj", "-o", "x.exr", flag, value)
             self.refused(2, text, "makevismap", "quad.obj", "-o", "x.exr", flag + "=" + value)
-        self.refused(2, "--coverage takes no value", "makevismap", "quad.obj", "-o", "x.exr", "--coverage=1")
+        self.refused(2, "--quiet takes no value", "makevismap", "quad.obj", "-o", "x.exr", "--quiet=1")
 
     def test_values_may_begin_with_a_minus_or_follow_an_equals_sign(self):
         self.done("makelightmap", "vm.exr", "sky.exr", "-o", "a.exr", "--rotate", "-90,0,0", "--exposure", "-1")
@@ -404,12 +406,12 @@ class Light(Case):
         self.done("makevismap", SPOT, "-o", "vm.exr", "--resolution", "64", "--samples", "16")
         self.done("makecfem", SKY, "-o", "cfem.exr", "--resolution", "64")
         words = ["cfem.exr", "--model", "ao", "-o", "lit.exr"]
-        self.refused(1, "the model ao needs the normals that makevismap --normal bakes", "makelightmap", "vm.exr",
+        self.refused(1, "the model ao needs the normals that makevismap --channels normal bakes", "makelightmap", "vm.exr",
                      *words)
         self.assertFalse(os.path.exists(self.path("lit.exr")))
-        self.done("makevismap", SPOT, "-o", "vmn.exr", "--resolution", "64", "--samples", "16", "--normal")
+        self.done("makevismap", SPOT, "-o", "vmn.exr", "--resolution", "64", "--samples", "16", "--channels", "normal")
         self.done("makelightmap", "vmn.exr", *words)
-        self.file("n.vismap", f'mesh = "{SPOT}"\nresolution = 64\nsamples = 16\nnormal = true\n')
+        self.file("n.vismap", f'mesh = "{SPOT}"\nresolution = 64\nsamples = 16\nchannels = ["normal"]\n')
         self.done("makelightmap", "n.vismap", *words[:-1], "live.exr")
         self.assertEqual(self.read("live.exr"), self.read("lit.exr"))
         self.done("makelightmap", "vmn.exr", "cfem.exr", "-o", "a.exr")

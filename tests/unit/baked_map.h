@@ -74,7 +74,7 @@ inline VismapParams map_params(int width, int height, int samples, const std::st
     params.samples = samples;
     params.sampler = sampler;
     params.margin = 0;
-    params.coverage = true;
+    params.channels = { "coverage" };
     return params;
 }
 

@@ -80,7 +80,7 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
     bake.resolution = { kSide, kSide };
     bake.samples = 1024;
     bake.margin = 0;
-    bake.normal = true;
+    bake.channels = { "normal" };
     ImageBuf vm;
     ASSERT_TRUE(make_vismap(vm, mesh, { ground }, bake)) << vm.geterror();
 

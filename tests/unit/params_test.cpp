@@ -92,6 +92,27 @@ TEST(Params, ValuesSetInCodeAreCheckedToo)
     EXPECT_EQ(error, "resolution: \"0x128\" is not WIDTHxHEIGHT from 1x1 to 16384x16384");
 }
 
+TEST(Params, WordsAreSomeOfThoseAllowedInTheirOrder)
+{
+    VismapParams params;
+    std::string error;
+    ASSERT_TRUE(set_param(params, "channels", "coverage, normal", error)) << error;
+    EXPECT_EQ(params.channels, (std::vector<std::string> { "normal", "coverage" }));
+    EXPECT_TRUE(params.has("normal"));
+    EXPECT_EQ(value_text({ "coverage", "normal" }, Words { { "normal", "coverage" } }), "normal,coverage");
+    EXPECT_FALSE(set_param(params, "channels", "normal,covrage", error));
+    EXPECT_EQ(error, "channels: \"covrage\" is not one of normal, coverage; did you mean \"coverage\"?");
+    EXPECT_FALSE(set_param(params, "channels", "normal,coverage,normal", error));
+    EXPECT_EQ(error, "channels: \"normal\" comes twice");
+    EXPECT_FALSE(set_param(params, "channels", "normal,", error));
+    EXPECT_EQ(error, "channels: \"\" is not one of normal, coverage");
+    EXPECT_EQ(params.channels.size(), 2u);
+    ASSERT_TRUE(set_param(params, "channels", "", error)) << error;
+    EXPECT_TRUE(params.channels.empty());
+    EXPECT_FALSE(params.has("normal"));
+    EXPECT_EQ(allowed_text(Words { { "normal", "coverage" } }), "normal,coverage");
+}
+
 TEST(Params, ListsOfNamesAreOneALine)
 {
     VismapRecipe recipe;

@@ -86,6 +86,20 @@ TEST(Recipe, TakesASizeInEachOfItsForms)
     EXPECT_TRUE(parsed("rotate = []").lightmap_params.rotate.empty());
 }
 
+TEST(Recipe, TakesWordsAsAListOrAText)
+{
+    const std::vector<std::string> both { "normal", "coverage" };
+    for (const char* text : { "channels = [\"coverage\", \"normal\"]", "channels = \"normal, coverage\"" })
+        EXPECT_EQ(parsed<VismapRecipe>(text).vismap_params.channels, both) << text;
+    EXPECT_TRUE(parsed<VismapRecipe>("channels = []").vismap_params.channels.empty());
+    const std::string at = "\"hero.lightmap\" line 1: channels: ";
+    EXPECT_EQ(refusal<VismapRecipe>("channels = true"), at + "a boolean where an array of words in quotes is needed");
+    EXPECT_EQ(refusal<VismapRecipe>("channels = [1]"), at + "an integer where a word in quotes is needed");
+    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"\"]"), at + "one of its words is empty");
+    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal,coverage\"]"), at + "a word in a list cannot hold a comma");
+    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal\", \"normal\"]"), at + "\"normal\" comes twice");
+}
+
 TEST(Recipe, RefusesAnUnknownKeyWithLineAndNearest)
 {
     EXPECT_EQ(refusal("vismap = \"a\"\n\nrotat = [0, 90, 0]"),
@@ -372,6 +386,11 @@ void randomise(Random& random, std::string& value, const Choices& allowed)
 {
     value = allowed.words[random() % allowed.words.size()];
 }
+void randomise(Random& random, std::vector<std::string>& value, const Words& allowed)
+{
+    value.assign(allowed.words.rbegin(), allowed.words.rend());
+    value.resize(random() % (value.size() + 1));
+}
 void randomise(Random& random, std::string& value, const Text&)
 {
     value = random_text(random, true);
@@ -439,9 +458,10 @@ TEST(Recipe, ItsTextIsWhatAUserWouldWrite)
     VismapRecipe bake;
     bake.occluder = { "a.obj", "b.obj" };
     bake.vismap_params.margin = -1;
-    bake.vismap_params.coverage = true;
+    bake.vismap_params.channels = { "coverage", "normal" };
     EXPECT_EQ(recipe_text(bake),
-              "occluder = [\n    \"a.obj\",\n    \"b.obj\",\n]\nmargin = \"infinite\"\ncoverage = true\n");
+              "occluder = [\n    \"a.obj\",\n    \"b.obj\",\n]\nmargin = \"infinite\"\nchannels = [\"normal\", "
+              "\"coverage\"]\n");
 }
 
 // visit() makes up these names as it goes.

@@ -18,7 +18,7 @@ double worst_error(int margin, int level)
         uv = V2f(0.2f, 0.3f) + uv * 0.4f; // its border meets no border of a block
     VismapParams params = map_params(kSide, kSide, 4, "fibonacci");
     params.margin = margin;
-    params.coverage = true;
+    params.channels = { "coverage" };
     OIIO::ImageBuf map;
     EXPECT_TRUE(make_vismap(map, floor, {}, params)) << map.geterror();
     const int block = 1 << level;

@@ -233,15 +233,14 @@ TEST(Vismap, NormalsAreThoseOfTheSurface)
 {
     const Mesh mesh = sphere(V3d(3, -2, 5), 2, 32);
     VismapParams params = map_params(128, 64, 16);
-    params.normal = true;
-    params.coverage = false;
+    params.channels = { "normal" };
     params.margin = 2;
     OIIO::ImageBuf plain, image;
     ASSERT_TRUE(make_vismap(image, mesh, {}, params)) << image.geterror();
     EXPECT_EQ(image.spec().channelnames,
               (std::vector<std::string> { "visibility", "direction.x", "direction.y", "direction.z", "normal.x",
                                           "normal.y", "normal.z" }));
-    EXPECT_EQ(image.spec().get_string_attribute("vmlight:normal"), "true");
+    EXPECT_EQ(image.spec().get_string_attribute("vmlight:channels"), "normal");
     int covered = 0;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 128; ++x) {
@@ -255,11 +254,29 @@ TEST(Vismap, NormalsAreThoseOfTheSurface)
             EXPECT_GT(n.dot(b), 0.66f);
         }
     EXPECT_GT(covered, 1000);
-    params.normal = false;
+    params.channels.clear();
     ASSERT_TRUE(make_vismap(plain, mesh, {}, params)) << plain.geterror();
     for (int i = 0; i < 128 * 64; ++i)
         for (int c = 0; c < 4; ++c)
             ASSERT_EQ(plain.getchannel(i % 128, i / 128, 0, c), image.getchannel(i % 128, i / 128, 0, c));
+}
+
+TEST(Vismap, ChannelsAreTheSameInWhateverOrderTheyAreAskedFor)
+{
+    const Mesh mesh = floor_facing_z(1);
+    VismapParams params = map_params(8, 8, 4);
+    params.channels = { "normal", "coverage" };
+    const BakedMap one(mesh, {}, params);
+    params.channels = { "coverage", "normal" };
+    const BakedMap other(mesh, {}, params);
+    EXPECT_EQ(one.spec().to_xml(), other.spec().to_xml());
+    EXPECT_EQ(one.spec().get_string_attribute("vmlight:channels"), "normal,coverage");
+    float a[8], b[8];
+    one.image().getpixel(3, 4, a);
+    other.image().getpixel(3, 4, b);
+    EXPECT_TRUE(std::equal(a, a + 8, b));
+    EXPECT_EQ(a[6], 1); // the normal's z, and the coverage
+    EXPECT_EQ(a[7], 1);
 }
 
 TEST(Vismap, TheMarginIsFilledAndCoverageTellsItApart)
@@ -339,6 +356,9 @@ TEST(Vismap, RefusesParametersOutOfRange)
     params = {};
     params.width = 32769;
     EXPECT_EQ(refusal(mesh, params), "width: 32769 is not in [0, 32768]");
+    params = {};
+    params.channels = { "normal", "coverage", "normal" };
+    EXPECT_EQ(refusal(mesh, params), "channels: \"normal\" comes twice");
     params = {};
     params.height = -1;
     EXPECT_EQ(refusal(mesh, params), "height: -1 is not in [0, 32768]");

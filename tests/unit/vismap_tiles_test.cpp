@@ -85,7 +85,7 @@ TEST(VismapTiles, TilesAreTheWholeMapBitForBitWhateverTheMargin)
 TEST(VismapTiles, TheCoverageChannelIsZeroInTheMargin)
 {
     VismapParams params = quick(256, 128, 16);
-    params.coverage = true;
+    params.channels = { "coverage" };
     VismapBaker baker;
     std::string error;
     ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
@@ -98,8 +98,9 @@ TEST(VismapTiles, NormalsAreThoseOfTheWholeMapInTheMarginToo)
     for (bool coverage : { false, true })
         for (int margin : { 0, 16, -1 }) {
             VismapParams params = quick(200, 130, margin);
-            params.normal = true;
-            params.coverage = coverage;
+            params.channels = { "normal" };
+            if (coverage)
+                params.channels.push_back("coverage");
             VismapBaker baker;
             std::string error;
             ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
