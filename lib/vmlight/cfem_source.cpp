@@ -42,7 +42,7 @@ public:
         }
         if (!describe_scene_linear(spec, m_recipe.environment, m_color, error))
             return false;
-        for (int level = 0; level < (m_recipe.stack ? kStackLevels : 1); ++level) {
+        for (int level = 0; level < (m_recipe.stack ? kStackImages : 1); ++level) {
             OIIO::ImageSpec& own
                 = m_specs.emplace_back(m_recipe.stack ? describe_cfem_level(spec, m_recipe.cfem_params, level)
                                                       : describe_cfem(spec, m_recipe.cfem_params));

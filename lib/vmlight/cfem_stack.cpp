@@ -5,6 +5,7 @@
 #include <vmlight/cfem_image.h>
 #include <vmlight/cfem_rows.h>
 #include <vmlight/cfem_sh.h>
+#include <vmlight/radiance.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -46,7 +47,7 @@ bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env
                      std::string& error, int nthreads, const Progress& progress)
 {
     dst.clear();
-    std::vector<OIIO::ImageBuf> levels(kStackLevels);
+    std::vector<OIIO::ImageBuf> levels(kStackImages);
     if (!make_cfem(levels[0], env, params, nthreads, share(progress, 0, 0.5))) {
         error = levels[0].geterror();
         return false;
@@ -87,6 +88,8 @@ bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env
         if (!keep(level, rgb))
             return false;
     }
+    if (!make_radiance(levels[kStackLevels], env, params, error))
+        return false;
     dst = std::move(levels);
     return true;
 }

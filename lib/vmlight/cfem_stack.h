@@ -18,14 +18,18 @@
 
 namespace vmlight {
 
-/// Levels of a stack. The first is the CFEM itself, the second r = 1/2; from the third on r grows.
+/// Lobes of a stack. The first is the CFEM itself, the second r = 1/2; from the third on r grows.
 constexpr int kStackLevels = 9;
+/// Images of a stack: its lobes, and last the environment itself (radiance.h), r = 1.
+constexpr int kStackImages = kStackLevels + 1;
 /// Above 2/3, levels are evenly spaced in sqrt(1 - r), by half of what lies between those of 1/2 and 2/3.
 constexpr double kStackStep = 0.064878256; // (sqrt(1/2) - sqrt(1/3)) / 2
 
-/// r of a level.
+/// r of an image.
 inline double stack_lobe(int level)
 {
+    if (level == kStackLevels)
+        return 1;
     if (level < 2)
         return level == 0 ? 2.0 / 3 : 0.5;
     const double x = std::sqrt(1.0 / 3) - (level - 1) * kStackStep;
@@ -43,10 +47,10 @@ VMLIGHT_API double power_lobe_eigenvalue(int l, double s);
 
 /// Filter an environment with the lobes of a stack.
 ///
-/// @param dst      set to kStackLevels float images of R, G, B: lat-long maps as make_cfem() makes them, each with its
+/// @param dst      set to kStackImages float images of R, G, B: lat-long maps as make_cfem() makes them, each with its
 ///                 r as `vmlight:lobe` (a float), `vmlight:stack` = "true", and a name of its own for its place in a
-///                 file. The first is what make_cfem() makes, to the last bit. A constant environment is itself in
-///                 each, and nothing is below 0
+///                 file. The first is what make_cfem() makes, to the last bit, the last what make_radiance()
+///                 makes. A constant environment is itself in each, and nothing is below 0
 /// @param env, params, nthreads, progress  as for make_cfem()
 /// @param error    the reason, if the result is false
 /// @returns false if make_cfem() would be; `dst` is then empty.

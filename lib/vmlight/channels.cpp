@@ -22,6 +22,11 @@ std::string converting_flag(const OIIO::ImageSpec& spec)
 
 } // namespace
 
+bool is_packed_channel(const std::string& name)
+{
+    return OIIO::Strutil::starts_with(name, kMaskChannel) || OIIO::Strutil::starts_with(name, kCellsChannel);
+}
+
 bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
 {
     const std::string stage = spec.get_string_attribute("vmlight:stage");
@@ -48,22 +53,6 @@ bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
                        "anew, or erase the attribute if that was of another image",
                        flag);
     return flag.empty();
-}
-
-bool find_normal_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
-{
-    if (!find_vismap_channels(spec, index, error))
-        return false;
-    for (size_t c = 0; c < kNormalChannels.size(); ++c) {
-        index[c + 1] = spec.channelindex(kNormalChannels[c]);
-        if (index[c + 1] < 0) {
-            error = format(
-                "no channel \"{}\" among {}: the model ao needs the normals that makevismap --channels normal bakes",
-                kNormalChannels[c], OIIO::Strutil::join(spec.channelnames, ", "));
-            return false;
-        }
-    }
-    return true;
 }
 
 bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error)

@@ -22,8 +22,16 @@ constexpr std::array<const char*, 4> kVismapChannels { "visibility", "direction.
 /// Optional channels of a visibility map: the shading normal n, in object space, of unit length where a triangle covers
 /// the texel. What the model `ao` needs.
 constexpr std::array<const char*, 3> kNormalChannels { "normal.x", "normal.y", "normal.z" };
+/// Optional channels of a visibility map, for the model of the same name: `sh.4` ... `sh.<N^2 - 1>`, further bands of
+/// visibility than V and B; `mask.0` ... `mask.10` and `cells.0` ... `cells.11`, packed_visibility.h.
+constexpr const char* kHarmonicChannel = "sh.";
+constexpr const char* kMaskChannel = "mask.";
+constexpr const char* kCellsChannel = "cells.";
 /// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
 constexpr const char* kCoverageChannel = "coverage";
+
+/// Whether the channel is one of `mask` or `cells`, whose whole numbers bear neither half floats nor filtering.
+VMLIGHT_API bool is_packed_channel(const std::string& name);
 
 /// Find the four channels of a visibility map.
 ///
@@ -34,11 +42,6 @@ constexpr const char* kCoverageChannel = "coverage";
 ///          colour, and nothing in the pixels would tell. An image without `vmlight:stage` passes on its channels
 ///          alone.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
-
-/// As find_vismap_channels(), with the channels of the normal in place of the direction's.
-///
-/// @returns false also if the visibility map has no normals; `error` says how to bake them.
-VMLIGHT_API bool find_normal_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
 /// Find the colour channels R, G, B; a map of one channel, or of one named Y, serves as all three.
 ///

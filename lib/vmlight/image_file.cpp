@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image_file.h>
 
+#include <vmlight/channels.h>
 #include <vmlight/oiio.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -109,6 +110,12 @@ void flush_folder(const std::string& path)
 
 bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 {
+    for (const std::string& channel : image.spec().channelnames)
+        if (is_packed_channel(channel)) {
+            error = format("channel {} holds whole numbers below 2^24, of which half keeps those to 2048: write float",
+                           channel);
+            return false;
+        }
     constexpr float kLargestHalf = 65504;
     const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
     for (size_t c = 0; c < stats.max.size(); ++c) {

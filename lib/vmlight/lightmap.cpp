@@ -6,6 +6,8 @@
 #include <vmlight/lightmap_input.h>
 #include <vmlight/lightmap_shader.h>
 #include <vmlight/parallel.h>
+#include <vmlight/radiance.h>
+#include <vmlight/shading_model.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -68,8 +70,9 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
     Rotation rotation;
     VismapReader reader;
     LightmapShader shader;
-    if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, error)
-        || !shader.prepare(cfem, params, error))
+    ShadingModel model;
+    if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, has_all_light(cfem), model, error)
+        || !shader.prepare(cfem, params, model, error))
         return false;
     if (albedo) {
         const auto opened = std::make_shared<AlbedoReader>();
@@ -78,7 +81,7 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
         shader.use_albedo(opened);
     }
 
-    const ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, is_stack(cfem));
+    const ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, model.name);
     const bool is_light = std::any_of(cfem.begin(), cfem.end(), [&](const ImageBuf& level) { return &dst == &level; });
     const bool is_input = &dst == &vismap || is_light || &dst == albedo;
     ImageBuf apart;
@@ -99,13 +102,6 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
 }
 
 } // namespace
-
-bool find_model_channels(const ImageSpec& vismap, const LightmapParams& params, std::array<int, 4>& index,
-                         std::string& error)
-{
-    return params.model == "ao" ? find_normal_channels(vismap, index, error)
-                                : find_vismap_channels(vismap, index, error);
-}
 
 bool lightmap_rotation(Rotation& dst, const LightmapParams& params, std::string& error)
 {

@@ -10,7 +10,6 @@
 
 #include <OpenImageIO/imagebuf.h>
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -18,10 +17,12 @@ namespace vmlight {
 
 struct LightmapParams
 {
-    /// How V and B become light. `ao`: V C(R n), which knows no direction but the normal; needs a map with normals
-    /// (VismapParams::normal). `paper`: V C(R B / |B|). `lobe`: the same, with the environment filtered by a lobe as
-    /// wide as |B| / V says, in place of the cosine; needs a stack (cfem_stack.h). `auto`: `lobe` with a stack, else
-    /// `paper`.
+    /// How a texel becomes light. `ao`: V C(R n), which knows no direction but the normal; needs a map with normals
+    /// (VismapParams::channels). `paper`: V C(R B / |B|). `lobe`: the same, with the environment filtered by a lobe as
+    /// wide as |B| / V says, in place of the cosine; needs a stack (cfem_stack.h). `sh`, `mask`, `cells`: the
+    /// environment itself, summed over what the further channels of a map tell to be seen (VismapParams::basis); need
+    /// a stack, whose last image it is. `auto`: the best of these that the map and the light are fit for (README,
+    /// "What accuracy costs").
     std::string model = "auto";
     /// The rotation of the object into the environment: one of these three, or none.
     std::vector<double> rotate, matrix, quaternion;
@@ -32,8 +33,8 @@ struct LightmapParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("model", model, Choices { { "auto", "ao", "paper", "lobe" } },
-              "Shading model; auto is lobe with a stack or an environment, else paper");
+        field("model", model, Choices { { "auto", "ao", "paper", "lobe", "sh", "mask", "cells" } },
+              "Shading model; auto is the best that map and light are fit for");
         field("rotate", rotate, Numbers { 3 }, "Turn the object: x,y,z degrees about fixed x, then y, then z");
         field("matrix", matrix, Numbers { 9 }, "Turn the object: a rotation matrix, row major, for column vectors");
         field("quaternion", quaternion, Numbers { 4 }, "Turn the object: w,x,y,z");
@@ -41,17 +42,6 @@ struct LightmapParams
         field("exposure", exposure, Range { -64, 64 }, "Stops to brighten the result by");
     }
 };
-
-/// The model that `params` asks for, where a stack is at hand or not: what `auto` stands for, else `model` itself.
-inline std::string lightmap_model(const LightmapParams& params, bool has_stack)
-{
-    return params.model != "auto" ? params.model : has_stack ? "lobe" : "paper";
-}
-
-/// The channels that a model reads of a visibility map, V first: find_vismap_channels(), or for `ao`
-/// find_normal_channels().
-VMLIGHT_API bool find_model_channels(const OIIO::ImageSpec& vismap, const LightmapParams& params,
-                                     std::array<int, 4>& index, std::string& error);
 
 /// The rotation from object space to environment space that `params` asks for: with the object turned by R and the
 /// environment by E, light arrives along object direction w from environment direction E^-1 R w.

@@ -44,19 +44,23 @@ void find_not_finite(ROI roi, const float* pixels, int channels, Faults& faults)
                     faults.add(x, y, c);
 }
 
-bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, std::string& error)
+bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, bool has_stack, ShadingModel& model,
+                        std::string& error)
 {
     if (!check_input(image, "visibility map", error))
         return false;
-    if (!find_model_channels(image.spec(), params, m_index, error)) {
+    if (!find_model(model, params, image.spec(), has_stack, error)) {
         error = named(image, error);
         return false;
     }
+    m_index.clear();
+    for (const std::string& channel : model.channels)
+        m_index.push_back(image.spec().channelindex(channel));
     m_image = &image;
     m_pixels = nullptr;
     m_order = VismapOrder::visibility_first;
 
-    const std::array<int, 4> first { 0, 1, 2, 3 }, last { 3, 0, 1, 2 };
+    const std::vector<int> first { 0, 1, 2, 3 }, last { 3, 0, 1, 2 };
     const bool packed = image.localpixels() && image.pixeltype() == OIIO::TypeFloat && image.nchannels() == 4
         && image.pixel_stride() == 16 && image.scanline_stride() == OIIO::stride_t(16) * image.spec().width;
     if (packed && (m_index == first || m_index == last)) {
@@ -77,8 +81,8 @@ const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::strin
     const size_t texels = size_t(roi.width()) * roi.height();
     roi.chbegin = *first;
     roi.chend = *last + 1;
-    scratch.resize(texels * (4 + channels));
-    float* read = scratch.data() + 4 * texels;
+    scratch.resize(texels * (m_index.size() + size_t(channels)));
+    float* read = scratch.data() + m_index.size() * texels;
     if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
         error = named(*m_image, oiio::reason(*m_image));
         return nullptr;

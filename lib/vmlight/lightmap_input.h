@@ -5,6 +5,7 @@
 #include <vmlight/faults.h>
 #include <vmlight/lightmap.h>
 #include <vmlight/shade_kernel.h>
+#include <vmlight/shading_model.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -23,13 +24,14 @@ bool check_input(const OIIO::ImageBuf& image, const char* what, std::string& err
 /// Add the values of `pixels`, which hold `roi` with `channels` channels, that are NaN or infinite.
 void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, Faults& faults);
 
-/// Hands out a visibility map as the kernels want it: four floats a texel.
+/// Hands out a visibility map as the kernels want it: the numbers of a texel side by side, in the model's order.
 class VismapReader
 {
 public:
-    /// Of the channels that the model of `params` wants. False, with the reason in `error`, if `image` is not a
-    /// visibility map, or has not all of them. It must outlive the reader.
-    bool open(const OIIO::ImageBuf& image, const LightmapParams& params, std::string& error);
+    /// Set `model` to what `params` ask for of this map (find_model()). False, with the reason in `error`, if `image`
+    /// is not a visibility map, or has not all that the model reads. It must outlive the reader.
+    bool open(const OIIO::ImageBuf& image, const LightmapParams& params, bool has_stack, ShadingModel& model,
+              std::string& error);
 
     VismapOrder order() const { return m_order; }
 
@@ -42,7 +44,7 @@ public:
 private:
     const OIIO::ImageBuf* m_image = nullptr;
     const float* m_pixels = nullptr;
-    std::array<int, 4> m_index {};
+    std::vector<int> m_index;
     VismapOrder m_order = VismapOrder::visibility_first;
 };
 

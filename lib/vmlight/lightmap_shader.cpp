@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap_shader.h>
 
+#include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
+#include <vmlight/radiance.h>
 #include <vmlight/rotation.h>
 
 #include <OpenImageIO/strutil.h>
@@ -40,20 +42,29 @@ void copy_filter(ImageSpec& dst, const ImageSpec& cfem)
     }
 }
 
-void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const float* texels, Faults& faults)
+// Values that are not finite, and packed numbers that are none any more.
+void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const ShadingModel& model, const float* texels,
+                        ShadeFaults& faults)
 {
     const bool last = order == VismapOrder::visibility_last;
+    const int count = int(model.channels.size());
+
     for (int y = roi.ybegin; y < roi.yend; ++y)
-        for (int x = roi.xbegin; x < roi.xend; ++x, texels += 4)
-            for (int c = 0; c < 4; ++c)
-                if (!std::isfinite(texels[last ? (c + 3) % 4 : c]))
-                    faults.add(x, y, c);
+        for (int x = roi.xbegin; x < roi.xend; ++x, texels += count)
+            for (int c = 0; c < count; ++c) {
+                const float value = texels[last ? (c + 3) % 4 : c];
+                if (!std::isfinite(value))
+                    faults.vismap.add(x, y, c);
+                else if (is_packed_channel(model.channels[size_t(c)])
+                         && !(value >= 0 && value < 0x1p24f && value == std::floor(value)))
+                    faults.packed.add(x, y, c);
+            }
 }
 
 } // namespace
 
 ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, const LightmapParams& params,
-                            bool has_stack)
+                            const std::string& model)
 {
     ImageSpec spec(vismap.width, vismap.height, 3, OIIO::TypeFloat);
     OIIO::set_roi(spec, OIIO::get_roi(vismap));
@@ -61,7 +72,7 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
     spec.attribute("vmlight:stage", kLightmapStage);
     spec.attribute("vmlight:version", VMLIGHT_VERSION);
     append_params(spec, params);
-    spec.attribute("vmlight:model", lightmap_model(params, has_stack));
+    spec.attribute("vmlight:model", model);
     for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
         copy_attribute(spec, vismap, name);
     copy_filter(spec, cfem);
@@ -73,39 +84,74 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
 void ShadeFaults::merge(const ShadeFaults& other)
 {
     vismap.merge(other.vismap);
+    packed.merge(other.packed);
     albedo.merge(other.albedo);
     result.merge(other.result);
     if (!other.error.empty())
         error = other.error;
 }
 
-bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapParams& params, std::string& error)
+bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapParams& params, const ShadingModel& model,
+                             std::string& error)
 {
     Rotation rotation;
     if (!lightmap_rotation(rotation, params, error))
         return false;
-    for (const OIIO::ImageBuf& level : cfem)
-        if (!check_input(level, "cosine-filtered environment", error))
+    for (const OIIO::ImageBuf& image : light)
+        if (!check_input(image, "cosine-filtered environment", error))
             return false;
-    const bool lobe = lightmap_model(params, is_stack(cfem)) == "lobe";
-    if (lobe && !is_stack(cfem))
-        error = "model lobe needs a stack of lobes, and this is one cosine-filtered environment: make it anew with "
-                "makecfem --stack";
-    if (!error.empty() || !(lobe ? prepare_lobes(m_lobes, cfem, error) : prepare_cfem(m_lookup, cfem[0], error))) {
-        error = named(cfem[0], error);
-        return false;
-    }
-    // `ao` is `paper` with the normal in the direction's place.
-    m_kernel = lobe ? shade_lobe : shade_paper;
-    m_vismap_channels = kVismapChannels;
-    if (params.model == "ao")
-        std::copy(kNormalChannels.begin(), kNormalChannels.end(), m_vismap_channels.begin() + 1);
-    m_setup.cfem = &m_lookup;
-    m_setup.lobes = &m_lobes;
+    m_model = model;
     m_setup.gain = float(std::exp2(params.exposure));
     for (int i = 0; i < 9; ++i)
         m_setup.rotation[i] = float(rotation[i / 3][i % 3]);
-    return true;
+    const bool prepared = model.light == ModelLight::cfem ? prepare_one(light, error)
+        : model.light == ModelLight::lobes                ? prepare_stack(light, error)
+                                                          : prepare_radiance(light, rotation, error);
+    if (!prepared)
+        error = named(light[0], error);
+    return prepared;
+}
+
+bool LightmapShader::prepare_one(OIIO::cspan<OIIO::ImageBuf> light, std::string& error)
+{
+    // `ao` is `paper` with the normal in the direction's place.
+    m_kernel = shade_paper;
+    m_setup.cfem = &m_lookup;
+    if (light.size() == 1 && find_radiance(light)) {
+        error = "model " + m_model.name + " needs a cosine-filtered environment, and this is the environment itself";
+        return false;
+    }
+    return prepare_cfem(m_lookup, light[0], error);
+}
+
+bool LightmapShader::prepare_stack(OIIO::cspan<OIIO::ImageBuf> light, std::string& error)
+{
+    m_kernel = shade_lobe;
+    m_setup.lobes = &m_lobes;
+    if (is_stack(light)) // the last image of a whole stack is no lobe
+        return prepare_lobes(m_lobes, light.subspan(0, std::min<ptrdiff_t>(kStackLevels, light.size())), error);
+    error = "model lobe needs a stack of lobes, and this is one cosine-filtered environment: make it anew with "
+            "makecfem --stack";
+    return false;
+}
+
+bool LightmapShader::prepare_radiance(OIIO::cspan<OIIO::ImageBuf> light, const Rotation& rotation, std::string& error)
+{
+    const OIIO::ImageBuf* radiance = find_radiance(light);
+    if (!radiance) {
+        error = OIIO::Strutil::fmt::format("model {} needs the environment itself, which is the last image of a stack: "
+                                           "make it anew with makecfem --stack",
+                                           m_model.name);
+        return false;
+    }
+    m_setup.harmonics = &m_harmonics;
+    m_setup.cells = &m_cells;
+    if (m_model.name == "sh") {
+        m_kernel = shade_harmonics;
+        return prepare_harmonics(m_harmonics, *radiance, m_model.order, rotation, error);
+    }
+    m_kernel = m_model.name == "mask" ? shade_mask : shade_cells;
+    return prepare_cells(m_cells, *radiance, rotation.transposed(), m_model.name == "cells", error);
 }
 
 void LightmapShader::shade(OIIO::ROI roi, VismapOrder order, const float* vismap, float* rgb,
@@ -114,7 +160,7 @@ void LightmapShader::shade(OIIO::ROI roi, VismapOrder order, const float* vismap
     ShadeFaults found;
     bool sound = m_kernel(m_setup, order, vismap, size_t(roi.width()) * roi.height(), rgb);
     if (!sound)
-        find_vismap_faults(roi, order, vismap, found.vismap);
+        find_vismap_faults(roi, order, m_model, vismap, found);
     if (m_albedo) {
         m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);
         sound = false;
@@ -135,7 +181,13 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
     if (!faults.error.empty())
         return faults.error;
     if (faults.vismap.any())
-        return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", m_vismap_channels));
+        return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", m_model.channels));
+    if (faults.packed.any())
+        return led_by(vismap_name,
+                      faults.packed.text("visibility map",
+                                         "not whole numbers below 2^24 any more (was it resized, mipped or stored as "
+                                         "half?)",
+                                         m_model.channels));
     if (faults.albedo.any())
         return led_by(albedo_name, m_albedo->fault_text(faults.albedo));
     return faults.result.text("lightmap", "too large for float", std::array { "R", "G", "B" });

@@ -8,10 +8,10 @@
 #include <vmlight/lightmap.h>
 #include <vmlight/lightmap_input.h>
 #include <vmlight/shade_kernel.h>
+#include <vmlight/shading_model.h>
 
 #include <OpenImageIO/imagebuf.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,17 +19,17 @@
 
 namespace vmlight {
 
-/// The lightmap of these inputs: size, channels and metadata. `has_stack`: whether `cfem` is the first level of one.
+/// The lightmap of these inputs: size, channels and metadata. `model` is the one that is used.
 OIIO::ImageSpec describe_lightmap(const OIIO::ImageSpec& vismap, const OIIO::ImageSpec& cfem,
-                                  const LightmapParams& params, bool has_stack);
+                                  const LightmapParams& params, const std::string& model);
 
 /// What shading found wrong.
 struct ShadeFaults
 {
-    Faults vismap, albedo, result;
+    Faults vismap, packed, albedo, result;
     std::string error;
 
-    bool any() const { return vismap.any() || albedo.any() || result.any() || !error.empty(); }
+    bool any() const { return vismap.any() || packed.any() || albedo.any() || result.any() || !error.empty(); }
     void merge(const ShadeFaults& other);
 };
 
@@ -40,16 +40,17 @@ public:
     LightmapShader(const LightmapShader&) = delete;
     LightmapShader& operator=(const LightmapShader&) = delete;
 
-    /// `cfem`, one or the levels of a stack, is not needed any more afterwards. False, with the reason in `error`, as
-    /// make_lightmap() does.
-    VMLIGHT_API bool prepare(OIIO::cspan<OIIO::ImageBuf> cfem, const LightmapParams& params, std::string& error);
+    /// `light`, one CFEM, or of the images of a stack at least those that `model` reads, is not needed any more
+    /// afterwards. False, with the reason in `error`, as make_lightmap() does.
+    VMLIGHT_API bool prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapParams& params, const ShadingModel& model,
+                             std::string& error);
 
     /// Multiply by `albedo`, opened for the pixels of the visibility map.
     void use_albedo(std::shared_ptr<const AlbedoReader> albedo) { m_albedo = std::move(albedo); }
 
     /// Shade the pixels of `roi`. Any thread, with a `scratch` of its own.
     ///
-    /// @param vismap   four floats a texel
+    /// @param vismap   the numbers of the model's channels, texel by texel
     /// @param rgb      three floats a texel
     /// @param faults   what is wrong is added
     VMLIGHT_API void shade(OIIO::ROI roi, VismapOrder order, const float* vismap, float* rgb,
@@ -60,11 +61,17 @@ public:
                                        const std::string& albedo_name = "") const;
 
 private:
+    bool prepare_one(OIIO::cspan<OIIO::ImageBuf> light, std::string& error);
+    bool prepare_stack(OIIO::cspan<OIIO::ImageBuf> light, std::string& error);
+    bool prepare_radiance(OIIO::cspan<OIIO::ImageBuf> light, const Rotation& rotation, std::string& error);
+
     ShadeTexels m_kernel = nullptr;
-    std::array<const char*, 4> m_vismap_channels {};
+    ShadingModel m_model;
     ShadeSetup m_setup {};
     CfemLookup m_lookup;
     LobeLookup m_lobes;
+    HarmonicLight m_harmonics;
+    CellLight m_cells;
     std::shared_ptr<const AlbedoReader> m_albedo;
 };
 

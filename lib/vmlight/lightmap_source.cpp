@@ -7,13 +7,14 @@
 #include <vmlight/lightmap_shader.h>
 #include <vmlight/once_cache.h>
 #include <vmlight/recipe_udim.h>
+#include <vmlight/shading_model.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
 #include <vmlight/uvraster.h>
 
 #include <OpenImageIO/strutil.h>
 
-#include <array>
+#include <vector>
 
 namespace vmlight {
 namespace {
@@ -39,7 +40,8 @@ public:
 
     bool describe(const RecipeChain& chain, std::string& error)
     {
-        if (!find_model_channels(m_inputs.vismap->spec(), m_recipe.lightmap_params, m_index, error))
+        const OIIO::ImageSpec& vismap = m_inputs.vismap->spec();
+        if (!find_model(m_model, m_recipe.lightmap_params, vismap, m_inputs.cfem->subimages() > 1, error))
             error = placed(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         Rotation rotation;
         if (!error.empty())
@@ -48,8 +50,9 @@ public:
             error = chain.empty() ? error : format("\"{}\": {}", chain.back(), error);
             return false;
         }
-        m_spec = describe_lightmap(m_inputs.vismap->spec(), m_inputs.cfem->spec(), m_recipe.lightmap_params,
-                                   m_inputs.cfem->subimages() > 1);
+        for (const std::string& channel : m_model.channels)
+            m_index.push_back(vismap.channelindex(channel));
+        m_spec = describe_lightmap(vismap, m_inputs.cfem->spec(), m_recipe.lightmap_params, m_model.name);
         tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
@@ -61,12 +64,12 @@ public:
         if (!m_prepare.run([&](std::string& reason) { return prepare(reason); }, error))
             return false;
         const size_t texels = size_t(roi.width()) * roi.height(), channels = m_inputs.vismap->spec().nchannels;
-        std::vector<float> read(texels * channels), vismap(4 * texels), scratch;
+        std::vector<float> read(texels * channels), vismap(m_index.size() * texels), scratch;
         if (!m_inputs.vismap->read(roi, read.data(), error))
             return false;
         for (size_t i = 0; i < texels; ++i)
-            for (size_t c = 0; c < 4; ++c)
-                vismap[4 * i + c] = read[i * channels + size_t(m_index[c])];
+            for (size_t c = 0; c < m_index.size(); ++c)
+                vismap[m_index.size() * i + c] = read[i * channels + size_t(m_index[c])];
         ShadeFaults faults;
         m_shader.shade(roi, VismapOrder::visibility_first, vismap.data(), dst, scratch, faults);
         if (faults.any())
@@ -85,13 +88,15 @@ public:
 private:
     bool prepare(std::string& error)
     {
-        // All levels of a stack, if they are of use.
-        const bool lobe = lightmap_model(m_recipe.lightmap_params, m_inputs.cfem->subimages() > 1) == "lobe";
-        std::vector<OIIO::ImageBuf> cfem(lobe ? size_t(m_inputs.cfem->subimages()) : 1);
-        for (size_t level = 0; level < cfem.size(); ++level)
-            if (!read_all(cfem[level], *m_inputs.cfem, error, int(level)))
+        // Of a stack the images that are of use.
+        const int images = m_inputs.cfem->subimages();
+        const int first = m_model.light == ModelLight::radiance ? images - 1 : 0;
+        const int count = m_model.light == ModelLight::lobes ? images : 1;
+        std::vector<OIIO::ImageBuf> cfem;
+        for (int image = first; image < first + count; ++image)
+            if (!read_all(cfem.emplace_back(), *m_inputs.cfem, error, image))
                 return false;
-        if (!m_shader.prepare(cfem, m_recipe.lightmap_params, error)) {
+        if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
         }
@@ -104,24 +109,30 @@ private:
 
     const LightmapRecipe m_recipe;
     const Inputs m_inputs;
-    std::array<int, 4> m_index {};
+    ShadingModel m_model;
+    std::vector<int> m_index;
     Once m_prepare;
     LightmapShader m_shader;
     std::atomic<size_t> m_bytes { 0 };
 };
 
-PixelSourcePointer open_light(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, std::string& error,
+                              const RecipeChain& chain)
 {
     if (!recipe.cfem.empty())
         return open_input(recipe, "cfem", recipe.cfem, Input::Cfem, error, chain);
     if (!open_input(recipe, "environment", recipe.environment, Input::Environment, error, chain))
         return nullptr;
+    // What is wrong with the visibility map is told where it is described.
+    ShadingModel model;
+    std::string ignored;
+    find_model(model, recipe.lightmap_params, vismap, true, ignored);
     CfemRecipe filter;
     filter.environment = recipe.environment;
     filter.colorspace = recipe.colorspace;
     filter.colorconfig = recipe.colorconfig;
     filter.cfem_params = recipe.cfem_params;
-    filter.stack = lightmap_model(recipe.lightmap_params, true) == "lobe";
+    filter.stack = model.light != ModelLight::cfem;
     return open_source(filter, error);
 }
 
@@ -136,7 +147,7 @@ PixelSourcePointer open_source(const LightmapRecipe& given, std::string& error, 
     Inputs inputs;
     inputs.vismap = open_input(recipe, "vismap", recipe.vismap, Input::Vismap, error, chain);
     if (inputs.vismap)
-        inputs.cfem = open_light(recipe, error, chain);
+        inputs.cfem = open_light(recipe, inputs.vismap->spec(), error, chain);
     if (!error.empty())
         return nullptr;
     std::string key = recipe_key(recipe) + inputs.vismap->key() + inputs.cfem->key();

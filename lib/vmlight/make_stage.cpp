@@ -9,9 +9,11 @@
 #include <vmlight/fail.h>
 #include <vmlight/image_file.h>
 #include <vmlight/lobe_lookup.h>
+#include <vmlight/radiance.h>
 #include <vmlight/recipe_chain.h>
 #include <vmlight/recipe_udim.h>
 #include <vmlight/scene_cache.h>
+#include <vmlight/shading_model.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/vismap_baker.h>
 #include <vmlight/words.h>
@@ -106,7 +108,6 @@ bool read_input(OIIO::ImageBuf& dst, const Recipe& recipe, const char* key, cons
     return false;
 }
 
-// "1 texel"
 // Made, or that of another tile, map or reader of the same mesh.
 bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOptions& options, double& build_seconds,
                 std::string& error)
@@ -123,10 +124,24 @@ bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOpt
     return true;
 }
 
+// What `light` says of an environment.
+bool filter(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& environment, const CfemParams& params,
+            ModelLight light, int threads, const Progress& progress, std::string& error)
+{
+    if (light == ModelLight::lobes)
+        return make_cfem_stack(dst, environment, params, error, threads, progress);
+    if (light == ModelLight::radiance)
+        return make_radiance(dst[0], environment, params, error, progress);
+    if (make_cfem(dst[0], environment, params, threads, progress))
+        return true;
+    error = dst[0].geterror();
+    return false;
+}
+
 // Read `recipe.environment` in scene-linear light and filter it.
 template <class Recipe>
-bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, bool stack, const MakeOptions& options,
-                        std::string& error)
+bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, ModelLight light,
+                        const MakeOptions& options, std::string& error)
 {
     constexpr Input kWanted = std::is_same_v<Recipe, LightmapRecipe> ? Input::Environment : Input::Panorama;
     const std::string& name = recipe.environment;
@@ -141,10 +156,8 @@ bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, 
     dst.resize(1);
     const Size size = recipe.cfem_params.resolution;
     const Progress progress = step(options, "filter", size.width, size.height);
-    const bool made = stack ? make_cfem_stack(dst, environment, recipe.cfem_params, error, options.threads, progress)
-                            : make_cfem(dst[0], environment, recipe.cfem_params, options.threads, progress);
-    if (!made) {
-        error = format("\"{}\": {}", name, stack ? error : dst[0].geterror());
+    if (!filter(dst, environment, recipe.cfem_params, light, options.threads, progress, error)) {
+        error = format("\"{}\": {}", name, error);
         return false;
     }
     ++stage_counts().cfems_made;
@@ -152,8 +165,8 @@ bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, 
         record_environment(level.specmod(), name);
     tell(options.say, "colour: " + note);
     tell(options.say,
-         format("filter: {}x{} to {}{}x{} in {:.3f} s", width, height, stack ? format("{} of ", dst.size()) : "",
-                size.width, size.height, timer()));
+         format("{}: {}x{} to {}{}x{} in {:.3f} s", light == ModelLight::radiance ? "reduce" : "filter", width, height,
+                dst.size() > 1 ? format("{} of ", dst.size()) : "", size.width, size.height, timer()));
     if (const int mended = dst[0].spec().get_int_attribute("vmlight:sanitized"))
         tell(options.warn,
              format("{} of the environment {} mended", counted(mended, "bad value", "bad values"),
@@ -161,21 +174,22 @@ bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, 
     return true;
 }
 
-bool read_vismap(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+// `model` is the one for the best of light.
+bool read_vismap(OIIO::ImageBuf& dst, ShadingModel& model, const LightmapRecipe& recipe, const MakeOptions& options,
+                 std::string& error)
 {
-    std::array<int, 4> channels;
     if (!read_input(dst, recipe, "vismap", recipe.vismap, Input::Vismap, options, error))
         return false;
-    if (find_model_channels(dst.spec(), recipe.lightmap_params, channels, error))
+    if (find_model(model, recipe.lightmap_params, dst.spec(), true, error))
         return true;
     error = placed(recipe, "vismap", options.chain, format("\"{}\": {}", recipe.vismap, error));
     return false;
 }
 
 // All that a lightmap's light is made from.
-std::string light_of(const LightmapRecipe& recipe)
+std::string light_of(const LightmapRecipe& recipe, const ShadingModel& model)
 {
-    std::string text = lightmap_model(recipe.lightmap_params, true) + "\n";
+    std::string text = format("{}\n", int(model.light));
     LightmapRecipe copy = recipe;
     copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         const std::string key = name;
@@ -185,14 +199,15 @@ std::string light_of(const LightmapRecipe& recipe)
     return text;
 }
 
-// A stack, where the model may use one: an environment is filtered for it, a stored CFEM is one or not.
-bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error)
+// What `model` reads: an environment is filtered for it, a stored CFEM is a stack or not.
+bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const ShadingModel& model,
+                const MakeOptions& options, std::string& error)
 {
     dst.light.clear();
     dst.cfem.clear();
-    const bool wants_stack = lightmap_model(recipe.lightmap_params, true) == "lobe", filtered = !recipe.cfem.empty();
+    const bool wants_stack = model.light != ModelLight::cfem, filtered = !recipe.cfem.empty();
     OIIO::ImageBuf first;
-    if (!filtered && !filter_environment(dst.cfem, recipe, wants_stack, options, error))
+    if (!filtered && !filter_environment(dst.cfem, recipe, model.light, options, error))
         return false;
     if (filtered
         && !read_input(first, recipe, "cfem", recipe.cfem, Input::Cfem, options, error,
@@ -202,10 +217,10 @@ bool read_light(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOpt
         dst.cfem.push_back(std::move(first));
     if (recipe.lightmap_params.model == "auto")
         tell(options.say,
-             !filtered                ? "model: lobe, since the environment is filtered here"
-                 : is_stack(dst.cfem) ? "model: lobe, since the CFEM is a stack"
-                                      : "model: paper, since the CFEM is no stack (makecfem --stack)");
-    dst.light = light_of(recipe);
+             filtered && !is_stack(dst.cfem)
+                 ? "model: paper, since the CFEM is no stack (makecfem --stack)"
+                 : format("model: {}, the best that the visibility map is fit for", model.name));
+    dst.light = light_of(recipe, model);
     return true;
 }
 
@@ -245,7 +260,8 @@ bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& given, cons
 {
     const CfemRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, options.chain);
-    if (!error.empty() || !filter_environment(dst, recipe, recipe.stack, options, error))
+    if (!error.empty()
+        || !filter_environment(dst, recipe, recipe.stack ? ModelLight::lobes : ModelLight::cfem, options, error))
         return false;
     for (OIIO::ImageBuf& level : dst)
         tag_udim(level.specmod(), recipe.udim);
@@ -302,8 +318,9 @@ bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& given, cons
     dst.vismap.reset();
     dst.albedo.reset();
     // The visibility map first, before an environment is filtered in vain.
-    return error.empty() && read_vismap(dst.vismap, recipe, options, error)
-        && (dst.light == light_of(recipe) || read_light(dst, recipe, options, error))
+    ShadingModel model;
+    return error.empty() && read_vismap(dst.vismap, model, recipe, options, error)
+        && (dst.light == light_of(recipe, model) || read_light(dst, recipe, model, options, error))
         && (recipe.albedo.empty() || read_albedo(dst.albedo, recipe, options, error));
 }
 

@@ -45,7 +45,8 @@ double dot(const float* a, const float* b)
     return double(a[1]) * b[1] + double(a[2]) * b[2] + double(a[3]) * b[3];
 }
 
-void average_neighbours(float* pixels, int channels, int filled_channels, const Coverage& coverage, const Texel& t)
+void average_neighbours(float* pixels, int channels, const MarginChannels& which, const Coverage& coverage,
+                        const Texel& t)
 {
     const auto at = [&](const Texel& n) {
         return pixels + (size_t(n.y) * size_t(coverage.width()) + size_t(n.x)) * size_t(channels);
@@ -68,7 +69,8 @@ void average_neighbours(float* pixels, int channels, int filled_channels, const 
         return product < 0 || 4 * product * product < 3 * dot(texel, texel) * dot(leader, leader);
     };
     const auto end = std::remove_if(filled.begin(), filled.begin() + count, looks_elsewhere);
-    for (int c = 0; c < filled_channels; ++c) {
+    std::copy_n(leader + which.averaged, which.copied, at(t) + which.averaged);
+    for (int c = 0; c < which.averaged; ++c) {
         double sum = 0;
         for (auto texel = filled.begin(); texel != end; ++texel)
             sum += double((*texel)[c]);
@@ -86,7 +88,7 @@ Coverage::Coverage(int width, int height)
 {
 }
 
-void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, int filled_channels)
+void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, const MarginChannels& filled)
 {
     std::vector<Texel> front = rim(coverage), next;
     Coverage queued = coverage;
@@ -100,7 +102,7 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, int
                 }
             });
         for (const Texel& t : next)
-            average_neighbours(pixels, channels, filled_channels, coverage, t);
+            average_neighbours(pixels, channels, filled, coverage, t);
         // Only now, so that a ring does not depend on the order within it.
         for (const Texel& t : next)
             coverage.set(t.x, t.y);

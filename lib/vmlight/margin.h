@@ -32,11 +32,20 @@ private:
     std::vector<uint64_t> m_words;
 };
 
-/// Grow `coverage` by `rings` texels (less than 0: until all is filled), setting the first `filled_channels` (four or
-/// more) of each texel that is gained to the mean of those among its eight neighbours that were filled before its ring
+/// Which channels of a texel a margin has, from the first on.
+struct MarginChannels
+{
+    int averaged = 4; ///< four or more: V and B come first
+    int copied = 0; ///< those that follow, of which no mean can be taken
+};
+
+/// Grow `coverage` by `rings` texels (less than 0: until all is filled), setting the averaged channels of each texel
+/// that is gained to the mean of those among its eight neighbours that were filled before its ring
 /// and whose direction (the second to the fourth) lies within 30 degrees of the longest. Values stay within the convex
-/// hull of the covered ones, so that |B| <= V holds in the margin too. Cost grows with the texels filled. `pixels` has
-/// `channels` floats a texel, rows without padding.
-VMLIGHT_API void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, int filled_channels = 4);
+/// hull of the covered ones, so that |B| <= V holds in the margin too. The copied channels are those of the neighbour
+/// with the longest direction. Cost grows with the texels filled. `pixels` has `channels` floats a texel, rows without
+/// padding.
+VMLIGHT_API void fill_margin(float* pixels, int channels, Coverage& coverage, int rings,
+                             const MarginChannels& filled = {});
 
 } // namespace vmlight

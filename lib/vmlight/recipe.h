@@ -64,7 +64,8 @@ struct CfemRecipe
         field("environment", environment, Path {}, "The lat-long map to filter");
         field("colorspace", colorspace, Text {}, "Colour space of the environment, if its name and tags do not tell");
         field("colorconfig", colorconfig, Path {}, "OCIO config; without it $OCIO");
-        field("stack", stack, Flag {}, "Add lobes wider and narrower than the cosine, for the model lobe");
+        field("stack", stack, Flag {},
+              "Add lobes wider and narrower than the cosine, and the environment itself: for all models");
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile: what <UDIM> in a name stands for");
         cfem_params.visit(field);
     }

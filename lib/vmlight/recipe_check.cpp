@@ -11,6 +11,8 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "flat normals have no creases";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
         return "width and height take its place";
+    if (key == "order" && recipe.vismap_params.basis != "sh")
+        return "only the basis sh has bands";
     return "";
 }
 

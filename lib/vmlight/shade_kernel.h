@@ -6,8 +6,10 @@
 /// on every machine with IEEE division and square root.
 #pragma once
 
+#include <vmlight/cell_light.h>
 #include <vmlight/cfem_lookup.h>
 #include <vmlight/export.h>
+#include <vmlight/harmonic_light.h>
 #include <vmlight/lobe_lookup.h>
 
 #include <cmath>
@@ -32,6 +34,9 @@ struct ShadeSetup
     float gain;
     /// What the model `lobe` looks up, in place of the CFEM.
     const LobeLookup* lobes = nullptr;
+    /// What `sh`, and `mask` and `cells`, sum in its place; turned already.
+    const HarmonicLight* harmonics = nullptr;
+    const CellLight* cells = nullptr;
 };
 
 /// A texel whose direction has no component of this many times its visibility has none: what it sees is symmetric.
@@ -64,6 +69,25 @@ VMLIGHT_API bool shade_lobe(const ShadeSetup& setup, VismapOrder order, const fl
 /// The same, one texel at a time.
 VMLIGHT_API bool shade_lobe_scalar(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
                                    float* rgb);
+
+/// Shade by the model `sh`: gain max(0, sum_i T_i c_i), where T are the order^2 numbers of a texel, V, B and the
+/// harmonics from l = 2 on of (1/pi) vis(w) max(0, n.w), and c the light's (harmonic_light.h). Linear in the texel but
+/// for the clamp, which bands that are left out call for. `order` means nothing here: V comes first.
+/// Source: P.-P. Sloan, J. Kautz, J. Snyder, "Precomputed Radiance Transfer for Real-Time Rendering in Dynamic,
+/// Low-Frequency Lighting Environments", 2002, section 4.
+VMLIGHT_API bool shade_harmonics(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
+                                 float* rgb);
+
+/// Shade by the models `mask` and `cells`: gain V times the mean of the light that is seen,
+///     mean + (n . sum_k f_k Int_k (L - mean) w dw) / (n . sum_k f_k Int_k w dw),
+/// where k runs over the columns' intervals or the cells (packed_visibility.h), and f is how much of each is seen. The
+/// ratio makes V, which is known best, tell how much is seen, and the rest only which part of the sky. Where what is
+/// seen lies so near to the horizon that the weight n . sum is no more to be trusted (below a fifth of the sum's
+/// length), n gives way to the sum's own direction. `vismap` has V, B, n and the packed numbers, in this order; a
+/// number that is not whole, or not in [0, 2^24), counts as 0 and makes the result false.
+VMLIGHT_API bool shade_mask(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb);
+VMLIGHT_API bool shade_cells(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
+                             float* rgb);
 
 /// atan(a) / (2 pi) = a (c0 + c1 a^2 + ...) for a in [0, 1]: minimax, off by at most 6e-9.
 constexpr float kAtanTurns[8] = { 0.159154832f,  -0.0530461222f,  0.0317459442f,  -0.022136271f,

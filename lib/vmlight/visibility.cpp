@@ -5,7 +5,7 @@ namespace vmlight {
 
 using Imath::V3d;
 
-Visibility Eye::see(SurfacePoint point, int x, int y)
+Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
 {
     const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
     m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
@@ -17,11 +17,16 @@ Visibility Eye::see(SurfacePoint point, int x, int y)
         all = sum_directions(m_fan, point.normal);
     }
     m_rays += all.rays;
+    basis = m_basis.count() > 0 ? basis : nullptr;
+    if (basis)
+        m_asked = m_fan.lanes;
     m_occluder.clear_blocked(m_fan, point.origin, m_length);
     const DirectionSums seen = sum_directions(m_fan, point.normal);
 
     Visibility result;
     result.visibility = double(seen.rays) / double(all.rays);
+    if (basis)
+        m_basis.project(m_fan, m_asked, all.rays == m_pattern.count(), point.normal, result.visibility, basis);
     if (seen.rays == 0)
         return result;
     if (m_params.measure == "uniform") {

@@ -5,10 +5,12 @@
 #include <vmlight/occluder.h>
 #include <vmlight/sampling.h>
 #include <vmlight/surface.h>
+#include <vmlight/visibility_basis.h>
 #include <vmlight/vismap.h>
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace vmlight {
 
@@ -30,11 +32,12 @@ public:
         , m_length(params.max_distance > 0 ? float(params.max_distance * scale)
                                            : std::numeric_limits<float>::infinity())
         , m_fan(pattern.count())
+        , m_basis(params)
     {
     }
 
-    /// What `point`, the centre of texel (x, y), sees.
-    Visibility see(SurfacePoint point, int x, int y);
+    /// What `point`, the centre of texel (x, y), sees. `basis` is set to the numbers of basis_channels().
+    Visibility see(SurfacePoint point, int x, int y, float* basis = nullptr);
 
     /// Traced so far.
     int64_t rays() const { return m_rays; }
@@ -45,6 +48,8 @@ private:
     const VismapParams& m_params;
     float m_length;
     RayFan m_fan;
+    VisibilityBasis m_basis;
+    std::vector<uint8_t> m_asked;
     int64_t m_rays = 0;
 };
 

@@ -59,7 +59,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (!baker.bake_all(pixels, coverage, baked, nthreads, progress))
         return fail(dst, "interrupted");
     counts.bake_seconds = timer.lap();
-    fill_margin(pixels, spec.nchannels, coverage, params.margin, baker.filled_channels());
+    fill_margin(pixels, spec.nchannels, coverage, params.margin, baker.margin_channels());
     counts.margin_seconds = timer.lap();
 
     counts.texels = int64_t(spec.width) * spec.height;

@@ -30,6 +30,8 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
     std::vector<std::string> names(kVismapChannels.begin(), kVismapChannels.end());
     if (params.has("normal"))
         names.insert(names.end(), kNormalChannels.begin(), kNormalChannels.end());
+    const std::vector<std::string> basis = basis_channels(params);
+    names.insert(names.end(), basis.begin(), basis.end());
     if (params.has("coverage"))
         names.push_back(kCoverageChannel);
     OIIO::ImageSpec spec(width_of(params), height_of(params), int(names.size()), OIIO::TypeDesc::FLOAT);
@@ -60,6 +62,7 @@ struct VismapBaker::Scene
         , params(the_params)
         , has_normal(params.has("normal"))
         , has_coverage(params.has("coverage"))
+        , basis_count(int(basis_channels(params).size()))
         , pattern(params.sampler, params.samples, params.measure == "uniform")
         , raster(shared->mesh(), width_of(params), height_of(params), params.udim)
     {
@@ -67,6 +70,7 @@ struct VismapBaker::Scene
     const BakeScenePointer shared;
     const VismapParams params;
     const bool has_normal, has_coverage;
+    const int basis_count;
     const SamplePattern pattern;
     const UvRaster raster;
 };
@@ -96,6 +100,10 @@ bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, st
 {
     if (!check_params(params, error))
         return false;
+    if (params.basis != "vector" && params.measure != "cosine") {
+        error = "basis: " + params.basis + " goes with the measure cosine, not with " + params.measure;
+        return false;
+    }
     m_scene = std::make_unique<Scene>(std::move(scene), params);
     return true;
 }
@@ -120,12 +128,18 @@ int VismapBaker::height() const
 
 int VismapBaker::channels() const
 {
-    return filled_channels() + (m_scene->has_coverage ? 1 : 0);
+    return before_basis() + m_scene->basis_count + (m_scene->has_coverage ? 1 : 0);
 }
 
-int VismapBaker::filled_channels() const
+int VismapBaker::before_basis() const
 {
     return m_scene->has_normal ? 7 : 4;
+}
+
+MarginChannels VismapBaker::margin_channels() const
+{
+    return is_linear_basis(m_scene->params) ? MarginChannels { before_basis() + m_scene->basis_count, 0 }
+                                            : MarginChannels { before_basis(), m_scene->basis_count };
 }
 
 int VismapBaker::tiles_across() const
@@ -168,7 +182,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
     if (!cover.covered)
         return counts;
     const int tile_x = tile % tiles_across() * kTileSize, tile_y = tile / tiles_across() * kTileSize;
-    const int channel_count = channels();
+    const int channel_count = channels(), basis_at = before_basis();
     const int64_t rays_before = scratch.eye.rays();
     // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).
     for (int i = 0; i < kTileSize * kTileSize; ++i) {
@@ -178,9 +192,9 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         if (triangle == TileCover::kNone)
             continue;
         const SurfacePoint point = scratch.surface.at(triangle, cover.weight1[texel], cover.weight2[texel]);
-        const Visibility seen = scratch.eye.see(point, tile_x + x, tile_y + y);
-        counts.dark += seen.visibility < 0.01;
         float* out = texels + size_t(y) * pitch + size_t(x) * channel_count;
+        const Visibility seen = scratch.eye.see(point, tile_x + x, tile_y + y, out + basis_at);
+        counts.dark += seen.visibility < 0.01;
         out[0] = float(seen.visibility);
         for (int c = 0; c < 3; ++c)
             out[1 + c] = float(seen.direction[c]);

@@ -64,8 +64,8 @@ public:
     VMLIGHT_API int width() const;
     VMLIGHT_API int height() const;
     VMLIGHT_API int channels() const;
-    /// How many of them, from the first on, the margin has too.
-    VMLIGHT_API int filled_channels() const;
+    /// How many of them the margin has too.
+    VMLIGHT_API MarginChannels margin_channels() const;
     VMLIGHT_API int tiles_across() const;
     VMLIGHT_API int tiles_down() const;
     VMLIGHT_API const UvReport& uv_report() const;
@@ -93,6 +93,8 @@ public:
                               const Progress& progress = {}) const;
 
 private:
+    int before_basis() const;
+
     struct Scene;
     std::unique_ptr<Scene> m_scene;
 };

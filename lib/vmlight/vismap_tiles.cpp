@@ -143,7 +143,7 @@ MapTilePointer VismapTiles::filled(int tile)
             any |= add_tile(window, y * m_baker.tiles_across() + x, *scratch);
     if (!any)
         return result;
-    fill_margin(window.texels.data(), window.channels, window.covered, m_margin, m_baker.filled_channels());
+    fill_margin(window.texels.data(), window.channels, window.covered, m_margin, m_baker.margin_channels());
     const size_t pitch = size_t(kTileSize) * window.channels;
     result->texels.resize(pitch * kTileSize);
     for (int y = own.ybegin; y < own.yend; ++y)
@@ -161,7 +161,7 @@ MapTilePointer VismapTiles::copied(int tile)
             Coverage covered(m_baker.width(), m_baker.height());
             BakeCounts counts;
             m_baker.bake_all(map.data(), covered, counts, 0);
-            fill_margin(map.data(), m_baker.channels(), covered, m_margin, m_baker.filled_channels());
+            fill_margin(map.data(), m_baker.channels(), covered, m_margin, m_baker.margin_channels());
             stage_counts().tiles_baked += counts.tiles;
             m_map.swap(map);
             return true;

@@ -192,7 +192,7 @@ TEST(Margin, FurtherChannelsMayBeFilledByTheSameNeighbours)
     image.cover(2, 1, { 1, 0, 0, -0.25f }); // looks away from the first
     for (int x : { 0, 2 })
         image.at(x, 1)[4] = float(x + 1);
-    fill_margin(image.pixels.data(), 6, image.coverage, 1, 5);
+    fill_margin(image.pixels.data(), 6, image.coverage, 1, { 5, 0 });
     EXPECT_EQ(image.at(1, 1)[3], 0.5f);
     EXPECT_EQ(image.at(1, 1)[4], 1);
     EXPECT_EQ(image.at(3, 1)[4], 3);
