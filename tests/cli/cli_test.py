@@ -418,13 +418,47 @@ class Light(Case):
         self.done("makelightmap", "vm.exr", "cfem.exr", "-o", "b.exr")
         self.assert_same_pixels("a.exr", "b.exr", 0)
 
+    def test_a_basis_lights_by_the_model_of_its_name(self):
+        self.done("makecfem", SKY, "--stack", "-o", "stack.exr")
+        for basis, channels, floats in (("sh", "sh.24", 25), ("mask", "mask.10", 18), ("cells", "cells.11", 19)):
+            words = SPOT, "--resolution", "64", "--samples", "32", "--basis", basis
+            self.done("makevismap", *words, "-o", basis + ".exr")
+            info = self.oiiotool("--info", "-v", basis + ".exr")
+            self.assertIn(channels, info)
+            self.assertIn(f"{floats} channel", info)
+            told = self.done("makelightmap", basis + ".exr", "stack.exr", "--rotate", "0,30,0", "-o", "a.exr")
+            self.assertIn(f"model: {basis}, the best that the visibility map is fit for", told)
+            told = self.done("makelightmap", basis + ".exr", SKY, "--rotate", "0,30,0", "-o", "b.exr")
+            self.assertIn("reduce: 512x256 to 256x128", told)  # no lobe is filtered that is not looked up
+            self.assertNotIn("filter:", told)
+            self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+            # Live, from recipes: the same bytes.
+            self.file(basis + ".vismap", self.done("makevismap", *words, "--print-recipe").encode())
+            self.file("x.lightmap", self.done("makelightmap", basis + ".vismap", SKY, "--rotate", "0,30,0",
+                                              "--print-recipe").encode())
+            self.done("makelightmap", "x.lightmap", "-o", "c.exr")
+            self.assertEqual(self.read("a.exr"), self.read("c.exr"))
+            if basis == "sh":
+                self.done("makevismap", *words, "--order", "3", "--format", "half", "-o", "half.exr")
+                self.done("makelightmap", "half.exr", "stack.exr", "-o", "x.exr")
+            else:
+                self.refused(1, "holds whole numbers below 2^24, of which half keeps those to 2048: write float",
+                             "makevismap", *words, "--format", "half", "-o", "half.exr")
+            self.oiiotool(basis + ".exr", "--resize", "32x32", "-o", "small.exr")
+            if basis != "sh":
+                self.refused(1, "whole numbers below 2^24 any more", "makelightmap", "small.exr", "stack.exr", "-o",
+                             "x.exr")
+        self.refused(2, "only the basis sh has bands", "makevismap", SPOT, "--order", "4", "-o", "x.exr")
+        self.refused(1, "basis: mask goes with the measure cosine, not with uniform", "makevismap", SPOT, "--basis",
+                     "mask", "--measure", "uniform", "-o", "x.exr")
+
     def test_a_stack_lights_by_lobes(self):
         self.vismap()
         self.done("makecfem", SKY, "-o", "cfem.exr")
-        self.assertIn("to 9 of 256x128", self.done("makecfem", SKY, "--stack", "-o", "stack.exr"))
-        self.assertIn("model: lobe, since the CFEM is a stack", self.done("makelightmap", "vm.exr", "stack.exr", "-o",
+        self.assertIn("to 10 of 256x128", self.done("makecfem", SKY, "--stack", "-o", "stack.exr"))
+        self.assertIn("model: lobe, the best that the visibility map is fit for", self.done("makelightmap", "vm.exr", "stack.exr", "-o",
                                                                           "stack_lit.exr"))
-        self.assertIn("model: lobe, since the environment is filtered here",
+        self.assertIn("model: lobe, the best that the visibility map is fit for",
                       self.done("makelightmap", "vm.exr", SKY, "-o", "env_lit.exr"))
         self.assertIn("model: paper, since the CFEM is no stack", self.done("makelightmap", "vm.exr", "cfem.exr", "-o",
                                                                             "paper_lit.exr"))

@@ -15,7 +15,7 @@ std::vector<OIIO::ImageBuf> stack(const OIIO::ImageBuf& env, int width = 32, int
     std::vector<OIIO::ImageBuf> levels;
     std::string error;
     EXPECT_TRUE(make_cfem_stack(levels, env, exact(width, width / 2), error, nthreads)) << error;
-    EXPECT_EQ(int(levels.size()), kStackLevels);
+    EXPECT_EQ(int(levels.size()), kStackImages);
     return levels;
 }
 

@@ -195,8 +195,8 @@ TEST(LightmapModel, AoLooksAlongTheNormal)
     EXPECT_TRUE(same_bits(lit(vm, stack, model("ao")), lit(vm, stack[0], model("ao"))));
 
     EXPECT_EQ(refusal(directions, map, model("ao")),
-              "no channel \"normal.x\" among visibility, direction.x, direction.y, direction.z: the model ao needs the "
-              "normals that makevismap --channels normal bakes");
+              "no channel \"normal.x\" among visibility, direction.x, direction.y, direction.z: the model ao needs "
+              "what makevismap --channels normal bakes");
     pixels(vm)[7 * 3 + 1] = NAN;
     EXPECT_EQ(refusal(vm, map, model("ao")),
               "visibility map has 1 value that is not finite, at pixel (3, 0) channel \"normal.y\"");

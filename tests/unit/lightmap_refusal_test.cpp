@@ -101,7 +101,8 @@ TEST(LightmapRefusal, ParametersAreChecked)
 {
     LightmapParams params;
     params.model = "radiosity";
-    EXPECT_EQ(refusal(kVismap, kCfem, params), "model: \"radiosity\" is not one of auto, ao, paper, lobe");
+    EXPECT_EQ(refusal(kVismap, kCfem, params),
+              "model: \"radiosity\" is not one of auto, ao, paper, lobe, sh, mask, cells");
     params = {};
     params.rotate = { 1, 2 };
     EXPECT_EQ(refusal(kVismap, kCfem, params), "rotate: \"1,2\" has 2 numbers, 3 are needed");

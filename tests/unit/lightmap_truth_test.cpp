@@ -81,21 +81,25 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
     bake.samples = 1024;
     bake.margin = 0;
     bake.channels = { "normal" };
-    ImageBuf vm;
-    ASSERT_TRUE(make_vismap(vm, mesh, { ground }, bake)) << vm.geterror();
+    const char* const models[] = { "ao", "paper", "lobe", "sh", "mask", "cells" };
+    constexpr int kModels = 6;
+    ImageBuf vm[kModels];
+    for (int m = 0; m < kModels; ++m) {
+        bake.basis = m < 3 ? "vector" : models[m];
+        ASSERT_TRUE(make_vismap(vm[m], mesh, { ground }, bake)) << vm[m].geterror();
+    }
 
     Truth truth(mesh, ground);
-    const char* const models[] = { "ao", "paper", "lobe" };
-    double error_of[3] = {};
+    double error_of[kModels] = {};
     for (const std::string name : { "studio_small_03.hdr", "kloppenheim_05.hdr" }) {
         const ImageBuf whole(std::string(VMLIGHT_TEST_DATA "/") + name);
         const ImageBuf sky = OIIO::ImageBufAlgo::resize(
             whole, "box", 0, OIIO::ROI(0, kEnvironmentWidth, 0, kEnvironmentWidth / 2, 0, 1, 0, 3));
         const std::vector<ImageBuf> stack = filtered_stack(sky, 128);
-        ImageBuf image[3];
-        for (int m = 0; m < 3; ++m)
-            image[m] = lit(vm, stack, model(models[m]));
-        double mean = 0, square[3] = {};
+        ImageBuf image[kModels];
+        for (int m = 0; m < kModels; ++m)
+            image[m] = lit(vm[m], stack, model(models[m]));
+        double mean = 0, square[kModels] = {};
         int count = 0;
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {
@@ -103,11 +107,11 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
                     continue;
                 const double light = truth.light(x, y, sky);
                 mean += light;
-                for (int m = 0; m < 3; ++m)
+                for (int m = 0; m < kModels; ++m)
                     square[m] += std::pow(color(image[m], x, y).y - light, 2);
                 ++count;
             }
-        for (int m = 0; m < 3; ++m) {
+        for (int m = 0; m < kModels; ++m) {
             const double error = std::sqrt(square[m] * count) / mean;
             RecordProperty(models[m] + ("_" + name), std::to_string(error));
             error_of[m] += error;
@@ -115,4 +119,7 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
     }
     EXPECT_LT(error_of[1], error_of[0]) << "paper against ao";
     EXPECT_LT(error_of[2], 0.8 * error_of[1]) << "lobe against paper";
+    EXPECT_LT(error_of[3], 0.55 * error_of[1]) << "sh against paper";
+    for (int m = 4; m < kModels; ++m)
+        EXPECT_LT(error_of[m], 0.4 * error_of[1]) << models[m] << " against paper";
 }

@@ -100,9 +100,9 @@ TEST(StageInput, LevelsOfAStackAreSubimages)
     const Work before;
     EXPECT_EQ(input->current_subimage(), 0);
     EXPECT_EQ(input->spec(8).get_float_attribute("vmlight:lobe"), float(stack_lobe(8)));
-    EXPECT_TRUE(input->spec(9).undefined());
+    EXPECT_TRUE(input->spec(10).undefined());
     EXPECT_TRUE(input->spec(0, 1).undefined());
-    EXPECT_FALSE(input->seek_subimage(9, 0));
+    EXPECT_FALSE(input->seek_subimage(10, 0));
     EXPECT_FALSE(input->seek_subimage(0, 1));
     EXPECT_TRUE(input->seek_subimage(3, 0));
     EXPECT_EQ(input->current_subimage(), 3);
@@ -117,16 +117,16 @@ TEST(StageInput, LevelsOfAStackAreSubimages)
     recipe.stack = true;
     ASSERT_TRUE(make_images(levels, recipe, {}, error)) << error;
     const Work made;
-    for (int level = 8; level >= 0; --level) {
+    for (int level = 9; level >= 0; --level) {
         std::vector<float> pixels(32 * 16 * 3);
         ASSERT_TRUE(input->read_image(level, 0, 0, 3, OIIO::TypeFloat, pixels.data())) << input->geterror();
         EXPECT_EQ(pixels, all_pixels(levels[size_t(level)])) << level;
     }
     EXPECT_EQ((Work() - made).cfems_made, 1);
     std::vector<float> tile(64 * 64 * 3);
-    EXPECT_FALSE(input->read_native_tile(9, 0, 0, 0, 0, tile.data()));
+    EXPECT_FALSE(input->read_native_tile(10, 0, 0, 0, 0, tile.data()));
     EXPECT_NE(input->geterror(), "");
-    EXPECT_EQ(ImageBuf(folder / "studio.cfem?stack=true").nsubimages(), 9);
+    EXPECT_EQ(ImageBuf(folder / "studio.cfem?stack=true").nsubimages(), kStackImages);
 }
 
 TEST(StageInput, AChangedInputIsReadAnew)

@@ -110,6 +110,29 @@ TEST(VismapTiles, NormalsAreThoseOfTheWholeMapInTheMarginToo)
         }
 }
 
+TEST(VismapTiles, EachBasisIsThatOfTheWholeMapInTheMarginToo)
+{
+    for (const auto& [basis, channels] : { std::pair { "sh", 10 }, { "mask", 19 }, { "cells", 20 } })
+        for (int margin : { 0, 16, -1 }) {
+            VismapParams params = quick(200, 130, margin);
+            params.basis = basis;
+            params.order = 3;
+            params.channels = { "coverage" };
+            VismapBaker baker;
+            std::string error;
+            ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+            EXPECT_EQ(baker.channels(), channels);
+            VismapTiles tiles(baker, params.margin);
+            const std::vector<float> whole = whole_map(params);
+            EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole) << basis << " " << margin;
+            // A margin of packed numbers is copied, so that they stay whole.
+            for (size_t i = 0; i < whole.size(); ++i)
+                if (basis != std::string("sh") && i % size_t(channels) >= 7) {
+                    ASSERT_EQ(whole[i], std::floor(whole[i])) << i;
+                }
+        }
+}
+
 TEST(VismapTiles, ACacheWithoutRoomCostsTimeAndNoBit)
 {
     VismapTiles::set_cache_limit(1);
