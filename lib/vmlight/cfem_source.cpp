@@ -5,6 +5,7 @@
 #include <vmlight/channels.h>
 #include <vmlight/color.h>
 #include <vmlight/once_cache.h>
+#include <vmlight/radiance.h>
 #include <vmlight/recipe_udim.h>
 #include <vmlight/stage_counts.h>
 #include <vmlight/stored_image.h>
@@ -60,29 +61,49 @@ public:
     bool read(OIIO::ROI roi, float* dst, std::string& error) override { return read_of(0, roi, dst, error); }
     bool read_of(int subimage, OIIO::ROI roi, float* dst, std::string& error) override
     {
-        if (!m_make.run([&](std::string& reason) { return make(reason); }, error))
+        // The environment itself takes no filter: who reads it alone pays for it alone.
+        const bool radiance = subimage == kStackLevels;
+        Once& once = radiance ? m_reduce : m_make;
+        if (!once.run([&](std::string& reason) { return radiance ? reduce(reason) : make(reason); }, error))
             return false;
         // By hand: get_pixels() waits for OIIO's pool, and the caller may hold a lock.
-        const auto* pixels = static_cast<const float*>(m_cfem[size_t(subimage)].localpixels());
+        const auto* pixels
+            = static_cast<const float*>((radiance ? m_radiance : m_cfem[size_t(subimage)]).localpixels());
         const size_t row = 3 * size_t(roi.width());
         for (int y = roi.ybegin; y < roi.yend; ++y, dst += row)
             std::copy_n(pixels + 3 * (size_t(y) * m_spec.width + size_t(roi.xbegin)), row, dst);
         return true;
     }
 
-    bool failed() const override { return m_make.failed(); }
+    bool failed() const override { return m_make.failed() || m_reduce.failed(); }
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
+    bool open(OIIO::ImageBuf& environment, std::string& error)
+    {
+        std::string note;
+        return read_all(environment, *m_environment, error)
+            && to_scene_linear(environment, m_recipe.environment, m_color, note, error, 1);
+    }
+
+    bool reduce(std::string& error)
+    {
+        OIIO::ImageBuf environment;
+        if (!open(environment, error))
+            return false;
+        if (make_radiance(m_radiance, environment, m_recipe.cfem_params, error))
+            return true;
+        error = format("\"{}\": {}", m_recipe.environment, error);
+        return false;
+    }
+
     bool make(std::string& error)
     {
         OIIO::ImageBuf environment;
-        std::string note;
-        if (!read_all(environment, *m_environment, error)
-            || !to_scene_linear(environment, m_recipe.environment, m_color, note, error, 1))
+        if (!open(environment, error))
             return false;
         m_cfem.resize(1);
-        const bool made = m_recipe.stack ? make_cfem_stack(m_cfem, environment, m_recipe.cfem_params, error)
+        const bool made = m_recipe.stack ? make_lobes(m_cfem, environment, m_recipe.cfem_params, error)
                                          : make_cfem(m_cfem[0], environment, m_recipe.cfem_params);
         if (!made) {
             error = format("\"{}\": {}", m_recipe.environment, m_recipe.stack ? error : m_cfem[0].geterror());
@@ -95,9 +116,10 @@ private:
     const CfemRecipe m_recipe;
     const PixelSourcePointer m_environment;
     const ColorSettings m_color;
-    Once m_make;
+    Once m_make, m_reduce;
     std::vector<OIIO::ImageSpec> m_specs; // one, or one a level of the stack
     std::vector<OIIO::ImageBuf> m_cfem;
+    OIIO::ImageBuf m_radiance;
 };
 
 } // namespace

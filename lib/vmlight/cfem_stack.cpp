@@ -46,8 +46,22 @@ OIIO::ImageSpec describe_cfem_level(const OIIO::ImageSpec& env, const CfemParams
 bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
                      std::string& error, int nthreads, const Progress& progress)
 {
+    OIIO::ImageBuf radiance;
+    std::vector<OIIO::ImageBuf> images;
     dst.clear();
-    std::vector<OIIO::ImageBuf> levels(kStackImages);
+    if (!make_lobes(images, env, params, error, nthreads, share(progress, 0, 0.95))
+        || !make_radiance(radiance, env, params, error, share(progress, 0.95, 1)))
+        return false;
+    dst = std::move(images);
+    dst.push_back(std::move(radiance));
+    return true;
+}
+
+bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
+                std::string& error, int nthreads, const Progress& progress)
+{
+    dst.clear();
+    std::vector<OIIO::ImageBuf> levels(kStackLevels);
     if (!make_cfem(levels[0], env, params, nthreads, share(progress, 0, 0.5))) {
         error = levels[0].geterror();
         return false;
@@ -88,8 +102,6 @@ bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env
         if (!keep(level, rgb))
             return false;
     }
-    if (!make_radiance(levels[kStackLevels], env, params, error))
-        return false;
     dst = std::move(levels);
     return true;
 }

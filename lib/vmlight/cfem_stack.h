@@ -61,6 +61,10 @@ VMLIGHT_API double power_lobe_eigenvalue(int l, double s);
 VMLIGHT_API bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
                                  std::string& error, int nthreads = 0, const Progress& progress = {});
 
+/// The images of a stack but the last.
+VMLIGHT_API bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
+                            std::string& error, int nthreads = 0, const Progress& progress = {});
+
 /// What make_cfem_stack() would make of an environment with this spec, by the level.
 VMLIGHT_API OIIO::ImageSpec describe_cfem_level(const OIIO::ImageSpec& env, const CfemParams& params, int level);
 

@@ -406,7 +406,7 @@ class Light(Case):
         self.done("makevismap", SPOT, "-o", "vm.exr", "--resolution", "64", "--samples", "16")
         self.done("makecfem", SKY, "-o", "cfem.exr", "--resolution", "64")
         words = ["cfem.exr", "--model", "ao", "-o", "lit.exr"]
-        self.refused(1, "the model ao needs the normals that makevismap --channels normal bakes", "makelightmap", "vm.exr",
+        self.refused(1, "the model ao needs what makevismap --channels normal bakes", "makelightmap", "vm.exr",
                      *words)
         self.assertFalse(os.path.exists(self.path("lit.exr")))
         self.done("makevismap", SPOT, "-o", "vmn.exr", "--resolution", "64", "--samples", "16", "--channels", "normal")
@@ -421,7 +421,7 @@ class Light(Case):
     def test_a_basis_lights_by_the_model_of_its_name(self):
         self.done("makecfem", SKY, "--stack", "-o", "stack.exr")
         for basis, channels, floats in (("sh", "sh.24", 25), ("mask", "mask.10", 18), ("cells", "cells.11", 19)):
-            words = SPOT, "--resolution", "64", "--samples", "32", "--basis", basis
+            words = os.path.join(SOURCE, "tests/data/gazebo.obj"), "--resolution", "64", "--samples", "32", "--basis", basis
             self.done("makevismap", *words, "-o", basis + ".exr")
             info = self.oiiotool("--info", "-v", basis + ".exr")
             self.assertIn(channels, info)

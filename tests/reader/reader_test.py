@@ -88,7 +88,7 @@ class Pixels(Case):
         self.make("makecfem", "studio_small_03.hdr", "-o", "stack.exr", "--resolution", "64", "--stack")
         self.make("makelightmap", "vm.exr", "stack.exr", "-o", "lobe.exr", "--rotate", "0,30,0", "--model", "lobe")
         info = self.done("oiiotool", "--info", "-v", "-a", "studio.cfem?stack=true")
-        self.assertIn("9 subimages", info)
+        self.assertIn("10 subimages", info)
         self.assertIn("vmlight:lobe: 0.5", info)
         self.done("oiiotool", "studio.cfem?stack=true", "-o", "converted.exr")
         self.done("oiiotool", "-a", "converted.exr", "stack.exr", "--fail", "0", "--diff")
