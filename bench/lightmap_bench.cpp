@@ -8,8 +8,9 @@
 #include <vmlight/cfem_stack.h>
 #include <vmlight/channels.h>
 #include <vmlight/latlong.h>
-#include <vmlight/lightmap.h>
+#include <vmlight/lightmap_shader.h>
 #include <vmlight/shade_kernel.h>
+#include <vmlight/vismap.h>
 
 #include <benchmark/benchmark.h>
 
@@ -140,6 +141,81 @@ void lobe_against_paper(benchmark::State& state)
     state.counters["times_paper"] = best(lobe) / best(paper);
 }
 
+struct Model
+{
+    const char *name, *basis;
+    int order;
+};
+constexpr Model kModels[]
+    = { { "ao", "vector", 5 }, { "lobe", "vector", 5 }, { "sh", "sh", 4 },     { "sh", "sh", 5 },
+        { "sh", "sh", 6 },     { "sh", "sh", 8 },       { "mask", "mask", 5 }, { "cells", "cells", 5 } };
+
+// Texels of a baked mesh, as the model's kernel reads them: what the mesh covers, again and again.
+std::vector<float> baked_texels(const Model& model, const LightmapParams& params, ShadingModel& found)
+{
+    Mesh mesh;
+    std::string error;
+    VismapParams bake;
+    bake.samples = 64;
+    bake.margin = 0;
+    bake.basis = model.basis;
+    bake.order = model.order;
+    bake.channels = { "normal", "coverage" };
+    ImageBuf image;
+    if (!read_mesh(mesh, VMLIGHT_BENCH_MESH, {}, error) || !make_vismap(image, mesh, {}, bake)
+        || !find_model(found, params, image.spec(), true, error))
+        return {};
+    const float* texel = static_cast<const float*>(image.localpixels());
+    std::vector<float> texels;
+    for (size_t i = 0; i < kTexels; ++i, texel += image.nchannels())
+        for (size_t c = 0; c < found.channels.size() && texel[image.nchannels() - 1] > 0; ++c)
+            texels.push_back(texel[image.spec().channelindex(found.channels[c])]);
+    const size_t once = texels.size();
+    for (size_t i = 0; texels.size() < kTexels * found.channels.size(); ++i)
+        texels.push_back(texels[i % once]);
+    return texels;
+}
+
+// The kernels of the models in turn with that of `paper`, on one thread, over the texels of a mesh.
+void model_against_paper(benchmark::State& state)
+{
+    const Model& model = kModels[state.range(0)];
+    LightmapParams params, paper_params;
+    params.model = model.name;
+    paper_params.model = "paper";
+    params.rotate = paper_params.rotate = { 20, 35, -50 };
+    ShadingModel found, plain;
+    const std::vector<float> in = baked_texels(model, params, found),
+                             four = baked_texels(kModels[1], paper_params, plain);
+    std::vector<float> out(3 * kTexels), scratch;
+    std::vector<ImageBuf> stack;
+    LightmapShader shader, paper_shader;
+    std::string error;
+    if (in.empty() || four.empty() || !make_cfem_stack(stack, environment(), {}, error)
+        || !shader.prepare(stack, params, found, error) || !paper_shader.prepare(stack, paper_params, plain, error)) {
+        state.SkipWithError("cannot prepare");
+        return;
+    }
+    const OIIO::ROI roi(0, kSide, 0, kSide, 0, 1, 0, 3);
+    std::vector<double> paper, other, turn;
+    for (auto _ : state) {
+        ShadeFaults faults;
+        paper.push_back(seconds(
+            [&] { paper_shader.shade(roi, VismapOrder::visibility_first, four.data(), out.data(), scratch, faults); }));
+        other.push_back(
+            seconds([&] { shader.shade(roi, VismapOrder::visibility_first, in.data(), out.data(), scratch, faults); }));
+        LightmapShader turned;
+        turn.push_back(seconds([&] { turned.prepare(stack, params, found, error); }));
+        state.SetIterationTime(other.back());
+        if (faults.any())
+            state.SkipWithError("faults");
+    }
+    state.SetLabel(model.name + (std::string(model.name) == "sh" ? std::to_string(model.order) : ""));
+    state.counters["ns_per_texel"] = best(other) / kTexels * 1e9;
+    state.counters["times_paper"] = best(other) / best(paper);
+    state.counters["turn_ms"] = best(turn) * 1e3; // what a new rotation costs before the first texel
+}
+
 // make_lightmap() as a turntable calls it, on one thread and two in turn.
 void one_thread_against_two(benchmark::State& state)
 {
@@ -183,6 +259,7 @@ const std::vector<int64_t> kContents { smooth, random_directions };
 
 BENCHMARK(shading_against_streaming)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
 BENCHMARK(lobe_against_paper)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
+BENCHMARK(model_against_paper)->ArgName("model")->DenseRange(0, 7)->UseManualTime()->MinTime(1);
 BENCHMARK(one_thread_against_two)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
 BENCHMARK(scalar_shading)->ArgName("random")->ArgsProduct({ kContents });
 
