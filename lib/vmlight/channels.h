@@ -22,6 +22,8 @@ constexpr std::array<const char*, 4> kVismapChannels { "visibility", "direction.
 /// Optional channels of a visibility map: the shading normal n, in object space, of unit length where a triangle covers
 /// the texel. What the model `ao` needs.
 constexpr std::array<const char*, 3> kNormalChannels { "normal.x", "normal.y", "normal.z" };
+/// Optional channel of a visibility map: the standard error of `visibility`.
+constexpr const char* kErrorChannel = "error";
 /// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
 constexpr const char* kCoverageChannel = "coverage";
 

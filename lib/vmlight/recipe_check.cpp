@@ -11,6 +11,11 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "flat normals have no creases";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
         return "width and height take its place";
+    const bool has_target = recipe.vismap_params.target_error > 0;
+    if ((key == "samples" || key == "time_budget") && has_target)
+        return "target_error says how many rays it takes";
+    if (key == "samples" && recipe.time_budget > 0)
+        return "time_budget says how many rays there is time for";
     return "";
 }
 
