@@ -37,6 +37,17 @@ void report_outside(const MakeOptions& options, const UvReport& uv, const Vismap
                     uv.beyond, counted(uv.triangles, "triangle", "triangles"), plural(uv.beyond, "reaches", "reach")));
 }
 
+std::string error_line(const VismapReport& report)
+{
+    const std::string texels = counted(report.error_texels, "texel", "texels");
+    const std::string rays = counted(report.samples, "ray", "rays");
+    if (report.error == 0)
+        return format("error: 0 ({} baked twice are the same both times) at {} a texel; {:.2f} s", texels, rays,
+                      report.pilot_seconds);
+    return format("error: {:.2g} (RMS of V, from {} baked twice) at {} a texel; {:.2f} s", report.error, texels, rays,
+                  report.pilot_seconds);
+}
+
 } // namespace
 
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
@@ -57,6 +68,12 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
                double(report.rays) * 1e-6, report.bake_seconds,
                double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,
                report.margin_seconds));
+    if (report.error_texels > 0)
+        say(error_line(report));
+    if (report.expected_seconds > recipe.time_budget)
+        warn(format("time_budget: {} a texel, the least there is, {} about {:.2g} s, not {:.6g}",
+                    counted(report.samples, "ray", "rays"), plural(report.samples, "takes", "take"),
+                    report.expected_seconds, recipe.time_budget));
     if (report.overlapping > 0)
         warn(
             format("{} ({:.2f} % of those covered) {} to more than one triangle: the first triangle of the file has {}",

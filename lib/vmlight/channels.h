@@ -27,6 +27,8 @@ constexpr std::array<const char*, 3> kNormalChannels { "normal.x", "normal.y", "
 constexpr const char* kHarmonicChannel = "sh.";
 constexpr const char* kMaskChannel = "mask.";
 constexpr const char* kCellsChannel = "cells.";
+/// Optional channel of a visibility map: the standard error of `visibility`.
+constexpr const char* kErrorChannel = "error";
 /// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
 constexpr const char* kCoverageChannel = "coverage";
 

@@ -247,7 +247,7 @@ bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& given, const MakeOption
     VismapReport report;
     const Size size = recipe.vismap_params.size();
     if (!make_vismap(dst, scene, recipe.vismap_params, &report, options.threads,
-                     step(options, "bake", size.width, size.height)))
+                     step(options, "bake", size.width, size.height), recipe.time_budget))
         return false;
     report.build_seconds += build_seconds;
     append_params(dst.specmod(), recipe.mesh_params);

@@ -33,6 +33,8 @@ struct VismapRecipe
     std::vector<std::string> occluder;
     MeshParams mesh_params;
     VismapParams vismap_params;
+    /// Seconds that the bake may take, 0 for no limit: of a command line alone. Machines differ, recipes do not.
+    double time_budget = 0;
     /// Whether the tile was said: by the recipe, its name, a query or a flag.
     bool udim_given = false;
 

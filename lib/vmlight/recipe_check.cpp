@@ -13,6 +13,11 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "width and height take its place";
     if (key == "order" && recipe.vismap_params.basis != "sh")
         return "only the basis sh has bands";
+    const bool has_target = recipe.vismap_params.target_error > 0;
+    if ((key == "samples" || key == "time_budget") && has_target)
+        return "target_error says how many rays it takes";
+    if (key == "samples" && recipe.time_budget > 0)
+        return "time_budget says how many rays there is time for";
     return "";
 }
 

@@ -1,9 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/visibility.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
 namespace vmlight {
 
 using Imath::V3d;
+
+double lane_scatter(const std::vector<uint8_t>& asked, const std::vector<uint8_t>& seen)
+{
+    std::array<int, kPacketSize> all {}, open {};
+    for (size_t packet = 0; packet < asked.size(); ++packet)
+        for (size_t lane = 0; lane < kPacketSize; ++lane) {
+            all[lane] += asked[packet] >> lane & 1;
+            open[lane] += seen[packet] >> lane & 1;
+        }
+    const double rays = std::accumulate(all.begin(), all.end(), 0);
+    const double share = std::accumulate(open.begin(), open.end(), 0) / std::max(1.0, rays);
+    double squares = 0, lanes = 0;
+    for (size_t lane = 0; lane < kPacketSize; ++lane) {
+        squares += std::pow(open[lane] - share * all[lane], 2);
+        lanes += all[lane] > 0;
+    }
+    return lanes > 1 ? std::sqrt(squares * lanes / (lanes - 1)) / rays : 0;
+}
 
 Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
 {
@@ -18,7 +41,7 @@ Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
     }
     m_rays += all.rays;
     basis = m_basis.count() > 0 ? basis : nullptr;
-    if (basis)
+    if (basis || m_wants_error)
         m_asked = m_fan.lanes;
     m_occluder.clear_blocked(m_fan, point.origin, m_length);
     const DirectionSums seen = sum_directions(m_fan, point.normal);
@@ -27,6 +50,8 @@ Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
     result.visibility = double(seen.rays) / double(all.rays);
     if (basis)
         m_basis.project(m_fan, m_asked, all.rays == m_pattern.count(), point.normal, result.visibility, basis);
+    if (m_wants_error)
+        result.error = lane_scatter(m_asked, m_fan.lanes);
     if (seen.rays == 0)
         return result;
     if (m_params.measure == "uniform") {

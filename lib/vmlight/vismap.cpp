@@ -11,9 +11,12 @@
 namespace vmlight {
 namespace {
 
-OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapParams& params)
+OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
 {
-    OIIO::ImageSpec spec = describe_vismap(scene.mesh().name, params);
+    OIIO::ImageSpec spec = describe_vismap(scene.mesh().name, baker.params());
+    spec.attribute("vmlight:samples", std::to_string(baker.params().samples));
+    if (baker.error().texels > 0)
+        spec.attribute("vmlight:error", float(baker.error().rms));
     spec.attribute("vmlight:meshHash", scene.mesh_hash());
     if (!scene.occluder_hashes().empty())
         spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
@@ -38,21 +41,21 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
 }
 
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress)
+                 int nthreads, const Progress& progress, double time_budget)
 {
     VismapReport counts;
     OIIO::Timer timer;
     std::string error;
     VismapBaker baker;
-    if (!baker.prepare(scene, params, error))
+    if (!baker.prepare(scene, params, error, nthreads, progress, time_budget))
         return fail(dst, error);
-    const OIIO::ImageSpec spec = vismap_spec(*scene, params);
+    const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
     dst.reset(spec, OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels)
         return fail(dst, OIIO::Strutil::fmt::format("no memory for {} x {} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
-    counts.build_seconds = timer.lap();
+    counts.build_seconds = timer.lap() - baker.error().pilot_seconds;
 
     Coverage coverage(spec.width, spec.height);
     BakeCounts baked;
@@ -67,6 +70,11 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     counts.overlapping = baked.overlapping;
     counts.dark = baked.dark;
     counts.rays = baked.rays;
+    counts.samples = baker.error().samples;
+    counts.error = baker.error().rms;
+    counts.error_texels = baker.error().texels;
+    counts.expected_seconds = baker.error().bake_seconds;
+    counts.pilot_seconds = baker.error().pilot_seconds;
     if (report)
         *report = counts;
     return true;

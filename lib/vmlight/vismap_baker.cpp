@@ -30,6 +30,8 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
     std::vector<std::string> names(kVismapChannels.begin(), kVismapChannels.end());
     if (params.has("normal"))
         names.insert(names.end(), kNormalChannels.begin(), kNormalChannels.end());
+    if (params.has("error"))
+        names.push_back(kErrorChannel);
     const std::vector<std::string> basis = basis_channels(params);
     names.insert(names.end(), basis.begin(), basis.end());
     if (params.has("coverage"))
@@ -40,6 +42,8 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
     spec.tile_depth = 1;
     tag_data(spec);
     append_params(spec, params);
+    if (params.target_error > 0)
+        spec.erase_attribute("vmlight:samples");
     spec.attribute("vmlight:stage", kVismapStage);
     spec.attribute("vmlight:version", VMLIGHT_VERSION);
     spec.attribute("vmlight:mesh", mesh_name);
@@ -57,22 +61,26 @@ void BakeCounts::add(const BakeCounts& other)
 
 struct VismapBaker::Scene
 {
-    Scene(BakeScenePointer the_shared, const VismapParams& the_params)
+    Scene(BakeScenePointer the_shared, UvRaster&& the_raster, const VismapParams& the_params,
+          const VismapError& the_error)
         : shared(std::move(the_shared))
+        , raster(std::move(the_raster))
         , params(the_params)
+        , error(the_error)
         , has_normal(params.has("normal"))
+        , has_error(params.has("error"))
         , has_coverage(params.has("coverage"))
         , basis_count(int(basis_channels(params).size()))
         , pattern(params.sampler, params.samples, params.measure == "uniform")
-        , raster(shared->mesh(), width_of(params), height_of(params), params.udim)
     {
     }
     const BakeScenePointer shared;
+    const UvRaster raster;
     const VismapParams params;
-    const bool has_normal, has_coverage;
+    const VismapError error;
+    const bool has_normal, has_error, has_coverage;
     const int basis_count;
     const SamplePattern pattern;
-    const UvRaster raster;
 };
 
 class VismapBaker::Scratch
@@ -96,7 +104,8 @@ void VismapBaker::FreeScratch::operator()(Scratch* scratch) const
     delete scratch;
 }
 
-bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, std::string& error)
+bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, std::string& error, int nthreads,
+                          const Progress& progress, double time_budget)
 {
     if (!check_params(params, error))
         return false;
@@ -104,7 +113,13 @@ bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, st
         error = "basis: " + params.basis + " goes with the measure cosine, not with " + params.measure;
         return false;
     }
-    m_scene = std::make_unique<Scene>(std::move(scene), params);
+    UvRaster raster(scene->mesh(), width_of(params), height_of(params), params.udim);
+    VismapError measured;
+    if (!settle_samples(measured, *scene, raster, params, time_budget, nthreads, progress, error))
+        return false;
+    VismapParams settled = params;
+    settled.samples = measured.samples;
+    m_scene = std::make_unique<Scene>(std::move(scene), std::move(raster), settled, measured);
     return true;
 }
 
@@ -113,7 +128,7 @@ bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, 
 {
     auto scene = std::make_shared<BakeScene>();
     return check_params(params, error) && scene->build(borrowed(mesh), occluders, nthreads, error)
-        && prepare(std::move(scene), params, error);
+        && prepare(std::move(scene), params, error, nthreads);
 }
 
 int VismapBaker::width() const
@@ -133,7 +148,7 @@ int VismapBaker::channels() const
 
 int VismapBaker::before_basis() const
 {
-    return m_scene->has_normal ? 7 : 4;
+    return 4 + (m_scene->has_normal ? 3 : 0) + (m_scene->has_error ? 1 : 0);
 }
 
 MarginChannels VismapBaker::margin_channels() const
@@ -155,6 +170,16 @@ int VismapBaker::tiles_down() const
 const UvReport& VismapBaker::uv_report() const
 {
     return m_scene->raster.report();
+}
+
+const VismapParams& VismapBaker::params() const
+{
+    return m_scene->params;
+}
+
+const VismapError& VismapBaker::error() const
+{
+    return m_scene->error;
 }
 
 VismapBaker::ScratchPointer VismapBaker::scratch() const
@@ -200,6 +225,8 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             out[1 + c] = float(seen.direction[c]);
         for (int c = 0; c < 3 && m_scene->has_normal; ++c)
             out[4 + c] = point.normal[c];
+        if (m_scene->has_error)
+            out[basis_at - 1] = float(seen.error * m_scene->error.lane_scale);
         if (m_scene->has_coverage)
             out[channel_count - 1] = 1;
     }

@@ -10,6 +10,7 @@
 #include <vmlight/progress.h>
 #include <vmlight/uvraster.h>
 #include <vmlight/vismap.h>
+#include <vmlight/vismap_error.h>
 
 #include <OpenImageIO/imageio.h>
 
@@ -21,12 +22,14 @@
 
 namespace vmlight {
 
-/// The map that `params` ask for: size, channels and metadata, but for what takes the mesh itself to know.
+/// The map that `params` ask for: size, channels and metadata, but for what takes the mesh itself to know, as the
+/// samples that a target error takes do.
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
 
-/// make_vismap(), from a scene that other maps may share.
+/// make_vismap(), from a scene that other maps may share. With a `time_budget`, in seconds, the samples are those that
+/// the bake has time for on this machine, and at least one; the report tells.
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress);
+                 int nthreads, const Progress& progress, double time_budget = 0);
 
 /// What was baked.
 struct BakeCounts
@@ -45,12 +48,15 @@ public:
     VMLIGHT_API VismapBaker();
     VMLIGHT_API ~VismapBaker();
 
-    /// Build what the tiles of this map share: the UV raster of its UDIM tile, the directions. The scene it shares with
-    /// others.
+    /// Build what the tiles of this map share: the UV raster of its UDIM tile, the directions; bake some texels twice,
+    /// where an error or a time was asked for. The scene it shares with others.
     ///
     /// @param scene    built
-    /// @returns false, with the reason in `error`, if a parameter is out of range
-    VMLIGHT_API bool prepare(BakeScenePointer scene, const VismapParams& params, std::string& error);
+    /// @param time_budget as for make_vismap()
+    /// @returns false, with the reason in `error`, if a parameter is out of range, the error is out of reach, or
+    ///          `progress`, which is told 0, stopped it
+    VMLIGHT_API bool prepare(BakeScenePointer scene, const VismapParams& params, std::string& error, int nthreads = 0,
+                             const Progress& progress = {}, double time_budget = 0);
 
     /// The same, with a scene of its own.
     ///
@@ -69,6 +75,9 @@ public:
     VMLIGHT_API int tiles_across() const;
     VMLIGHT_API int tiles_down() const;
     VMLIGHT_API const UvReport& uv_report() const;
+    /// With the samples that it bakes with; and what they come to.
+    VMLIGHT_API const VismapParams& params() const;
+    VMLIGHT_API const VismapError& error() const;
 
     /// What one thread needs while it bakes.
     class Scratch;

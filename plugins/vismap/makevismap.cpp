@@ -15,9 +15,18 @@ int main(int argc, const char** argv)
                     "  makevismap hero.vismap -o hero_vismap.exr");
     UdimRun tiles(stage, recipe);
     stage.params("Visibility:", recipe.vismap_params);
+    stage.option("time_budget", "SECONDS", "Take as many rays as a map's bake has time for on this machine",
+                 [&](OIIO::string_view text, std::string& error) {
+                     if (parse_value(recipe.time_budget, text, Range { 1e-3, 1e6 }, error))
+                         return true;
+                     error = "time_budget: " + error;
+                     return false;
+                 });
     stage.params("Mesh:", recipe.mesh_params);
+    const auto unsaid
+        = [&] { return recipe.time_budget > 0 ? "a recipe holds no --time-budget: machines differ" : tiles.unsaid(); };
     stage.recipe(
-        "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, [&] { return tiles.unsaid(); });
+        "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, unsaid);
 
     const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
         OIIO::ImageBuf vismap;

@@ -138,7 +138,7 @@ class Usage(Case):
                 ("--max-distance", "nan", 'max_distance: "nan" is not a number'),
                 ("--max-distance", "-1", "max_distance: -1 is not in [0, 1e+30] or \"infinite\""),
                 ("--margin", "-2", "margin: -2 is not in"),
-                ("--channels", "normals", 'channels: "normals" is not one of normal, coverage; did you mean "normal"?'),
+                ("--channels", "normals", 'channels: "normals" is not one of normal, coverage, error; did you mean "normal"?'),
                 ("--channels", "normal,normal", 'channels: "normal" comes twice'),
                 ("--format", "double", 'format: "double" is not one of float, half'),
                 ("--threads", "-1", "threads: -1 is not in [0, 1024]"),
@@ -196,6 +196,9 @@ class Usage(Case):
                 ("--colorspace data: there is no environment to convert: " + filtered, [*lit, "--colorspace", "data"]),
                 ("--cfem-resolution 8: there is no environment", [*environment, "--is-cfem", "--cfem-resolution", "8"]),
                 ("--crease-angle 30: flat normals", [*bake, "--normals", "flat", "--crease-angle", "30"]),
+                ("--samples 8: target_error says how many", [*bake, "--samples", "8", "--target-error", "0.1"]),
+                ("--samples 8: time_budget says how many", [*bake, "--time-budget=1", "--samples", "8"]),
+                ("--time-budget 1: target_error says how many", [*bake, "--time-budget=1", "--target-error=0.1"]),
                 ("--resolution 8: width and height", [*bake, "--resolution", "8", "--width", "4", "--height", "4"])):
             self.refused(2, f"{words[0]} ERROR: {text}", *words)
         # By flags only: a recipe may keep what it does not use just now.

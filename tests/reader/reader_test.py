@@ -101,6 +101,14 @@ class Pixels(Case):
             self.assert_same_pixels(f"{name}.lightmap?rotate=0,30,0", "lobe.exr")
         self.make("makevismap", "hero.vismap?channels=normal", "-o", "vmn.exr")
         self.assert_same_pixels("hero.vismap?channels=normal", "vmn.exr")
+        noisy = "hero.vismap?target_error=0.05&channels=error,normal"
+        self.make("makevismap", noisy, "-o", "noisy.exr")
+        # An EXR has its channels in another order.
+        names = "visibility,direction.x,direction.y,direction.z,normal.x,normal.y,normal.z,error"
+        self.done("oiiotool", noisy, "--ch", names, "noisy.exr", "--ch", names, "--fail", "0", "--diff")
+        self.assertNotIn("vmlight:samples", self.done("oiiotool", "--info", "-v", noisy))  # nothing is baked yet
+        self.assertIn("vmlight:samples", self.done("oiiotool", "--info", "-v", "noisy.exr"))
+        self.refused("target_error: 1e-09 is out of reach", "hero.vismap?target_error=1e-9", "-o", "x.exr")
         self.file("ao.lightmap", 'vismap = "vmn.exr"\ncfem = "stack.cfem"\nmodel = "ao"\n')
         self.make("makelightmap", "vmn.exr", "stack.exr", "-o", "ao.exr", "--model", "ao")
         self.assert_same_pixels("ao.lightmap", "ao.exr")

@@ -101,11 +101,11 @@ TEST(Params, WordsAreSomeOfThoseAllowedInTheirOrder)
     EXPECT_TRUE(params.has("normal"));
     EXPECT_EQ(value_text({ "coverage", "normal" }, Words { { "normal", "coverage" } }), "normal,coverage");
     EXPECT_FALSE(set_param(params, "channels", "normal,covrage", error));
-    EXPECT_EQ(error, "channels: \"covrage\" is not one of normal, coverage; did you mean \"coverage\"?");
+    EXPECT_EQ(error, "channels: \"covrage\" is not one of normal, coverage, error; did you mean \"coverage\"?");
     EXPECT_FALSE(set_param(params, "channels", "normal,coverage,normal", error));
     EXPECT_EQ(error, "channels: \"normal\" comes twice");
     EXPECT_FALSE(set_param(params, "channels", "normal,", error));
-    EXPECT_EQ(error, "channels: \"\" is not one of normal, coverage");
+    EXPECT_EQ(error, "channels: \"\" is not one of normal, coverage, error");
     EXPECT_EQ(params.channels.size(), 2u);
     ASSERT_TRUE(set_param(params, "channels", "", error)) << error;
     EXPECT_TRUE(params.channels.empty());

@@ -133,6 +133,23 @@ TEST(VismapTiles, EachBasisIsThatOfTheWholeMapInTheMarginToo)
         }
 }
 
+TEST(VismapTiles, ErrorsAndWhatWasChosenForOneAreThoseOfTheWholeMap)
+{
+    for (int margin : { 0, 16, -1 }) {
+        VismapParams params = quick(200, 130, margin);
+        params.target_error = 0.05;
+        params.channels = { "normal", "coverage", "error" };
+        VismapBaker baker;
+        std::string error;
+        ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+        EXPECT_NE(baker.params().samples, params.samples);
+        EXPECT_EQ(baker.channels(), 9);
+        EXPECT_EQ(baker.margin_channels().averaged, 8);
+        VismapTiles tiles(baker, margin);
+        EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole_map(params)) << margin;
+    }
+}
+
 TEST(VismapTiles, ACacheWithoutRoomCostsTimeAndNoBit)
 {
     VismapTiles::set_cache_limit(1);
