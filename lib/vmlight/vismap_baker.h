@@ -25,8 +25,8 @@ namespace vmlight {
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
 
 /// make_vismap(), from a scene that other maps may share.
-bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress);
+VMLIGHT_API bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params,
+                             VismapReport* report, int nthreads, const Progress& progress);
 
 /// What was baked.
 struct BakeCounts
