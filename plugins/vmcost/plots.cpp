@@ -5,6 +5,9 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace vmlight::cost {
 namespace {
 
@@ -12,12 +15,34 @@ using OIIO::Strutil::fmt::format;
 
 constexpr const char* kStyle = "set encoding utf8\n"
                                "set logscale xy\n"
-                               "set grid xtics ytics mxtics mytics lc rgb '#d8d8d8', lc rgb '#eeeeee'\n"
+                               "set grid xtics ytics lt 1 lw 1 lc rgb '#dddddd'\n"
                                "set border 3 lc rgb '#444444'\n"
                                "set tics nomirror\n"
                                "set key outside right top Left reverse samplen 2\n"
                                "set ylabel 'relative RMS error, %'\n"
-                               "set format y '%g'\n";
+                               "set format '%g'\n";
+
+struct Bounds
+{
+    double low = std::numeric_limits<double>::max(), high = 0;
+    void add(double value)
+    {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    // A little more than what is drawn, as gnuplot would round a logarithmic axis to whole decades.
+    std::string text(double room) const { return format("[{:.6g}:{:.6g}]", low / room, high * room); }
+};
+
+// Some for each decade: what is drawn may lie within one.
+std::string log_tics()
+{
+    std::vector<std::string> tics;
+    for (double decade = 1e-4; decade < 1e4; decade *= 10)
+        for (const double step : { 1.0, 1.5, 2.0, 3.0, 5.0, 7.0 })
+            tics.push_back(format("{:g}", decade * step));
+    return OIIO::Strutil::join(tics, ",");
+}
 
 // Collects what is drawn, with its data before it.
 class Script
@@ -25,18 +50,31 @@ class Script
 public:
     void draw(const std::vector<Point>& points, double (*x)(const Point&), const std::string& style)
     {
-        const std::string name = format("$d{}", m_count++);
-        m_data += name + " << EOD\n";
+        std::string data;
         for (const Point& point : points)
-            if (x(point) > 0)
-                m_data += format("{:.6g} {:.6g}\n", x(point), 100 * point.rmse);
-        m_data += "EOD\n";
+            if (x(point) > 0 && point.rmse > 0) { // the axes are logarithmic
+                data += format("{:.6g} {:.6g}\n", x(point), 100 * point.rmse);
+                m_x.add(x(point));
+                m_y.add(100 * point.rmse);
+            }
+        if (data.empty())
+            return;
+        const std::string name = format("$d{}", m_count++);
+        m_data += name + " << EOD\n" + data + "EOD\n";
         m_plot += (m_plot.empty() ? "plot " : ", ") + name + " using 1:2 " + style;
     }
-    std::string text(const std::string& settings) const { return kStyle + settings + m_data + m_plot + "\n"; }
+    std::string text(const std::string& settings) const
+    {
+        if (!m_count)
+            return kStyle + settings + "plot [1:100] [1:100] NaN notitle\n";
+        return kStyle + settings
+            + format("set ytics ({})\nset xrange {}\nset yrange {}\n", log_tics(), m_x.text(1.15), m_y.text(1.1))
+            + m_data + m_plot + "\n";
+    }
 
 private:
     int m_count = 0;
+    Bounds m_x, m_y;
     std::string m_data, m_plot;
 };
 
@@ -73,11 +111,12 @@ Plot time_plot(const std::vector<Point>& points)
     Script script;
     for (const std::string& model : drawn_models())
         script.draw(curve(points, model), seconds_of, line_style(model));
-    script.draw(pareto_front(points), seconds_of, "with steps lw 5 lc rgb '#40009e73' title 'least for its time'");
+    script.draw(points, seconds_of, "with points pt 7 ps 0.3 lc rgb '#999999' title 'other settings'");
+    script.draw(pareto_front(points), seconds_of, "with steps lw 4 lc rgb '#80009e73' title 'least for its time'");
     return { "error_time",
              "Error against the time of a first picture: bake, filter, shade. Each curve is a model "
              "from few rays to many; the broad line is the least error for its time.",
-             script.text("set xlabel 'seconds to a first picture'\nset format x '%g'\n") };
+             script.text(format("set xlabel 'seconds to a first picture'\nset xtics ({})\n", log_tics())) };
 }
 
 Plot bytes_plot(const std::vector<Point>& points)
@@ -96,9 +135,7 @@ Plot bytes_plot(const std::vector<Point>& points)
     return { "error_bytes",
              "Error at the default settings against the bytes that are read of a texel, stored as float "
              "and as half.",
-             script.text(
-                 "set xlabel 'bytes a texel'\nset format x '%g'\nset logscale x 2\nset offsets graph 0.1, graph "
-                 "0.1, graph 0.1, graph 0.1\n") };
+             script.text("set xlabel 'bytes a texel'\nset logscale x 2\n") };
 }
 
 Plot rays_plot(const std::vector<Point>& points)
@@ -116,7 +153,7 @@ Plot rays_plot(const std::vector<Point>& points)
     return { "error_rays",
              "Error against rays a texel. The ring is the count beyond which a model gains next to "
              "nothing: what is left is the model's own.",
-             script.text("set xlabel 'rays a texel'\nset format x '%g'\nset logscale x 2\n") };
+             script.text("set xlabel 'rays a texel'\nset logscale x 2\n") };
 }
 
 } // namespace
