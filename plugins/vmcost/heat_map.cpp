@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heat_map.h"
 
-#include "compare.h"
+#include "named_channels.h"
 
 #include <vmlight/color.h>
 
@@ -22,7 +22,7 @@ constexpr float kBare = 0.55f; // grey of what is not covered
 OIIO::ImageBuf heat_map(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference)
 {
     OIIO::ImageSpec spec(reference.spec().width, reference.spec().height, 4, OIIO::TypeFloat);
-    spec.channelnames = { "R", "G", "B", "coverage" };
+    spec.channelnames = kHeatMapChannels;
     spec.alpha_channel = -1;
     tag_data(spec);
     OIIO::ImageBuf map(spec);

@@ -3,6 +3,7 @@
 
 #include "compare.h"
 #include "journal.h"
+#include "named_channels.h"
 
 #include <vmlight/image_file.h>
 #include <vmlight/interrupt.h>
@@ -118,7 +119,8 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         const std::string path
             = format("{}/reference_{}_{}.exr", folder, environment.name, environment.reference_key.substr(0, 12));
         std::string unread;
-        const bool kept = OIIO::Filesystem::exists(path) && read_image(environment.reference, path, unread);
+        const bool kept
+            = OIIO::Filesystem::exists(path) && read_channels(environment.reference, path, kReferenceChannels, unread);
         if (kept)
             options.say(format("{}: reused the reference", environment.name));
         else if (!trace(environment, inputs, params, path, options, error))

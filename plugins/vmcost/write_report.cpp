@@ -5,10 +5,10 @@
 #include "heat_map.h"
 #include "heat_map_file.h"
 #include "models.h"
+#include "named_channels.h"
 #include "plots.h"
 #include "report.h"
 
-#include <vmlight/image_file.h>
 #include <vmlight/interrupt.h>
 #include <vmlight/output_file.h>
 #include <vmlight/parallel.h>
@@ -48,7 +48,7 @@ bool read_heat_maps(Report& report, const Measured& measured, const Inputs& inpu
             OIIO::ImageBuf map;
             Picture& picture = pictures.emplace_back();
             picture.caption = format("{}, {:.1f} %", model, 100 * row.errors.rmse.value);
-            if (!read_image(map, heat_map_path(folder, name, model) + ".exr", error)
+            if (!read_channels(map, heat_map_path(folder, name, model) + ".exr", kHeatMapChannels, error)
                 || !heat_map_png(picture.png, map, kHeatSide, error))
                 return false;
         }

@@ -208,6 +208,11 @@ TEST(CostMeasure, RowsAreTakenFromTheJournalUntilAnInputChanges)
         EXPECT_EQ(first[i].shade, again[i].shade);
         EXPECT_TRUE(first[i].setting == again[i].setting);
     }
+    std::filesystem::remove(folder / "journal.jsonl");
+    const std::vector<Row> read = scene.rows(settings, 1, 16);
+    EXPECT_EQ(scene.reused, 0);
+    for (size_t i = 0; i < first.size(); ++i)
+        EXPECT_EQ(first[i].errors.rmse.high, read[i].errors.rmse.high) << "a stored reference is the one traced";
     scene.rows(settings, 2, 16); // seed
     EXPECT_EQ(scene.reused, 0);
     scene.rows(settings, 1, 18); // reference
