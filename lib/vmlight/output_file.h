@@ -13,7 +13,7 @@ namespace vmlight {
 
 /// Why nothing can be written to `path` as things are, or "": it must lie in a folder that exists and can be written,
 /// and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
-std::string output_file_fault(const std::string& path);
+VMLIGHT_API std::string output_file_fault(const std::string& path);
 
 /// Why no files can be written to the folder `path` as things are, or "": it must be one that can be written, or its
 /// parent must be, and nothing else have that name.
@@ -25,7 +25,7 @@ VMLIGHT_API bool write_file(const std::string& path, OIIO::string_view bytes, st
 
 /// The same for a writer that takes an IOProxy. It keeps its failure to itself: OpenEXR's writing threads, told of a
 /// full disk, wait for one another for ever.
-class OutputFile : public OIIO::Filesystem::IOFile
+class VMLIGHT_API OutputFile : public OIIO::Filesystem::IOFile
 {
 public:
     /// Opens a temporary file beside what `path` leads to; see sound().

@@ -19,8 +19,6 @@ struct Row
     int bytes = 0;
     Errors errors;
 
-    double total() const { return bake + light + shade; }
-
     /// Columns of the tables, in their order.
     template <class Visit> void visit(Visit&& field)
     {

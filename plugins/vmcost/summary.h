@@ -22,7 +22,8 @@ struct Point
     double bake = 0, light = 0, shade = 0; ///< seconds; means
     int bytes = 0;
 
-    double total() const { return bake + light + shade; }
+    /// Seconds to so many pictures of one environment, each at another rotation.
+    double total(int pictures = 1) const { return bake + light + pictures * shade; }
 };
 
 /// One point a setting, in the order in which settings first come.
