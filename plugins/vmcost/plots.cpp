@@ -34,11 +34,15 @@ struct Bounds
     std::string text(double room) const { return format("[{:.6g}:{:.6g}]", low / room, high * room); }
 };
 
-// Some for each decade: what is drawn may lie within one.
-std::string log_tics(const std::vector<double>& steps)
+// Labels of an axis: the more for a decade, the fewer decades there are.
+std::string log_tics(const Bounds& bounds)
 {
+    const double span = bounds.high / bounds.low;
+    const std::vector<double> steps = span > 20 ? std::vector<double> { 1, 2, 5 }
+        : span > 4                              ? std::vector<double> { 1, 1.5, 2, 3, 5, 7 }
+                   : std::vector<double> { 1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9 };
     std::vector<std::string> tics;
-    for (double decade = 1e-4; decade < 1e4; decade *= 10)
+    for (double decade = 1e-5; decade < 1e4; decade *= 10)
         for (const double step : steps)
             tics.push_back(format("{:g}", decade * step));
     return OIIO::Strutil::join(tics, ",");
@@ -63,13 +67,12 @@ public:
         m_data += name + " << EOD\n" + data + "EOD\n";
         m_plot += (m_plot.empty() ? "plot " : ", ") + name + " using 1:2 " + style;
     }
-    std::string text(const std::string& settings) const
+    std::string text(const std::string& settings, bool decimal_x = false) const
     {
         if (!m_count)
             return kStyle + settings + "plot [1:100] [1:100] NaN notitle\n";
-        return kStyle + settings
-            + format("set ytics ({})\nset xrange {}\nset yrange {}\n", log_tics({ 1, 1.5, 2, 3, 5, 7 }), m_x.text(1.15),
-                     m_y.text(1.1))
+        return kStyle + settings + (decimal_x ? format("set xtics ({})\n", log_tics(m_x)) : "")
+            + format("set ytics ({})\nset xrange {}\nset yrange {}\n", log_tics(m_y), m_x.text(1.15), m_y.text(1.1))
             + m_data + m_plot + "\n";
     }
 
@@ -117,7 +120,7 @@ Plot time_plot(const std::vector<Point>& points)
     return { "error_time",
              "Error against the time of a first picture: bake, filter, shade. Each curve is a model "
              "from few rays to many; the broad line is the least error for its time.",
-             script.text(format("set xlabel 'seconds to a first picture'\nset xtics ({})\n", log_tics({ 1, 2, 5 }))) };
+             script.text("set xlabel 'seconds to a first picture'\n", true) };
 }
 
 Plot bytes_plot(const std::vector<Point>& points)

@@ -160,7 +160,7 @@ class Cost(Case):
         self.assertEqual((self.measured, self.reused), (2, count - 2))
 
     def interrupted(self, number):
-        words = [os.path.join(BIN, "vmcost"), "step.obj", "checker.exr", "-o", "report", "--resolution", "64",
+        words = [os.path.join(BIN, "vmcost"), "step.obj", "checker.exr", "-o", "report", "--quick",
                  "--reference-samples", "16", "--no-plots", "--quiet"]
         process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.PIPE, text=True)
         journal = self.path("report/journal.jsonl")
@@ -185,7 +185,7 @@ class Cost(Case):
         self.assertEqual(code, -signal.SIGKILL)
         with open(self.path("report/journal.jsonl"), "ab") as journal:
             journal.write(b'{"key": "torn", "environment": "che')
-        out = self.cost("checker.exr", "--resolution", "64", "--reference-samples", "16", "--no-plots")
+        out = self.cost("checker.exr", "--quick", "--reference-samples", "16", "--no-plots")
         self.assertIn("checker: reused the reference", out)
         self.assertGreaterEqual(self.reused, kept)
         self.assertGreater(self.measured, 0)
