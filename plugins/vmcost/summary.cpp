@@ -89,11 +89,9 @@ const Point* cheapest(const std::vector<Point>& points, double target)
 
 const Point* nearest(const std::vector<Point>& points)
 {
-    const Point* found = nullptr;
-    for (const Point& point : points)
-        if (!found || point.rmse < found->rmse)
-            found = &point;
-    return found;
+    const auto least = std::min_element(points.begin(), points.end(),
+                                        [](const Point& a, const Point& b) { return a.rmse < b.rmse; });
+    return least == points.end() ? nullptr : cheapest(points, least->rmse / (1 - kKneeGain));
 }
 
 } // namespace vmlight::cost

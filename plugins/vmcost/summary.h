@@ -44,7 +44,7 @@ const Point& knee(const std::vector<Point>& curve);
 /// Of those that err no more than `target` the one that takes least time; nullptr if none does.
 const Point* cheapest(const std::vector<Point>& points, double target);
 
-/// The one that errs least; nullptr if there is none.
+/// The one that takes least time of those that err least, but for kKneeGain; nullptr if there is none.
 const Point* nearest(const std::vector<Point>& points);
 
 } // namespace vmlight::cost

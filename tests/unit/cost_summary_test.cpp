@@ -72,6 +72,7 @@ TEST(CostSummary, TheChoiceIsTheCheapestThatReachesTheTarget)
     EXPECT_EQ(cheapest(points, 0.049)->rmse, 0.04);
     EXPECT_EQ(cheapest(points, 0.001), nullptr);
     EXPECT_EQ(nearest(points)->rmse, 0.01);
+    EXPECT_EQ(nearest({ point(4, 0.01), point(1, 0.0102), point(0.5, 0.0103) })->rmse, 0.0102) << "what 2 % more buys";
     EXPECT_EQ(nearest({}), nullptr);
 }
 
