@@ -17,9 +17,9 @@ END
 # What builds the library, what tests it, and what shows its pictures. (assimp's CMake files want zlib's, unsaid by Debian.)
 packages=(
     ca-certificates cmake g++ ninja-build
-    libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev
+    libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
     libgtest-dev libbenchmark-dev
-    python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools
+    python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )
 
 install_packages() {

@@ -3,86 +3,21 @@
 
 #include <vmlight/channels.h>
 #include <vmlight/oiio.h>
+#include <vmlight/output_file.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <limits>
 #include <vector>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-std::string folder_of(const std::string& path)
-{
-    const std::string folder = OIIO::Filesystem::parent_path(path);
-    return folder.empty() ? "." : folder;
-}
-
-// Where the links lead that `path` may be, whether there is a file or not; "" if in circles.
-std::string link_target(std::string path)
-{
-    constexpr int kMostLinks = 40; // as the system's
-    std::error_code fault;
-    for (int link = 0; link < kMostLinks; ++link) {
-        const auto target = std::filesystem::read_symlink(path, fault);
-        if (fault)
-            return path;
-        path = target.is_absolute() ? target.string() : folder_of(path) + "/" + target.string();
-    }
-    return "";
-}
-
-// A name beside `path` that no file has.
-std::string temporary_path(const std::string& path)
-{
-    // Cut, since the file system may take no longer names than this. Every % becomes a random digit: not the folder's.
-    const std::string name = OIIO::Filesystem::filename(path).substr(0, 200);
-    return folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
-}
-
-// A file that keeps its failure to itself: OpenEXR's writing threads, told of a full disk, wait for one another for
-// ever.
-class OutputFile : public OIIO::Filesystem::IOFile
-{
-public:
-    explicit OutputFile(const std::string& path)
-        : IOFile(path, Write)
-    {
-        if (!opened())
-            m_reason = error();
-    }
-
-    size_t write(const void* bytes, size_t size) override
-    {
-        if (sound() && IOFile::write(bytes, size) != size)
-            m_reason = std::strerror(errno);
-        return size;
-    }
-    // The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
-    void flush_to_disk()
-    {
-        if (sound() && (std::fflush(handle()) != 0 || ::fsync(::fileno(handle())) != 0))
-            m_reason = std::strerror(errno);
-    }
-    bool sound() const { return m_reason.empty(); }
-    const std::string& reason() const { return m_reason; }
-
-private:
-    std::string m_reason;
-};
 
 // OIIO's callback carries a pointer and returns true to stop; a writer that was stopped says that all went well.
 struct Watch
@@ -98,15 +33,6 @@ struct Watch
         return self.stopped || !self.file.sound();
     }
 };
-
-void flush_folder(const std::string& path)
-{
-    const int folder = ::open(path.c_str(), O_RDONLY);
-    if (folder < 0)
-        return;
-    ::fsync(folder);
-    ::close(folder);
-}
 
 bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 {
@@ -160,24 +86,7 @@ std::string output_fault(const std::string& path)
     const std::string name_fault = output_name_fault(path);
     if (!name_fault.empty())
         return name_fault;
-    const std::string target = link_target(path);
-    if (target.empty())
-        return format("\"{}\": a link that leads in circles", path);
-    if (OIIO::Filesystem::is_directory(target))
-        return format("\"{}\": is a folder", path);
-    if (OIIO::Filesystem::exists(target) && !OIIO::Filesystem::is_regular(target))
-        return format("\"{}\": is a device or a pipe, which a file would replace", path);
-    const std::string folder = folder_of(target);
-    if (!OIIO::Filesystem::is_directory(folder))
-        return format("\"{}\": no folder \"{}\"", path, folder);
-    // Rights alone do not tell: some folders (/proc) take no files from anyone.
-    const std::string trial = temporary_path(target);
-    const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
-    if (file < 0)
-        return format("\"{}\": the folder \"{}\" cannot be written: {}", path, folder, std::strerror(errno));
-    ::close(file);
-    ::unlink(trial.c_str());
-    return "";
+    return output_file_fault(path);
 }
 
 bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format_name,
@@ -197,7 +106,6 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     if (!error.empty())
         return false;
 
-    const std::string target = link_target(path), temporary = temporary_path(target);
     std::vector<OIIO::ImageSpec> specs;
     for (const OIIO::ImageBuf& image : images) {
         OIIO::ImageSpec& spec = specs.emplace_back(image.spec());
@@ -207,26 +115,25 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
         spec.attribute("DateTime", "");
     }
 
+    OutputFile file(path);
     const auto failed = [&](const std::string& reason) {
         // The temporary file's name would tell the user nothing.
-        error = oiio::named_reason(path, OIIO::Strutil::replace(reason, temporary, path, true));
-        OIIO::Filesystem::remove(temporary);
+        error = oiio::named_reason(path, OIIO::Strutil::replace(reason, file.temporary(), path, true));
         return false;
     };
     auto out = OIIO::ImageOutput::create("openexr");
     if (!out)
         return failed(OIIO::geterror());
-    OutputFile file(temporary);
     if (!file.sound())
         return failed(file.reason());
     const int count = int(specs.size());
     if (!out->set_ioproxy(&file)
-        || !(count == 1 ? out->open(temporary, specs[0]) : out->open(temporary, count, specs.data())))
+        || !(count == 1 ? out->open(file.temporary(), specs[0]) : out->open(file.temporary(), count, specs.data())))
         return failed(oiio::reason(*out));
     Watch watch { progress, file };
     bool written = true;
     for (int i = 0; i < count && written && !watch.stopped; ++i)
-        written = (i == 0 || out->open(temporary, specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
+        written = (i == 0 || out->open(file.temporary(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
             && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
                                 OIIO::AutoStride, Watch::report, &watch);
     const bool closed = out->close();
@@ -234,14 +141,7 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
         return failed("interrupted");
     if (file.sound() && (!written || !closed))
         return failed(oiio::reason(*out));
-    file.flush_to_disk();
-    if (!file.sound())
-        return failed(file.reason());
-    file.close();
-    if (std::rename(temporary.c_str(), target.c_str()) != 0)
-        return failed(std::strerror(errno));
-    flush_folder(folder_of(target));
-    return true;
+    return file.keep() || failed(file.reason());
 }
 
 } // namespace vmlight

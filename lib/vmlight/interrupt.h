@@ -2,6 +2,8 @@
 /// Ctrl-C and its kin: the work stops where it can be stopped, and at once where there is nothing to tidy up.
 #pragma once
 
+#include <vmlight/export.h>
+
 #include <string>
 
 namespace vmlight {
@@ -16,8 +18,8 @@ bool interrupted();
 class WhileWriting
 {
 public:
-    WhileWriting();
-    ~WhileWriting();
+    VMLIGHT_API WhileWriting();
+    VMLIGHT_API ~WhileWriting();
     WhileWriting(const WhileWriting&) = delete;
     WhileWriting& operator=(const WhileWriting&) = delete;
 };

@@ -41,6 +41,6 @@ enum class Input
 
 /// What keeps the image `name` from being such an input, or "". `stage` is its `vmlight:stage`, "" if it has none, or
 /// that of its recipe. Not checked: its channels.
-std::string input_fault(const std::string& name, const std::string& stage, Input wanted);
+VMLIGHT_API std::string input_fault(const std::string& name, const std::string& stage, Input wanted);
 
 } // namespace vmlight

@@ -153,13 +153,20 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
                     const ReferenceParams& params, int nthreads, const Progress& progress)
 {
     std::string error;
+    BakeScene scene;
+    return scene.build(borrowed(mesh), occluders, nthreads, error)
+        ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
+        : fail(dst, error);
+}
+
+bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env, const VismapParams& map,
+                    const LightmapParams& light, const ReferenceParams& params, int nthreads, const Progress& progress)
+{
+    std::string error;
     Rotation rotation;
     EnvironmentLight sky;
     if (!check_params(map, error) || !check_params(params, error) || !lightmap_rotation(rotation, light, error)
         || !sky.build(env, params.sanitize, error))
-        return fail(dst, error);
-    BakeScene scene;
-    if (!scene.build(borrowed(mesh), occluders, nthreads, error))
         return fail(dst, error);
 
     dst.reset(reference_spec(map, light, params), OIIO::InitializePixels::Yes);
@@ -170,7 +177,7 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
     const float length
         = map.max_distance > 0 ? float(map.max_distance * scene.frame().scale) : std::numeric_limits<float>::infinity();
     const double gain = std::exp2(light.exposure);
-    const UvRaster raster(mesh, width, height, map.udim);
+    const UvRaster raster(scene.mesh(), width, height, map.udim);
     struct Worker
     {
         Tracer tracer;
@@ -179,7 +186,7 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
     };
     std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
     for (auto& worker : workers)
-        worker.reset(new Worker { { scene.occluder(), sky, rotation, length }, { mesh, scene.frame() }, {} });
+        worker.reset(new Worker { { scene.occluder(), sky, rotation, length }, { scene.mesh(), scene.frame() }, {} });
     const auto trace = [&](int64_t tile, int index) {
         Worker& worker = *workers[size_t(index)];
         raster.cover(int(tile), worker.cover);

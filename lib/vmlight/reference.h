@@ -15,6 +15,8 @@
 
 namespace vmlight {
 
+class BakeScene;
+
 struct ReferenceParams
 {
     /// Pairs of rays a texel: one with the density of the cosine, one with that of the environment.
@@ -50,5 +52,10 @@ struct ReferenceParams
 VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders,
                                 const OIIO::ImageBuf& env, const VismapParams& map, const LightmapParams& light = {},
                                 const ReferenceParams& params = {}, int nthreads = 0, const Progress& progress = {});
+
+/// The same, of a scene that is built and that other maps may share.
+VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env,
+                                const VismapParams& map, const LightmapParams& light, const ReferenceParams& params,
+                                int nthreads, const Progress& progress);
 
 } // namespace vmlight

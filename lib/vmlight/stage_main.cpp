@@ -3,6 +3,7 @@
 
 #include <vmlight/image_file.h>
 #include <vmlight/interrupt.h>
+#include <vmlight/output_file.h>
 #include <vmlight/progress_line.h>
 #include <vmlight/udim.h>
 
@@ -29,15 +30,23 @@ struct Option
     StageMain::Take take;
 };
 
-struct OutputParams
+struct FormatParams
 {
     std::string format = "float";
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("format", format, Choices { { "float", "half" } }, "Numbers in the file");
+    }
+};
+
+struct RunParams
+{
     int threads = 0;
     bool quiet = false;
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("format", format, Choices { { "float", "half" } }, "Numbers in the file");
         field("threads", threads, Range { 0, 1024 }, "Threads; 0 is one for each core");
         field("quiet", quiet, Flag {}, "Say nothing but warnings and errors");
     }
@@ -51,11 +60,13 @@ struct StageMain::State
     std::vector<std::string> operand_names, operands;
     std::vector<Option> options;
     std::vector<std::pair<const Option*, std::string>> given;
-    RecipeDoor door;
+    RecipeDoor door { "", {}, {}, {}, [] { return std::string(); }, {}, [](const auto&) { return std::string(); } };
     std::vector<std::function<std::string()>> checks;
     bool prints_recipe = false;
     std::string heading, output;
-    OutputParams common;
+    OutputKind kind;
+    FormatParams file;
+    RunParams common;
 
     void message(const char* kind, const std::string& text) const
     {
@@ -71,7 +82,20 @@ struct StageMain::State
     }
     bool split_arguments(int argc, const char** argv, std::vector<std::string>& words, std::string& error) const;
     bool parse(const std::vector<std::string>& words, bool& helped, std::string& error);
-    bool given_recipe() const { return !operands.empty() && recipe_stage(operands[0]) == door.stage; }
+    bool given_recipe() const
+    {
+        return !door.stage.empty() && !operands.empty() && recipe_stage(operands[0]) == door.stage;
+    }
+    bool takes_more() const { return OIIO::Strutil::ends_with(operand_names.back(), "..."); }
+    const char* metavar() const { return kind == OutputKind::Folder ? "FOLDER" : "OUTPUT.exr"; }
+    std::string output_name_fault() const
+    {
+        return kind == OutputKind::Folder ? "" : vmlight::output_name_fault(output);
+    }
+    std::string output_fault() const
+    {
+        return kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
+    }
     Exit settle(int argc, const char** argv, bool& helped, std::string& error);
 };
 
@@ -116,8 +140,10 @@ bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped
 {
     OIIO::ArgParse parser;
     parser.intro(format("{}: {}\n(vmlight {})", name, purpose, VMLIGHT_VERSION));
-    parser.usage(format("{0} {1} -o OUTPUT.exr [options]\n       {0} RECIPE.{2} -o OUTPUT.exr [options]", name,
-                        OIIO::Strutil::join(operand_names, " "), door.stage));
+    std::string usage = format("{} {} -o {} [options]", name, OIIO::Strutil::join(operand_names, " "), metavar());
+    if (!door.stage.empty())
+        usage += format("\n       {} RECIPE.{} -o {} [options]", name, door.stage, metavar());
+    parser.usage(usage);
     parser.epilog(format("Example:\n{}\nExit code 0: done, 1: the work failed, 2: wrong usage.\n", example));
     parser.exit_on_error(false);
     parser.add_help(true);
@@ -146,7 +172,7 @@ bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped
     const size_t wanted = given_recipe() ? 1 : operand_names.size();
     if (result < 0)
         error = parser.geterror();
-    else if (operands.size() != wanted)
+    else if (operands.size() < wanted || (operands.size() > wanted && !takes_more()))
         error = operands.size() < wanted ? format("{} is missing", operand_names[operands.size()])
                                          : format("\"{}\" is one argument too many", operands[wanted]);
     return error.empty();
@@ -178,7 +204,7 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
     if (prints_recipe && door.unsaid)
         error = door.unsaid();
     if (!prints_recipe)
-        error = output.empty() ? "-o OUTPUT.exr is missing" : output_name_fault(output);
+        error = output.empty() ? format("-o {} is missing", metavar()) : output_name_fault();
     if (error.empty() && door.fault() != fault_of_file)
         error = door.fault();
     for (const auto& [option, text] : given)
@@ -190,15 +216,20 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
     return error.empty() ? Exit::Done : Exit::Usage;
 }
 
-StageMain::StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example)
+StageMain::StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example,
+                     OutputKind output)
     : m_state(std::make_unique<State>())
 {
     m_state->name = std::move(name);
     m_state->purpose = std::move(purpose);
     m_state->operand_names = std::move(operands);
     m_state->example = std::move(example);
+    m_state->kind = output;
     group("Output:");
-    option("o", "OUTPUT.exr", "The image to write", m_state->output);
+    option("o", m_state->metavar(), output == OutputKind::Folder ? "The folder to write to" : "The image to write",
+           m_state->output);
+    if (output == OutputKind::Image)
+        params("Output:", m_state->file);
     params("Output:", m_state->common);
 }
 
@@ -266,7 +297,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
             catch_interrupts(state.name, int(Exit::Failed));
             exit = Exit::Failed;
             if (!has_udim(state.output)) // else each tile's file is looked at
-                error = output_fault(state.output);
+                error = state.output_fault();
             exit = error.empty() && work(error) ? Exit::Done : Exit::Failed;
         }
     } catch (const std::bad_alloc&) {
@@ -282,6 +313,11 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
 const std::string& StageMain::output() const
 {
     return m_state->output;
+}
+
+const std::vector<std::string>& StageMain::operands() const
+{
+    return m_state->operands;
 }
 
 MakeOptions StageMain::make_options()
@@ -328,7 +364,7 @@ bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& pat
 {
     const WhileWriting writing;
     return write_images(
-        images, path, m_state->common.format, [](double) { return !interrupted(); }, error);
+        images, path, m_state->file.format, [](double) { return !interrupted(); }, error);
 }
 
 } // namespace vmlight

@@ -28,14 +28,23 @@ enum class Exit
     Usage = 2
 };
 
+/// What -o names: an EXR, or a folder that is made if there is none.
+enum class OutputKind
+{
+    Image,
+    Folder
+};
+
 class VMLIGHT_API StageMain
 {
 public:
     /// @param name     of the executable
     /// @param purpose  one sentence
-    /// @param operands names of the positional arguments, all of which are needed
+    /// @param operands names of the positional arguments, all of which are needed; the last may end in "...": one or
+    ///                 more
     /// @param example  one or more command lines
-    StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example);
+    StageMain(std::string name, std::string purpose, std::vector<std::string> operands, std::string example,
+              OutputKind output = OutputKind::Image);
     ~StageMain();
 
     /// A flag for each parameter that has none yet: `--max-distance 2` for `max_distance`, with `prefix` before its
@@ -103,6 +112,8 @@ public:
 
     // For `work`.
     const std::string& output() const;
+    /// The positional arguments.
+    const std::vector<std::string>& operands() const;
     /// Threads, progress and messages as the user asked for; and the recipe, if one was given.
     MakeOptions make_options();
     /// A progress line for one step of the work, which makes an image of so many texels, on stderr; stops the work when
@@ -112,7 +123,7 @@ public:
     void say(const std::string& line) const;
     /// One line on stderr: the result is right, but may surprise.
     void warn(const std::string& line) const;
-    /// Write to output() (or `path`) in the format the user asked for.
+    /// Write to output() (or `path`) in the format the user asked for, else as float.
     bool write(const OIIO::ImageBuf& image, std::string& error);
     bool write(const OIIO::ImageBuf& image, const std::string& path, std::string& error);
     /// The same for several images of one file.

@@ -28,8 +28,8 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
 
 /// make_vismap(), from a scene that other maps may share. With a `time_budget`, in seconds, the samples are those that
 /// the bake has time for on this machine, and at least one; the report tells.
-bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress, double time_budget = 0);
+VMLIGHT_API bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params,
+                             VismapReport* report, int nthreads, const Progress& progress, double time_budget = 0);
 
 /// What was baked.
 struct BakeCounts

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Files that appear when they are whole: written beside their place, flushed to the disk, then renamed.
+#pragma once
+
+#include <vmlight/export.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/string_view.h>
+
+#include <string>
+
+namespace vmlight {
+
+/// Why nothing can be written to `path` as things are, or "": it must lie in a folder that exists and can be written,
+/// and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
+VMLIGHT_API std::string output_file_fault(const std::string& path);
+
+/// Why no files can be written to the folder `path` as things are, or "": it must be one that can be written, or its
+/// parent must be, and nothing else have that name.
+VMLIGHT_API std::string output_folder_fault(const std::string& path);
+
+/// Write a file whole or not at all. False, with the reason in `error`: `path` is then as it was, and nothing is left
+/// over.
+VMLIGHT_API bool write_file(const std::string& path, OIIO::string_view bytes, std::string& error);
+
+/// The same for a writer that takes an IOProxy. It keeps its failure to itself: OpenEXR's writing threads, told of a
+/// full disk, wait for one another for ever.
+class VMLIGHT_API OutputFile : public OIIO::Filesystem::IOFile
+{
+public:
+    /// Opens a temporary file beside what `path` leads to; see sound().
+    explicit OutputFile(const std::string& path);
+    /// What was not kept is removed.
+    ~OutputFile() override;
+
+    size_t write(const void* bytes, size_t size) override;
+    /// Flush it to the disk and give it its name. False if anything went wrong since it was opened.
+    bool keep();
+
+    bool sound() const { return m_reason.empty(); }
+    const std::string& reason() const { return m_reason; }
+    const std::string& temporary() const { return m_temporary; }
+
+private:
+    OutputFile(const std::string& target, const std::string& temporary);
+
+    std::string m_target, m_temporary, m_reason;
+    bool m_kept = false;
+};
+
+} // namespace vmlight

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench.h"
+
+#include "compare.h"
+#include "journal.h"
+#include "least_seconds.h"
+
+#include <vmlight/lightmap.h>
+#include <vmlight/parallel.h>
+#include <vmlight/reference.h>
+#include <vmlight/vismap_baker.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+
+namespace vmlight::cost {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// A change of how rows are measured makes those of earlier journals void.
+constexpr int kMethod = 1;
+
+template <class Params> std::string params_text(Params params)
+{
+    std::string text;
+    params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        text += format("{}={}\n", name, value_text(value, allowed));
+    });
+    return text;
+}
+
+VismapParams map_of(const Setting& setting, const CostParams& params)
+{
+    VismapParams map = reference_map(params);
+    const int side = std::max(1, params.side() / setting.divisor);
+    map.resolution = { side, side };
+    map.samples = setting.samples;
+    map.seed = params.seed;
+    if (const Model* model = find_model(setting.model))
+        model->needs(map);
+    return map;
+}
+
+// Of the reference and the tracing both, another than that of the other.
+int tracing_seed(const CostParams& params)
+{
+    return params.seed + 1000000001;
+}
+
+bool failed(const OIIO::ImageBuf& image, std::string& error)
+{
+    error = image.geterror();
+    return false;
+}
+
+} // namespace
+
+Bench::Bench(const Inputs& inputs, const CostParams& params, const MakeOptions& options)
+    : m_inputs(inputs)
+    , m_params(params)
+    , m_options(options)
+    , m_lights(inputs, params, options)
+{
+}
+
+std::string Bench::key(const Setting& setting, size_t environment) const
+{
+    Setting copy = setting;
+    std::string text = format("row {} {}\n{}{}\n", kMethod, VMLIGHT_VERSION, m_inputs.scene_text(),
+                              m_inputs.environments[environment].reference_key);
+    copy.visit([&](const char* name, auto& value) { text += format("{}={}\n", name, value); });
+    text += params_text(map_of(setting, m_params));
+    return key_of(text + format("threads={}\n", worker_count(m_options.threads)));
+}
+
+bool Bench::measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment,
+                    const Progress& progress, std::string& error)
+{
+    const Environment& light = m_inputs.environments[environment];
+    row = Row {};
+    row.environment = light.name;
+    row.setting = setting;
+    const bool made = setting.model == kTraced
+        ? trace(row, picture, setting, light, progress, error)
+        : bake(setting, progress, error) && shade(row, picture, setting, environment, progress, error);
+    if (made)
+        row.errors = compare(picture, light.reference);
+    return made;
+}
+
+bool Bench::bake(const Setting& setting, const Progress& progress, std::string& error)
+{
+    const VismapParams map = map_of(setting, m_params);
+    const std::string baked = params_text(map);
+    if (baked == m_baked)
+        return true;
+    m_baked.clear();
+    const auto make = [&] { return make_vismap(m_vismap, m_inputs.scene, map, nullptr, m_options.threads, progress); };
+    if (!least_seconds(m_bake_seconds, make))
+        return failed(m_vismap, error);
+    m_baked = baked;
+    return true;
+}
+
+bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment,
+                  const Progress& progress, std::string& error)
+{
+    const Model& model = *find_model(setting.model);
+    const FilteredLight* light = m_lights.find(environment, model.light, setting.cfem_width, progress, error);
+    if (!light)
+        return false;
+    const bool is_half = setting.storage == "half";
+    OIIO::ImageBuf stored = m_vismap;
+    if (is_half) { // rounded; then float again, as a reader of the file would hand it on
+        stored.copy(m_vismap, OIIO::TypeDesc::HALF);
+        stored.copy(OIIO::ImageBuf(stored), OIIO::TypeDesc::FLOAT);
+    }
+    LightmapParams params;
+    params.model = model.shading;
+    OIIO::ImageBuf lightmap;
+    const auto make
+        = [&] { return make_lightmap(lightmap, stored, light->images, params, nullptr, m_options.threads, progress); };
+    if (!least_seconds(row.shade, make))
+        return failed(lightmap, error);
+    row.bake = m_bake_seconds;
+    row.light = light->seconds;
+    row.bytes = is_half ? model.half_bytes : model.float_bytes;
+    picture = shown(lightmap, m_inputs.environments[environment].reference);
+    return true;
+}
+
+bool Bench::trace(Row& row, OIIO::ImageBuf& picture, const Setting& setting, const Environment& environment,
+                  const Progress& progress, std::string& error)
+{
+    ReferenceParams params;
+    params.samples = std::max(2, setting.samples / 2); // pairs of rays
+    params.seed = tracing_seed(m_params);
+    params.sanitize = m_params.sanitize;
+    OIIO::ImageBuf traced;
+    const auto make = [&] {
+        return make_reference(traced, *m_inputs.scene, environment.image, map_of(setting, m_params), {}, params,
+                              m_options.threads, progress);
+    };
+    if (!least_seconds(row.shade, make))
+        return failed(traced, error);
+    picture = traced;
+    return true;
+}
+
+} // namespace vmlight::cost

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lights.h"
+#include "row.h"
+
+namespace vmlight::cost {
+
+/// Measures one setting under one environment at a time. Keeps the last visibility map and all filtered environments
+/// for the settings that share them. One thread.
+class Bench
+{
+public:
+    Bench(const Inputs& inputs, const CostParams& params, const MakeOptions& options);
+
+    /// The key of a row: a hash of all that goes into it.
+    std::string key(const Setting& setting, size_t environment) const;
+
+    /// @param picture  set to the lightmap, at the reference's size
+    /// @returns false, with the reason in `error`, if something cannot be made or `progress` stopped the work
+    bool measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment,
+                 const Progress& progress, std::string& error);
+
+private:
+    bool bake(const Setting& setting, const Progress& progress, std::string& error);
+    bool shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment, const Progress& progress,
+               std::string& error);
+    bool trace(Row& row, OIIO::ImageBuf& picture, const Setting& setting, const Environment& environment,
+               const Progress& progress, std::string& error);
+
+    const Inputs& m_inputs;
+    const CostParams& m_params;
+    const MakeOptions& m_options;
+    Lights m_lights;
+    std::string m_baked; // what m_vismap was made with
+    OIIO::ImageBuf m_vismap;
+    double m_bake_seconds = 0;
+};
+
+} // namespace vmlight::cost

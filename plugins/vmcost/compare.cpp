@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <array>
+#include <cmath>
+
+namespace vmlight::cost {
+namespace {
+
+constexpr int kError = 3, kCoverage = 6; // channels of a reference
+
+template <class Each> void for_each_covered(const OIIO::ImageBuf& reference, Each&& each)
+{
+    for (OIIO::ImageBuf::ConstIterator<float> truth(reference); !truth.done(); ++truth)
+        if (truth[kCoverage] > 0)
+            each(truth);
+}
+
+} // namespace
+
+OIIO::ImageBuf shown(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference)
+{
+    OIIO::ROI roi = reference.roi();
+    roi.chend = 3;
+    return lightmap.spec().width == roi.width() ? lightmap
+                                                : OIIO::ImageBufAlgo::resize(lightmap, "triangle", 0, roi, 1);
+}
+
+Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference)
+{
+    std::array<Batch, kBatches> batches;
+    std::vector<float> distances;
+    double sum = 0;
+    OIIO::ImageBuf::ConstIterator<float> model(lightmap);
+    for_each_covered(reference, [&](const auto& truth) {
+        model.pos(truth.x(), truth.y());
+        Batch& batch = batches[size_t(batch_of(truth.x(), truth.y()))];
+        for (int c = 0; c < 3; ++c) {
+            batch.add(model[c], truth[c], truth[kError + c]);
+            distances.push_back(std::abs(model[c] - truth[c]));
+            sum += truth[c];
+        }
+    });
+    Errors errors = errors_of(batches);
+    errors.p95 = quantile(distances, 0.95) * double(distances.size()) / sum;
+    return errors;
+}
+
+int64_t covered_texels(const OIIO::ImageBuf& reference)
+{
+    int64_t count = 0;
+    for_each_covered(reference, [&](const auto&) { ++count; });
+    return count;
+}
+
+bool is_lit(const OIIO::ImageBuf& reference)
+{
+    double sum = 0;
+    for_each_covered(reference, [&](const auto& truth) { sum += truth[0] + truth[1] + truth[2]; });
+    return sum > 0;
+}
+
+} // namespace vmlight::cost

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heat_map_file.h"
+
+#include "heat_map.h"
+
+#include <vmlight/image_file.h>
+#include <vmlight/interrupt.h>
+#include <vmlight/output_file.h>
+
+#include <OpenImageIO/imageio.h>
+
+namespace vmlight::cost {
+namespace {
+
+constexpr const char* kKey = "vmlight:costKey";
+
+} // namespace
+
+std::string heat_map_path(const std::string& folder, const std::string& environment, const std::string& model)
+{
+    return folder + "/error_" + environment + "_" + model;
+}
+
+bool has_heat_map(const std::string& folder, const std::string& environment, const std::string& model,
+                  const std::string& key)
+{
+    const std::string path = heat_map_path(folder, environment, model);
+    const auto in = OIIO::ImageInput::open(path + ".exr");
+    if (!in)
+        OIIO::geterror(); // it will be made
+    return in && OIIO::Filesystem::exists(path + ".png") && in->spec().get_string_attribute(kKey) == key;
+}
+
+bool write_heat_map(const std::string& folder, const std::string& environment, const std::string& model,
+                    const std::string& key, const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference,
+                    std::string& error)
+{
+    OIIO::ImageBuf map = heat_map(lightmap, reference);
+    map.specmod().attribute(kKey, key);
+    const std::string path = heat_map_path(folder, environment, model);
+    std::string png;
+    const WhileWriting writing;
+    // The EXR last: it is what tells that both are there.
+    return heat_map_png(png, map, 0, error) && write_file(path + ".png", png, error)
+        && write_image(map, path + ".exr", "float", {}, error);
+}
+
+} // namespace vmlight::cost

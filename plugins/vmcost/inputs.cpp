@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inputs.h"
+
+#include "compare.h"
+#include "journal.h"
+#include "named_channels.h"
+
+#include <vmlight/image_file.h>
+#include <vmlight/interrupt.h>
+#include <vmlight/recipe_chain.h>
+#include <vmlight/reference.h>
+#include <vmlight/scene_cache.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
+#include <set>
+
+namespace vmlight::cost {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Fewer say nothing of a surface.
+constexpr int64_t kFewestTexels = 2 * kBatches;
+
+std::string unique_name(const std::string& path, std::set<std::string>& taken)
+{
+    const std::string file = OIIO::Filesystem::filename(path);
+    const std::string stem = file.substr(0, file.size() - OIIO::Filesystem::extension(file).size());
+    std::string name = stem;
+    for (int i = 2; !taken.insert(name).second; ++i)
+        name = format("{}_{}", stem, i);
+    return name;
+}
+
+bool read_environment(Environment& dst, const ColorSettings& color, const MakeOptions& options, std::string& error)
+{
+    std::string note;
+    if (!read_image(dst.image, dst.path, error))
+        return false;
+    error = input_fault(dst.path, dst.image.spec().get_string_attribute("vmlight:stage"), Input::Environment);
+    if (!error.empty() || !to_scene_linear(dst.image, dst.path, color, note, error))
+        return false;
+    dst.hash = OIIO::ImageBufAlgo::computePixelHashSHA1(dst.image, format("{}", dst.image.nchannels()));
+    options.say(format("{}: {}x{}, {}", dst.name, dst.image.spec().width, dst.image.spec().height, note));
+    return true;
+}
+
+ReferenceParams reference_params(const CostParams& params)
+{
+    ReferenceParams reference;
+    reference.samples = params.pairs();
+    reference.seed = params.seed;
+    reference.sanitize = params.sanitize;
+    return reference;
+}
+
+bool trace(Environment& environment, const Inputs& inputs, const CostParams& params, const std::string& path,
+           const MakeOptions& options, std::string& error)
+{
+    const VismapParams map = reference_map(params);
+    const Progress progress
+        = options.progress("reference " + environment.name, int64_t(map.size().width) * map.size().height);
+    if (!make_reference(environment.reference, *inputs.scene, environment.image, map, {}, reference_params(params),
+                        options.threads, progress)) {
+        const std::string reason = environment.reference.geterror();
+        error = reason == "interrupted" ? reason : format("\"{}\": {}", environment.path, reason);
+        return false;
+    }
+    const WhileWriting writing;
+    return write_image(environment.reference, path, "float", {}, error);
+}
+
+} // namespace
+
+std::string Inputs::scene_text() const
+{
+    return scene->mesh_hash() + "\n" + scene->occluder_hashes() + "\n";
+}
+
+bool read_inputs(Inputs& dst, const VismapRecipe& mesh, const std::vector<std::string>& environments,
+                 const ColorSettings& color, const MakeOptions& options, std::string& error)
+{
+    SceneStamps stamps;
+    std::string at;
+    if (!stamp_scene(stamps, mesh, at, error)
+        || !share_scene(dst.scene, mesh, stamps, options.threads, nullptr, at, error))
+        return false;
+    std::set<std::string> taken;
+    for (const std::string& path : environments) {
+        Environment& environment = dst.environments.emplace_back();
+        environment.path = path;
+        environment.name = unique_name(path, taken);
+        if (!read_environment(environment, color, options, error))
+            return false;
+    }
+    return true;
+}
+
+VismapParams reference_map(const CostParams& params)
+{
+    VismapParams map;
+    map.resolution = { params.side(), params.side() };
+    return map;
+}
+
+bool trace_references(Inputs& inputs, const CostParams& params, const std::string& folder, const MakeOptions& options,
+                      std::string& error)
+{
+    for (Environment& environment : inputs.environments) {
+        ReferenceParams reference = reference_params(params);
+        std::string text = format("reference\n{}{}\n{}\n", inputs.scene_text(), environment.hash, params.side());
+        reference.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+            text += format("{}={}\n", name, value_text(value, allowed));
+        });
+        environment.reference_key = key_of(text);
+        const std::string path
+            = format("{}/reference_{}_{}.exr", folder, environment.name, environment.reference_key.substr(0, 12));
+        std::string unread;
+        const bool kept
+            = OIIO::Filesystem::exists(path) && read_channels(environment.reference, path, kReferenceChannels, unread);
+        if (kept)
+            options.say(format("{}: reused the reference", environment.name));
+        else if (!trace(environment, inputs, params, path, options, error))
+            return false;
+        const int64_t covered = covered_texels(environment.reference);
+        if (covered < kFewestTexels)
+            error = format("the mesh covers {} of {}x{} texels, of which {} are needed: raise resolution", covered,
+                           params.side(), params.side(), kFewestTexels);
+        else if (!is_lit(environment.reference))
+            error = format("\"{}\": no light falls on the mesh", environment.path);
+        if (!error.empty())
+            return false;
+    }
+    return true;
+}
+
+} // namespace vmlight::cost

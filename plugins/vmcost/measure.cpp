@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure.h"
+
+#include "bench.h"
+#include "heat_map_file.h"
+
+#include <algorithm>
+
+namespace vmlight::cost {
+namespace {
+
+// About as the time goes.
+double weight(const Setting& setting, size_t environments)
+{
+    const bool traced = setting.model == kTraced;
+    const double rays = double(setting.samples) / (setting.divisor * setting.divisor);
+    return 100 + (traced ? 2 * double(environments) : 1) * rays;
+}
+
+bool needs_heat_map(const Setting& setting)
+{
+    return setting == default_setting(setting.model);
+}
+
+} // namespace
+
+bool measure(Measured& dst, const std::vector<Setting>& settings, const Inputs& inputs, const CostParams& params,
+             const std::string& folder, const MakeOptions& options, std::string& error)
+{
+    Journal journal;
+    if (!journal.open(folder + "/journal.jsonl", error))
+        return false;
+    Bench bench(inputs, params, options);
+    double all = 0, done = 0, part = 0;
+    for (const Setting& setting : settings)
+        all += weight(setting, inputs.environments.size());
+    const int64_t texels = int64_t(settings.size()) * params.side() * params.side();
+    const Progress progress = options.progress("measure", texels);
+    double furthest = 0; // what is done again for its time does not count twice
+    const auto inner = [&](double share) {
+        furthest = std::max(furthest, (done + share * part) / all * 0.999);
+        return !progress || progress(furthest);
+    };
+    for (const Setting& setting : settings) {
+        const size_t count = inputs.environments.size();
+        part = weight(setting, count) / double(count);
+        for (size_t i = 0; i < count; ++i, done += part) {
+            const std::string key = bench.key(setting, i);
+            const std::string& name = inputs.environments[i].name;
+            const Row* kept = journal.find(key);
+            if (kept && (!needs_heat_map(setting) || has_heat_map(folder, name, setting.model, key))) {
+                dst.rows.push_back(*kept);
+                dst.rows.back().environment = name; // the same light by another name is the same row
+                ++dst.reused;
+                continue;
+            }
+            Row row;
+            OIIO::ImageBuf picture;
+            if (!bench.measure(row, picture, setting, i, inner, error)
+                || (needs_heat_map(setting)
+                    && !write_heat_map(folder, name, setting.model, key, picture, inputs.environments[i].reference,
+                                       error))
+                || !journal.add(key, row, error))
+                return false;
+            dst.rows.push_back(row);
+            ++dst.measured;
+        }
+    }
+    if (progress)
+        progress(1);
+    return true;
+}
+
+} // namespace vmlight::cost

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
+#include "heat_map.h"
+#include "models.h"
+#include "words.h"
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight::cost {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr double kTargets[] = { 0.01, 0.05, 0.10 };
+constexpr int kManyPictures = 100;
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<style>
+body { font: 15px/1.5 sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
+table { border-collapse: collapse; margin: .7em 0; }
+th, td { padding: .25em .8em; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
+th:first-child, td:first-child { text-align: left; } th { font-weight: 600; }
+figure { margin: 1em 0; } figcaption { color: #555; font-size: .92em; max-width: 48em; }
+figure svg { width: 100%; height: auto; max-width: 760px; }
+.heat td { text-align: center; border: 0; padding: .3em; } .heat img { width: 128px; image-rendering: pixelated; }
+.none { color: #777; } dl { display: grid; grid-template-columns: max-content auto; gap: .1em 1.2em; }
+dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
+@media print { body { margin: 0; font-size: 11px; max-width: none; } figure, table { break-inside: avoid; } }
+</style>
+)";
+
+std::string cells(const char* tag, const std::vector<std::string>& texts)
+{
+    std::string row = "<tr>";
+    for (const std::string& text : texts)
+        row += format("<{0}>{1}</{0}>", tag, text);
+    return row + "</tr>\n";
+}
+
+std::string setting_text(const Setting& setting)
+{
+    std::string text = format("{}, {} rays", setting.model, setting.samples);
+    if (setting.cfem_width && setting.cfem_width != default_setting(setting.model).cfem_width)
+        text += format(", light {} wide", setting.cfem_width);
+    if (setting.divisor > 1)
+        text += format(", map 1/{} the size", setting.divisor);
+    return text + (setting.storage == "half" ? ", half" : "");
+}
+
+std::string with_half(double value, double half)
+{
+    return percent_text(value) + " &plusmn; " + percent_text(half);
+}
+
+std::vector<std::string> cost_cells(const Point& point)
+{
+    return { point.bake > 0 ? seconds_text(point.bake) : "&ndash;",
+             point.light > 0 ? seconds_text(point.light) : "&ndash;", seconds_text(point.shade),
+             point.bytes ? format("{}", point.bytes) : "&ndash;" };
+}
+
+std::vector<Point> of_kind(const std::vector<Point>& points, bool traced)
+{
+    std::vector<Point> found;
+    for (const Point& point : points)
+        if ((point.setting.model == kTraced) == traced)
+            found.push_back(point);
+    return found;
+}
+
+std::string choice_row(const std::string& targets, const Point& point, bool reaches)
+{
+    std::vector<std::string> row { targets,
+                                   (reaches ? "" : "<span class=none>no model reaches it; nearest:</span> ")
+                                       + setting_text(point.setting),
+                                   with_half(point.rmse, point.rmse_half) };
+    for (const std::string& cell : cost_cells(point))
+        row.push_back(cell);
+    row.push_back(seconds_text(point.total(kManyPictures)));
+    return cells("td", row);
+}
+
+std::string choices(const std::vector<Point>& points)
+{
+    std::string text = "<table>\n"
+        + cells("th",
+                { "for an error of", "choose", "error", "bake, once", "filter, each environment",
+                  "shade, each rotation", "bytes a texel", format("{} rotations", kManyPictures) });
+    for (const bool traced : { false, true }) {
+        const std::vector<Point> kind = of_kind(points, traced);
+        std::vector<std::string> missed;
+        for (const double target : kTargets)
+            if (!cheapest(kind, target))
+                missed.push_back(percent_text(target));
+        if (!missed.empty() && !traced && !kind.empty())
+            text += choice_row(OIIO::Strutil::join(missed, ", "), *nearest(kind), false);
+        for (const double target : kTargets)
+            if (const Point* found = cheapest(kind, target))
+                text += choice_row(percent_text(target), *found, true);
+    }
+    return text + "</table>\n";
+}
+
+std::string knees(const std::vector<Point>& points)
+{
+    std::string text = "<table>\n"
+        + cells("th",
+                { "model", "rays", "error", "worst environment", "95 % of texels below", "bias", "bake", "filter",
+                  "shade", "bytes" });
+    for (const Model& model : models()) {
+        const std::vector<Point> line = curve(points, model.name);
+        if (line.empty())
+            continue;
+        const Point& at = knee(line);
+        std::vector<std::string> row { model.name,
+                                       format("{}", at.setting.samples),
+                                       with_half(at.rmse, at.rmse_half),
+                                       percent_text(at.worst),
+                                       percent_text(at.p95),
+                                       with_half(at.bias, at.bias_half) };
+        for (const std::string& cell : cost_cells(at))
+            row.push_back(cell);
+        text += cells("td", row);
+    }
+    return text + "</table>\n";
+}
+
+std::string image(const std::string& png, const std::string& alternative)
+{
+    return format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(alternative),
+                  OIIO::Strutil::base64_encode(png));
+}
+
+std::string heat_maps(const Report& report)
+{
+    std::string text = "<table class=heat>\n";
+    for (const auto& [environment, pictures] : report.heat_maps) {
+        text += format("<tr><td>{}</td>", escaped(environment));
+        for (const Picture& picture : pictures)
+            text += format("<td>{}<br>{}</td>", image(picture.png, environment + ", " + picture.caption),
+                           escaped(picture.caption));
+        text += "</tr>\n";
+    }
+    return text + "</table>\n";
+}
+
+} // namespace
+
+std::string choice_text(const std::vector<Point>& points, double target)
+{
+    const std::vector<Point> models = of_kind(points, false);
+    const Point* found = cheapest(models, target);
+    const Point* told = found ? found : nearest(models);
+    return !told ? ""
+                 : format("{}: {}{}, {} in {}", percent_text(target), found ? "" : "not reached by any model; nearest ",
+                          setting_text(told->setting), percent_text(told->rmse), seconds_text(told->total()));
+}
+
+std::string report_html(const Report& report)
+{
+    std::string text = kHead + format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", escaped(report.title));
+    text += "<h2>What to choose</h2>\n<p>The least time to a first picture. Errors are root mean squares over the "
+            "surface against ray tracing, in parts of the mean light, and means over the environments. "
+            "<i>traced</i> bakes nothing and traces rays to the light in each picture, at each rotation anew.</p>\n"
+        + choices(report.points);
+    text += "<h2>What accuracy costs</h2>\n";
+    for (const Picture& plot : report.plots)
+        text += format("<figure>{}<figcaption>{}</figcaption></figure>\n", plot.svg, escaped(plot.caption));
+    if (report.plots.empty())
+        text += "<p class=none>Drawn without plots.</p>\n";
+    text += format("<h2>Each model at its knee</h2>\n<p>The fewest rays beyond which it gains less than {:g} %.</p>\n",
+                   100 * kKneeGain)
+        + knees(report.points);
+    text += format("<h2>Where they err</h2>\n<p>At the default settings, in texture space: red is too bright, blue too "
+                   "dark, full colour {:g} % of the mean light and more. Grey is no part of the mesh.</p>\n",
+                   100.0 * kHeatRange)
+        + heat_maps(report);
+    text += "<h2>How it was measured</h2>\n<p>The reference traces pairs of rays, one by the cosine and one by the "
+            "light, with independent random numbers; its own variance, which it estimates texel by texel, is taken off "
+            "the mean square error. &plusmn; is half an interval of 95 %: other texels of the same surface, other rays "
+            "of bake and reference; not other environments, rotations or meshes. The 95th percentile holds the "
+            "reference's noise. Bake and shade are the whole map's at the reference's size; times are the least of a "
+            "few, in memory, files apart; shading prepares its "
+            "look-ups each time, which weighs on small maps.</p>\n<dl>\n";
+    for (const auto& [name, value] : report.facts)
+        text += format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
+    return text + "</dl>\n</body></html>\n";
+}
+
+} // namespace vmlight::cost

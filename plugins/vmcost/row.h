@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "statistics.h"
+#include "sweep.h"
+
+#include <string>
+
+namespace vmlight::cost {
+
+/// One setting under one environment, measured.
+struct Row
+{
+    std::string environment;
+    Setting setting;
+    /// Seconds: of the bake, once; of making the light, for each environment; of a picture, for each rotation.
+    double bake = 0, light = 0, shade = 0;
+    /// That are read of a texel.
+    int bytes = 0;
+    Errors errors;
+
+    /// Columns of the tables, in their order.
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("environment", environment);
+        setting.visit(field);
+        field("bytes", bytes);
+        field("bake_seconds", bake);
+        field("light_seconds", light);
+        field("shade_seconds", shade);
+        field("rmse", errors.rmse.value);
+        field("rmse_low", errors.rmse.low);
+        field("rmse_high", errors.rmse.high);
+        field("bias", errors.bias.value);
+        field("bias_low", errors.bias.low);
+        field("bias_high", errors.bias.high);
+        field("p95", errors.p95);
+    }
+};
+
+} // namespace vmlight::cost

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gnuplot.h"
+#include "report.h"
+#include "write_report.h"
+
+#include <vmlight/stage_main.h>
+#include <vmlight/words.h>
+
+#include <OpenImageIO/filesystem.h>
+
+using namespace vmlight;
+using namespace vmlight::cost;
+
+int main(int argc, const char** argv)
+{
+    CostParams params;
+    VismapRecipe mesh;
+    ColorSettings color;
+    StageMain stage("vmcost", "measure what accuracy costs in time, and say what to choose",
+                    { "MESH", "ENVIRONMENT..." },
+                    "  vmcost hero.obj studio.hdr -o report\n"
+                    "  vmcost hero.obj studio.hdr sky.hdr --occluder ground.obj -o report\n"
+                    "  vmcost hero.obj studio.hdr --quick -o report\n"
+                    "A run that was cut short goes on where it stopped.",
+                    OutputKind::Folder);
+    stage.params("Measure:", params);
+    stage.params("Mesh:", mesh.mesh_params);
+    stage.group("Inputs:");
+    stage.option("occluder", "FILE", "Meshes that cast and are not baked; may come more than once",
+                 [&](auto text, auto&) {
+                     mesh.occluder.emplace_back(text);
+                     return true;
+                 });
+    stage.option("colorspace", "NAME", "Colour space of the environments, if their names and tags do not tell",
+                 color.from);
+    stage.option("colorconfig", "FILE", "OCIO config; without it $OCIO", color.config);
+
+    return stage.run(argc, argv, [&](std::string& error) {
+        const std::vector<std::string>& operands = stage.operands();
+        const std::string& folder = stage.output();
+        const MakeOptions options = stage.make_options();
+        Inputs inputs;
+        Measured measured;
+        mesh.mesh = operands[0];
+        error = params.no_plots ? "" : gnuplot_fault();
+        if (!error.empty()
+            || !read_inputs(inputs, mesh, { operands.begin() + 1, operands.end() }, color, options, error))
+            return false;
+        if (!OIIO::Filesystem::is_directory(folder) && !OIIO::Filesystem::create_directory(folder, error)) {
+            error = "\"" + folder + "\": " + error;
+            return false;
+        }
+        if (!trace_references(inputs, params, folder, options, error)
+            || !measure(measured, sweep(params.quick), inputs, params, folder, options, error)
+            || !write_report(measured, inputs, params, folder, options, error))
+            return false;
+        options.say("measured " + counted(measured.measured, "row", "rows") + ", reused "
+                    + std::to_string(measured.reused));
+        for (const double target : { 0.01, 0.05, 0.10 })
+            options.say(choice_text(summarize(measured.rows), target));
+        options.say("report: " + folder + "/report.html");
+        return true;
+    });
+}

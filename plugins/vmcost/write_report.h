@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "inputs.h"
+#include "measure.h"
+
+namespace vmlight::cost {
+
+/// Write costs.csv, costs.json, the plots as SVG and PNG, and report.html to `folder`, each whole or not at all. False,
+/// with the reason in `error`.
+bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params, const std::string& folder,
+                  const MakeOptions& options, std::string& error);
+
+} // namespace vmlight::cost
