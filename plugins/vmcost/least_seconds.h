@@ -11,8 +11,8 @@ namespace vmlight::cost {
 /// as soon as `work` returns false.
 template <class Work> bool least_seconds(double& seconds, Work&& work)
 {
-    constexpr double kEnough = 0.05;
-    constexpr int kMostTimes = 15;
+    constexpr double kEnough = 0.02;
+    constexpr int kMostTimes = 8;
     const OIIO::Timer all;
     for (int i = 0; i < kMostTimes && (i == 0 || all() < kEnough); ++i) {
         const OIIO::Timer timer;
