@@ -20,7 +20,7 @@ DATA = os.path.join(HERE, "../tests/data")
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 SCENES = ["object", "ground", "city", "terrain", "well_stairs", "leaves"]
 ENVIRONMENTS = ["studio_small_03.hdr", "kloppenheim_05.hdr", "forest_slope.hdr", "st_fagans_interior.hdr"]
-DEFAULTS = {"cfem_width": (256, 0), "storage": ("float", ""), "divisor": (1,)}
+DEFAULTS = {"cfem_width": (128, 0), "storage": ("float", ""), "divisor": (1,)}
 KNEE_GAIN = 0.02  # as vmcost's
 
 

@@ -126,8 +126,10 @@ void lobe_against_paper(benchmark::State& state)
     LobeLookup lobes;
     std::string error;
     if (!make_cfem_stack(stack, environment(), {}, error) || !prepare_cfem(cfem, stack[0], error)
-        || !prepare_lobes(lobes, stack, error))
+        || !prepare_lobes(lobes, OIIO::cspan<ImageBuf>(stack.data(), kStackLevels), error)) {
         state.SkipWithError(error.c_str());
+        return;
+    }
     const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1, &lobes };
 
     std::vector<double> paper, lobe;

@@ -16,7 +16,7 @@ struct Axes
 Axes axes(bool quick)
 {
     if (quick)
-        return { { 16, 64, 128, 256 }, { 64, 256 }, { 1, 2 }, { 16, 64, 128, 256 } };
+        return { { 16, 64, 128, 256 }, { 32, 128 }, { 1, 2 }, { 16, 64, 128, 256 } };
     // Tracing for longer than this tells nothing that its slope does not.
     return {
         { 16, 32, 64, 128, 256, 512, 1024, 4096 }, { 32, 64, 128, 256, 512 }, { 1, 2, 4 }, { 16, 32, 64, 128, 256, 512 }

@@ -14,7 +14,7 @@ struct Setting
     /// Rays a texel.
     int samples = 128;
     /// Of the filtered environment, in pixels; 0 where there is none.
-    int cfem_width = 256;
+    int cfem_width = 128;
     /// Of the visibility map: float or half; "" where there is none.
     std::string storage = "float";
     /// How many times smaller the visibility map is than the reference, each way.

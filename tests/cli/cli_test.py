@@ -432,7 +432,7 @@ class Light(Case):
             told = self.done("makelightmap", basis + ".exr", "stack.exr", "--rotate", "0,30,0", "-o", "a.exr")
             self.assertIn(f"model: {basis}, the best that the visibility map is fit for", told)
             told = self.done("makelightmap", basis + ".exr", SKY, "--rotate", "0,30,0", "-o", "b.exr")
-            self.assertIn("reduce: 512x256 to 256x128", told)  # no lobe is filtered that is not looked up
+            self.assertIn("reduce: 512x256 to 128x64", told)  # no lobe is filtered that is not looked up
             self.assertNotIn("filter:", told)
             self.assertEqual(self.read("a.exr"), self.read("b.exr"))
             # Live, from recipes: the same bytes.
@@ -458,7 +458,7 @@ class Light(Case):
     def test_a_stack_lights_by_lobes(self):
         self.vismap()
         self.done("makecfem", SKY, "-o", "cfem.exr")
-        self.assertIn("to 10 of 256x128", self.done("makecfem", SKY, "--stack", "-o", "stack.exr"))
+        self.assertIn("to 10 of 128x64", self.done("makecfem", SKY, "--stack", "-o", "stack.exr"))
         self.assertIn("model: lobe, the best that the visibility map is fit for", self.done("makelightmap", "vm.exr", "stack.exr", "-o",
                                                                           "stack_lit.exr"))
         self.assertIn("model: lobe, the best that the visibility map is fit for",

@@ -193,7 +193,7 @@ class Info(Case):
             self.assertGreater(len(told[0]), 6)
             self.assertEqual(*told)
         for line in ('vmlight:environment: "studio_small_03.hdr"', 'vmlight:cfem_filter: "sh"', 'vmlight:cfem_order: "4"',
-                     'vmlight:cfem_resolution: "256x128"', 'vmlight:cfem_sanitize: "false"'):
+                     'vmlight:cfem_resolution: "128x64"', 'vmlight:cfem_sanitize: "false"'):
             self.assertIn("    " + line, told[1])
         # The same, however the environment came to be filtered.
         self.make("makelightmap", "vm.exr", "cfem.exr", "--rotate", "0,30,0", "-o", "apart.exr")
