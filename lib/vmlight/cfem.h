@@ -22,11 +22,11 @@ struct CfemParams
     /// Bands of the `sh` filter: order N keeps l = 0 .. N-1, N*N coefficients a channel.
     int order = 3;
     /// A lat-long map is twice as wide as high; other shapes are allowed. Measured on six scenes under four skies
-    /// (bench/ladder.py): at 64x32 the error of no model is larger by .0006 than at 256x128 (that of `mask` and `cells`, which
-    /// read the environment itself at this size, is less). Twice 64 is for what is not occluded, where `paper` is exact
-    /// and interpolation is all that is left: at most 0.5 % of the mean light under soft skies, 2.6 % under a sun, half
-    /// of that at twice the size. A stack of 128x64 also stays in the caches: `lobe` takes 1.36 times as long as
-    /// `paper`, not 1.5.
+    /// (bench/ladder.py): at 64x32 the error of no model is larger by .0006 than at 256x128 (that of `mask` and
+    /// `cells`, which read the environment itself at this size, is less). Twice 64 is for what is not occluded, where
+    /// `paper` is exact and interpolation is all that is left: at most 0.5 % of the mean light under soft skies, 2.6 %
+    /// under a sun, half of that at twice the size. A stack of 128x64 also stays in the caches: `lobe` takes 1.36 times
+    /// as long as `paper`, not 1.5.
     Size resolution { 128, 64 };
     /// Mend bad pixels rather than refuse them: NaN and infinity become the mean of the sound pixels among the eight
     /// around them (0 if none is), negative values become 0. Never done unasked.

@@ -310,6 +310,11 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
     return int(exit);
 }
 
+const std::string& StageMain::format() const
+{
+    return m_state->file.format;
+}
+
 const std::string& StageMain::output() const
 {
     return m_state->output;

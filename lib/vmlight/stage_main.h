@@ -110,8 +110,10 @@ public:
     /// @returns the process's exit code.
     int run(int argc, const char** argv, const std::function<bool(std::string& error)>& work);
 
-    // For `work`.
+    // For check() and `work`.
     const std::string& output() const;
+    /// Numbers in the file that is written: "float" or "half".
+    const std::string& format() const;
     /// The positional arguments.
     const std::vector<std::string>& operands() const;
     /// Threads, progress and messages as the user asked for; and the recipe, if one was given.

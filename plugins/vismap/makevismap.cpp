@@ -28,6 +28,13 @@ int main(int argc, const char** argv)
     stage.recipe(
         "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, unsaid);
 
+    stage.check([&] {
+        const std::string& basis = recipe.vismap_params.basis;
+        return stage.format() == "half" && (basis == "mask" || basis == "cells")
+            ? "--format half: the basis " + basis + " holds whole numbers that half floats do not keep"
+            : std::string();
+    });
+
     const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
         OIIO::ImageBuf vismap;
         if (!make_image(vismap, tile, options))

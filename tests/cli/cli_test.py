@@ -445,7 +445,7 @@ class Light(Case):
                 self.done("makevismap", *words, "--order", "3", "--format", "half", "-o", "half.exr")
                 self.done("makelightmap", "half.exr", "stack.exr", "-o", "x.exr")
             else:
-                self.refused(1, "holds whole numbers below 2^24, of which half keeps those to 2048: write float",
+                self.refused(2, f"--format half: the basis {basis} holds whole numbers that half floats do not keep",
                              "makevismap", *words, "--format", "half", "-o", "half.exr")
             self.oiiotool(basis + ".exr", "--resize", "32x32", "-o", "small.exr")
             if basis != "sh":
