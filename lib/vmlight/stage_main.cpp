@@ -310,7 +310,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
     return int(exit);
 }
 
-const std::string& StageMain::format() const
+const std::string& StageMain::pixel_format() const
 {
     return m_state->file.format;
 }

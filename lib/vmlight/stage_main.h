@@ -113,7 +113,7 @@ public:
     // For check() and `work`.
     const std::string& output() const;
     /// Numbers in the file that is written: "float" or "half".
-    const std::string& format() const;
+    const std::string& pixel_format() const;
     /// The positional arguments.
     const std::vector<std::string>& operands() const;
     /// Threads, progress and messages as the user asked for; and the recipe, if one was given.

@@ -30,7 +30,7 @@ int main(int argc, const char** argv)
 
     stage.check([&] {
         const std::string& basis = recipe.vismap_params.basis;
-        return stage.format() == "half" && (basis == "mask" || basis == "cells")
+        return stage.pixel_format() == "half" && (basis == "mask" || basis == "cells")
             ? "--format half: the basis " + basis + " holds whole numbers that half floats do not keep"
             : std::string();
     });
