@@ -66,7 +66,7 @@ void VisibilityGrid::take(const RayFan& fan, const std::vector<uint8_t>& asked)
         if (m_used >> column & 1)
             std::fill_n(m_counts.begin() + column * kFine, kFine, Count {});
     m_used = 0;
-    m_asked = 0;
+    m_asked = m_seen = 0;
     for (int packet = 0; packet < fan.packets; ++packet)
         for (int lane = 0; lane < kPacketSize; ++lane) {
             if (!(asked[size_t(packet)] >> lane & 1))
@@ -75,7 +75,9 @@ void VisibilityGrid::take(const RayFan& fan, const std::vector<uint8_t>& asked)
             const int column = column_of(fan.x[ray], fan.z[ray]);
             Count& count = m_counts[size_t(column * kFine + slice_of(fan.y[ray], kFine))];
             ++count.asked;
-            count.seen += fan.lanes[size_t(packet)] >> lane & 1;
+            const uint32_t seen = fan.lanes[size_t(packet)] >> lane & 1;
+            count.seen += seen;
+            m_seen += seen;
             m_used |= 1u << column;
             ++m_asked;
         }
@@ -125,19 +127,27 @@ ColumnView VisibilityGrid::view(int column, const V3d& normal) const
     return view;
 }
 
+ColumnView VisibilityGrid::unasked(int column, const V3d& normal) const
+{
+    const Span above = above_horizon(column, normal, kFine);
+    const int low = (above.first + 2) / 4, high = (above.last + 3) / 4;
+    const int density = m_asked ? int(15 * double(m_seen) / double(m_asked) + 0.5) : 0;
+    return high > low && density > 0 ? ColumnView { low, high, density } : ColumnView {};
+}
+
 void VisibilityGrid::mask(float* packed, const V3d& normal) const
 {
     std::array<ColumnView, kColumns> columns;
     for (int column = 0; column < kColumns; ++column)
-        if (m_used >> column & 1)
-            columns[size_t(column)] = view(column, normal);
+        columns[size_t(column)] = m_used >> column & 1 ? view(column, normal) : unasked(column, normal);
     pack_mask(packed, columns.data());
 }
 
-void VisibilityGrid::cells(float* packed) const
+void VisibilityGrid::cells(float* packed, const V3d& normal) const
 {
     std::array<double, kCells> share {};
     double best = 0;
+    const double whole = m_asked ? double(m_seen) / double(m_asked) : 0;
     for (int cell = 0; cell < kCells; ++cell) {
         const int column = cell % kColumns, band = cell / kColumns, slices = kFine / kBands;
         Count sum {};
@@ -146,7 +156,12 @@ void VisibilityGrid::cells(float* packed) const
             sum.asked += count.asked;
             sum.seen += count.seen;
         }
-        share[size_t(cell)] = sum.asked ? double(sum.seen) / sum.asked : 0;
+        const auto& moments = running_moments()[size_t(column)];
+        const int edge = band * kSlicesPerBand;
+        if (sum.asked)
+            share[size_t(cell)] = double(sum.seen) / sum.asked;
+        else if (normal.dot(moments[size_t(edge + kSlicesPerBand)] - moments[size_t(edge)]) > 0)
+            share[size_t(cell)] = whole;
         best = std::max(best, share[size_t(cell)]);
     }
     std::array<uint8_t, kCells> thirds {};

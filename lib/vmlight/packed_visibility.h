@@ -50,9 +50,10 @@ public:
     /// of the cosine around `normal`.
     VMLIGHT_API void take(const RayFan& fan, const std::vector<uint8_t>& asked);
 
-    /// What was counted, as `mask` or `cells` store it.
+    /// What was counted, as `mask` or `cells` store it. Where no ray was asked for above the horizon, as much is taken
+    /// to be seen as of the whole: with few rays, both end as the share of the hemisphere that is seen.
     VMLIGHT_API void mask(float* packed, const Imath::V3d& normal) const;
-    VMLIGHT_API void cells(float* packed) const;
+    VMLIGHT_API void cells(float* packed, const Imath::V3d& normal) const;
 
 private:
     // Four times as fine as what is stored, for edges that lie between rays.
@@ -62,10 +63,11 @@ private:
         uint32_t asked, seen;
     };
     ColumnView view(int column, const Imath::V3d& normal) const;
+    ColumnView unasked(int column, const Imath::V3d& normal) const;
 
     std::vector<Count> m_counts; // kColumns times kFine
     uint32_t m_used = 0; // a bit for each column
-    int64_t m_asked = 0;
+    int64_t m_asked = 0, m_seen = 0;
 };
 
 } // namespace vmlight

@@ -68,7 +68,7 @@ void VisibilityBasis::project(const RayFan& fan, const std::vector<uint8_t>& ask
     if (!m_grid)
         return;
     m_grid->take(fan, asked);
-    m_basis == "mask" ? m_grid->mask(dst, Imath::V3d(normal)) : m_grid->cells(dst);
+    m_basis == "mask" ? m_grid->mask(dst, Imath::V3d(normal)) : m_grid->cells(dst, Imath::V3d(normal));
 }
 
 void VisibilityBasis::project_harmonics(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole,

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <utility>
@@ -63,7 +64,7 @@ template <class Open> std::array<ColumnView, kColumns> mask_of(const V3f& normal
 template <class Open> std::vector<int> cells_of(const V3f& normal, int rays, Open&& open)
 {
     std::vector<float> packed(kCellsFloats);
-    looking(normal, rays, open).cells(packed.data());
+    looking(normal, rays, open).cells(packed.data(), V3d(normal));
     std::vector<int> thirds;
     for (const uint32_t code : codes(packed))
         for (int c = kCellsPerFloat - 1; c >= 0; --c)
@@ -216,10 +217,26 @@ TEST(PackedVisibility, NothingSeenIsNothingStored)
         EXPECT_EQ(view.density + view.low + view.high, 0);
     for (const int third : cells_of(V3f(0, 1, 0), 256, [](const V3f&) { return false; }))
         EXPECT_EQ(third, 0);
-    // One ray is stored, wherever it goes.
-    int seen = 0;
-    for (const int third :
-         cells_of(V3f(0, 1, 0), 256, [once = false](const V3f&) mutable { return !std::exchange(once, true); }))
-        seen += third;
-    EXPECT_EQ(seen, 3);
+}
+
+TEST(PackedVisibility, WhereNoRayWentAsMuchIsSeenAsOfTheWhole)
+{
+    // Four rays, of which three go up: no column or cell that none went to is shut, and none below the horizon is open.
+    const auto open = [] { return [rays = 0](const V3f&) mutable { return ++rays != 4; }; };
+    const V3f normal(0, 1, 0);
+    for (const ColumnView& view : mask_of(normal, 4, open())) {
+        EXPECT_GE(edge(view.low), view.density ? -0.04 : -1);
+        EXPECT_TRUE(view.density == 0 || view.high > view.low);
+    }
+    int unasked = 0;
+    for (const ColumnView& view : mask_of(normal, 4, open()))
+        unasked += view.density == 11 && view.high == kSlices; // three quarters of fifteen
+    EXPECT_GE(unasked, kColumns - 4);
+    const std::vector<int> thirds = cells_of(normal, 4, open());
+    for (int cell = 0; cell < kCells; ++cell) {
+        if (cell / kColumns < kBands / 2) {
+            EXPECT_EQ(thirds[size_t(cell)], 0);
+        }
+    }
+    EXPECT_GE(std::count(thirds.begin(), thirds.end(), 2), 4 * kColumns - 4);
 }
