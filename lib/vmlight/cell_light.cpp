@@ -3,6 +3,7 @@
 
 #include <vmlight/cfem_lookup.h>
 #include <vmlight/latlong.h>
+#include <vmlight/radiance.h>
 
 #include <algorithm>
 #include <array>
@@ -40,9 +41,11 @@ void add_patch(Grid& grid, const V3d& w, double size, const double* color, doubl
         Moments* cells = &grid[size_t((c % kColumns + kColumns) % kColumns * kSlices)];
         for (int s = first; s <= last && part > 0; ++s) {
             const double weight = part * share(slice, half_slice, s);
-            for (int axis = 0; axis < 3; ++axis)
-                for (int k = 0; k < 4; ++k)
+            for (int k = 0; k < 4; ++k) {
+                for (int axis = 0; axis < 3; ++axis)
                     cells[s][size_t(4 * axis + k)] += weight * w[axis] * color[k];
+                cells[s][size_t(12 + k)] += weight * color[k];
+            }
         }
     }
 }
@@ -63,41 +66,66 @@ void set_triples(CellLight& dst)
                     + float(code & 3) * band(3 * triple + 2, k);
 }
 
+// Nearly square parts of the pixels of a map, at most a cell's height apart.
+struct Parts
+{
+    int across, down; // of a pixel
+};
+
+Parts parts_of(const CfemLookup& map)
+{
+    constexpr int kLeastRows = 64, kMostRows = 512;
+    const int rows = std::clamp(map.width / 2, kLeastRows, kMostRows);
+    const int down = std::max(1, (rows + map.height - 1) / map.height);
+    return { std::max(1, (2 * map.height * down + map.width - 1) / map.width), down };
+}
+
+void measure(CellLight& dst, const CfemLookup& map)
+{
+    for (int c = 0; c < 3; ++c) {
+        double mean = 0;
+        float least = map.at(0, 0)[c], most = least;
+        for (int y = 0; y < map.height; ++y)
+            for (int x = 0; x < map.width; ++x) {
+                const float value = map.at(x, y)[c];
+                mean += double(value) * latlong::row_solid_angle(y, map.height) / (4 * pi * map.width);
+                least = std::min(least, value);
+                most = std::max(most, value);
+            }
+        // What is the same everywhere is its own mean, to the last bit.
+        dst.mean[c] = std::clamp(float(mean), least, most);
+        dst.least[c] = least;
+        dst.most[c] = most;
+    }
+}
+
 } // namespace
 
 bool prepare_cells(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, bool triples,
                    std::string& error)
 {
+    constexpr int kMostWidth = 256;
+    OIIO::ImageBuf reduced;
+    CfemParams small;
+    small.resolution = { kMostWidth, kMostWidth / 2 };
+    const bool large = radiance.spec().width > kMostWidth || radiance.spec().height > kMostWidth / 2;
     CfemLookup map;
-    if (!prepare_cfem(map, radiance, error))
+    if ((large && !make_radiance(reduced, radiance, small, error))
+        || !prepare_cfem(map, large ? reduced : radiance, error))
         return false;
-    const auto pixel
-        = [&](int x, int y) { return &map.texels[4 * (size_t(y + 1) * size_t(map.pitch) + size_t(x + 1))]; };
-    double mean[3] = {};
-    for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                mean[c] += pixel(x, y)[c] * latlong::row_solid_angle(y, map.height) / (4 * pi * map.width);
-    // What is the same everywhere is its own mean, to the last bit.
-    for (int c = 0; c < 3; ++c) {
-        dst.mean[c] = float(mean[c]);
-        bool constant = true;
-        for (int y = 0; y < map.height && constant; ++y)
-            for (int x = 0; x < map.width; ++x)
-                constant &= pixel(x, y)[c] == pixel(0, 0)[c];
-        if (constant)
-            dst.mean[c] = pixel(0, 0)[c];
-    }
+    measure(dst, map);
 
     Grid grid(size_t(kColumns) * kSlices, Moments {});
-    const double size = pi / map.height;
-    for (int y = 0; y < map.height; ++y) {
-        const double solid_angle = latlong::row_solid_angle(y, map.height) / map.width;
-        for (int x = 0; x < map.width; ++x) {
-            const V3d w = rotate(to_object, latlong::direction((x + 0.5) / map.width, (y + 0.5) / map.height));
-            const float* rgb = pixel(x, y);
-            const double color[4]
-                = { double(rgb[0]) - dst.mean[0], double(rgb[1]) - dst.mean[1], double(rgb[2]) - dst.mean[2], 1 };
+    const Parts parts = parts_of(map);
+    const int width = map.width * parts.across, height = map.height * parts.down;
+    const double size = pi / height;
+    for (int y = 0; y < height; ++y) {
+        const double solid_angle = latlong::row_solid_angle(y, height) / width;
+        for (int x = 0; x < width; ++x) {
+            const V3d w = rotate(to_object, latlong::direction((x + 0.5) / width, (y + 0.5) / height));
+            const float* rgb = map.at(x / parts.across, y / parts.down);
+            const double color[4] = { double(rgb[0]) - double(dst.mean[0]), double(rgb[1]) - double(dst.mean[1]),
+                                      double(rgb[2]) - double(dst.mean[2]), 1 };
             add_patch(grid, w, size, color, solid_angle);
         }
     }

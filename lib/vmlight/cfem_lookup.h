@@ -29,6 +29,8 @@ struct CfemLookup
     /// Largest absolute value in `texels`.
     float largest = 0;
 
+    /// R, G, B of a texel of the map.
+    const float* at(int x, int y) const { return &texels[4 * (size_t(y + 1) * size_t(pitch) + size_t(x + 1))]; }
     int mean_texel() const { return (height + 2) * pitch; }
 };
 

@@ -25,7 +25,7 @@ void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
 
 // How the light was filtered, under the keys of a lightmap's recipe, whoever filtered it: `vmlight:order` of a CFEM is
 // `vmlight:cfem_order` here. Which level of a stack is at hand says nothing: the model does.
-void copy_filter(ImageSpec& dst, const ImageSpec& cfem)
+void copy_filter(ImageSpec& dst, const ImageSpec& cfem, bool is_filtered)
 {
     const std::string prefix = "vmlight:";
     if (cfem.get_string_attribute("vmlight:stage") != kCfemStage)
@@ -34,7 +34,9 @@ void copy_filter(ImageSpec& dst, const ImageSpec& cfem)
         const std::string name = value.name().string();
         const auto same = [&](const char* other) { return name == other; };
         const std::array kOthers { "vmlight:stage", "vmlight:version", "vmlight:stack", "vmlight:lobe" };
-        if (!OIIO::Strutil::starts_with(name, prefix) || std::any_of(kOthers.begin(), kOthers.end(), same))
+        const bool of_filter = name == "vmlight:filter" || name == "vmlight:order";
+        if (!OIIO::Strutil::starts_with(name, prefix) || std::any_of(kOthers.begin(), kOthers.end(), same)
+            || (of_filter && !is_filtered))
             continue;
         if (name != "vmlight:environment")
             value = OIIO::ParamValue(prefix + "cfem_" + name.substr(prefix.size()), value.type(), 1, value.data());
@@ -75,7 +77,7 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
     spec.attribute("vmlight:model", model);
     for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
         copy_attribute(spec, vismap, name);
-    copy_filter(spec, cfem);
+    copy_filter(spec, cfem, model != "sh" && model != "mask" && model != "cells");
     for (const char* name : { "colorInteropID", "chromaticities" })
         copy_attribute(spec, cfem, name);
     return spec;

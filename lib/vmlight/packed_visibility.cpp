@@ -127,43 +127,56 @@ ColumnView VisibilityGrid::view(int column, const V3d& normal) const
     return view;
 }
 
-ColumnView VisibilityGrid::unasked(int column, const V3d& normal) const
+ColumnView VisibilityGrid::unasked(int column, const V3d& normal, const V3d& surface) const
 {
-    const Span above = above_horizon(column, normal, kFine);
+    const Span of_normal = above_horizon(column, normal, kFine), of_surface = above_horizon(column, surface, kFine);
+    const Span above { std::max(of_normal.first, of_surface.first), std::min(of_normal.last, of_surface.last) };
     const int low = (above.first + 2) / 4, high = (above.last + 3) / 4;
     const int density = m_asked ? int(15 * double(m_seen) / double(m_asked) + 0.5) : 0;
     return high > low && density > 0 ? ColumnView { low, high, density } : ColumnView {};
 }
 
-void VisibilityGrid::mask(float* packed, const V3d& normal) const
+void VisibilityGrid::mask(float* packed, const V3d& normal, const V3d& surface) const
 {
     std::array<ColumnView, kColumns> columns;
     for (int column = 0; column < kColumns; ++column)
-        columns[size_t(column)] = m_used >> column & 1 ? view(column, normal) : unasked(column, normal);
+        columns[size_t(column)] = m_used >> column & 1 ? view(column, normal) : unasked(column, normal, surface);
     pack_mask(packed, columns.data());
 }
 
-void VisibilityGrid::cells(float* packed, const V3d& normal) const
+void VisibilityGrid::cells(float* packed, const V3d& normal, const V3d& surface) const
 {
-    std::array<double, kCells> share {};
-    double best = 0;
+    constexpr int kFinePerBand = kFine / kBands;
     const double whole = m_asked ? double(m_seen) / double(m_asked) : 0;
-    for (int cell = 0; cell < kCells; ++cell) {
-        const int column = cell % kColumns, band = cell / kColumns, slices = kFine / kBands;
-        Count sum {};
-        for (int i = 0; i < slices && m_used >> column & 1; ++i) {
-            const Count& count = m_counts[size_t(column * kFine + band * slices + i)];
-            sum.asked += count.asked;
-            sum.seen += count.seen;
+    std::array<double, kCells> above {}, below {}; // cells whose weight, Int n.w dw, is above 0 and those where not
+    for (int column = 0; column < kColumns; ++column) {
+        std::array<Count, kBands> bands {};
+        for (int i = 0; i < kFine && m_used >> column & 1; ++i) {
+            Count& sum = bands[size_t(i / kFinePerBand)];
+            sum.asked += m_counts[size_t(column * kFine + i)].asked;
+            sum.seen += m_counts[size_t(column * kFine + i)].seen;
         }
+        // Of a cell that no ray went to, what is seen of the nearest in its column that one did.
+        const auto share_near = [&](int band) {
+            for (int far = 0; far < kBands; ++far)
+                for (const int other : { band + far, band - far })
+                    if (other >= 0 && other < kBands && bands[size_t(other)].asked)
+                        return double(bands[size_t(other)].seen) / bands[size_t(other)].asked;
+            return whole;
+        };
         const auto& moments = running_moments()[size_t(column)];
-        const int edge = band * kSlicesPerBand;
-        if (sum.asked)
-            share[size_t(cell)] = double(sum.seen) / sum.asked;
-        else if (normal.dot(moments[size_t(edge + kSlicesPerBand)] - moments[size_t(edge)]) > 0)
-            share[size_t(cell)] = whole;
-        best = std::max(best, share[size_t(cell)]);
+        for (int band = 0; band < kBands; ++band) {
+            const size_t edge = size_t(band * kSlicesPerBand);
+            const V3d moment = moments[edge + kSlicesPerBand] - moments[edge];
+            const bool counts = normal.dot(moment) > 0;
+            if (bands[size_t(band)].asked || (counts && surface.dot(moment) > 0))
+                (counts ? above : below)[size_t(band * kColumns + column)] = share_near(band);
+        }
     }
+    // What is mostly behind the horizon would be taken off the light: only for want of anything else.
+    const bool any = *std::max_element(above.begin(), above.end()) > 0;
+    const std::array<double, kCells>& share = any ? above : below;
+    const double best = *std::max_element(share.begin(), share.end());
     std::array<uint8_t, kCells> thirds {};
     for (int cell = 0; cell < kCells && best > 0; ++cell)
         thirds[size_t(cell)] = uint8_t(3 * share[size_t(cell)] / best + 0.5);

@@ -50,10 +50,11 @@ public:
     /// of the cosine around `normal`.
     VMLIGHT_API void take(const RayFan& fan, const std::vector<uint8_t>& asked);
 
-    /// What was counted, as `mask` or `cells` store it. Where no ray was asked for above the horizon, as much is taken
-    /// to be seen as of the whole: with few rays, both end as the share of the hemisphere that is seen.
-    VMLIGHT_API void mask(float* packed, const Imath::V3d& normal) const;
-    VMLIGHT_API void cells(float* packed, const Imath::V3d& normal) const;
+    /// What was counted, as `mask` or `cells` store it. Of cells above the horizon, both that of `normal` and that of
+    /// the `surface`, to which no ray went, as much is taken to be seen as of the nearest cell of the column that one
+    /// went to; of columns, as of the whole. So few rays end as the share of the hemisphere that is seen.
+    VMLIGHT_API void mask(float* packed, const Imath::V3d& normal, const Imath::V3d& surface) const;
+    VMLIGHT_API void cells(float* packed, const Imath::V3d& normal, const Imath::V3d& surface) const;
 
 private:
     // Four times as fine as what is stored, for edges that lie between rays.
@@ -63,7 +64,7 @@ private:
         uint32_t asked, seen;
     };
     ColumnView view(int column, const Imath::V3d& normal) const;
-    ColumnView unasked(int column, const Imath::V3d& normal) const;
+    ColumnView unasked(int column, const Imath::V3d& normal, const Imath::V3d& surface) const;
 
     std::vector<Count> m_counts; // kColumns times kFine
     uint32_t m_used = 0; // a bit for each column

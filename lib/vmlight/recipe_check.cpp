@@ -32,6 +32,9 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
     if ((is_filter || key == "colorspace") && !recipe.cfem.empty())
         return OIIO::Strutil::fmt::format("there is no environment to {}: \"{}\" is filtered already",
                                           is_filter ? "filter" : "convert", recipe.cfem);
+    const std::string& model = recipe.lightmap_params.model;
+    if ((key == "cfem_filter" || key == "cfem_order") && (model == "sh" || model == "mask" || model == "cells"))
+        return "the model " + model + " reads the environment unfiltered";
     if (key == "cfem_order" && recipe.cfem_params.filter != "sh")
         return "only the filter sh uses it";
     if (key == "albedo_colorspace" && recipe.albedo.empty())

@@ -11,16 +11,17 @@ namespace {
 constexpr float kLeastCosine = 0.2f;
 constexpr int kHead = 7; // floats of V, B and n
 
-// R, G, B and the weight, for each axis.
+// R, G, B and the weight: for each axis, and alike everywhere.
 struct Sums
 {
-    FourFloats x {}, y {}, z {};
+    FourFloats x {}, y {}, z {}, plain {};
 
     void add(const float* moments)
     {
         x += load_four(moments);
         y += load_four(moments + 4);
         z += load_four(moments + 8);
+        plain += load_four(moments + 12);
     }
     void add_between(const float* low, const float* high, float share)
     {
@@ -28,6 +29,7 @@ struct Sums
         x += f * (load_four(high) - load_four(low));
         y += f * (load_four(high + 4) - load_four(low + 4));
         z += f * (load_four(high + 8) - load_four(low + 8));
+        plain += f * (load_four(high + 12) - load_four(low + 12));
     }
 };
 
@@ -42,23 +44,28 @@ template <int kCount> bool whole_numbers(const float* packed, uint32_t* codes)
     return sound;
 }
 
-// The light of `sums` along `n`, for a texel that sees `v`.
+// The mean of the light in `sums`, weighted by n.w as far as that can be trusted, for a texel that sees `v`.
 bool light_of(const ShadeSetup& setup, const Sums& sums, const float* n, float v, float* rgb)
 {
-    const float sx = sums.x[3], sy = sums.y[3], sz = sums.z[3];
-    const float length = std::sqrt(sx * sx + sy * sy + sz * sz);
-    const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const float inverse = length > 0 ? 1 / length : 0.0f, unit = size > 0 ? 1 / size : 0.0f;
-    const float cosine = (n[0] * sx + n[1] * sy + n[2] * sz) * unit * inverse;
-    const float lean = cosine < kLeastCosine ? (kLeastCosine - cosine) * (inverse / kLeastCosine) : 0.0f;
-    const FourFloats along = all_four(n[0] * unit + lean * sx) * sums.x + all_four(n[1] * unit + lean * sy) * sums.y
-        + all_four(n[2] * unit + lean * sz) * sums.z;
-    const float light = v * setup.gain, share = along[3] > 0 ? 1 / along[3] : 0.0f;
-    bool sound = std::isfinite(light) && std::isfinite(size);
+    const CellLight& light = *setup.cells;
+    const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), unit = size > 0 ? 1 / size : 0.0f;
+    const float angle = sums.plain[3];
+    const FourFloats along
+        = all_four(n[0] * unit) * sums.x + all_four(n[1] * unit) * sums.y + all_four(n[2] * unit) * sums.z;
+    // What lies across the horizon has parts of either sign: where these leave little of the weight, n.w gives way to
+    // n.w + 1, which is nowhere below 0.
+    const float cosine = angle > 0 ? along[3] / angle : 0.0f;
+    const float even = cosine < kLeastCosine ? (kLeastCosine - cosine) * (1 / kLeastCosine) : 0.0f;
+    const FourFloats weighted = along + all_four(even) * sums.plain;
+    const float gain = v * setup.gain, share = weighted[3] > 0 ? 1 / weighted[3] : 0.0f;
+    bool sound = std::isfinite(gain) && std::isfinite(size);
     for (int c = 0; c < 3; ++c) {
-        const float color = light * (setup.cells->mean[c] + along[c] * share);
+        const float mean = light.mean[c] + weighted[c] * share;
+        // No mean is beyond what there is; and what is no number stays none, to be found.
+        const float within = mean < light.least[c] ? light.least[c] : mean > light.most[c] ? light.most[c] : mean;
+        const float color = gain * within;
         sound &= std::isfinite(color);
-        rgb[c] = v > 0 && color > 0 ? color : 0.0f;
+        rgb[c] = gain > 0 || !(gain == gain) ? color : 0.0f;
     }
     return sound;
 }

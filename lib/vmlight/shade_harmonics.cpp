@@ -24,8 +24,9 @@ bool shade_harmonics(const ShadeSetup& setup, VismapOrder, const float* vismap, 
         const FourFloats sum = all_four(setup.gain) * (even + odd);
         for (int c = 0; c < 3; ++c) {
             sound &= std::isfinite(sum[c]);
-            // What sees nothing has no light, whatever rounding left of its harmonics.
-            rgb[c] = vismap[0] > 0 && sum[c] > 0 ? sum[c] : 0.0f;
+            // What sees nothing has no light, whatever rounding left of its harmonics; and what is no number stays
+            // none, to be found.
+            rgb[c] = !(vismap[0] > 0) || (sum[c] < 0 && std::isfinite(sum[c])) ? 0.0f : sum[c];
         }
     }
     return sound;

@@ -81,10 +81,11 @@ VMLIGHT_API bool shade_harmonics(const ShadeSetup& setup, VismapOrder order, con
 /// Shade by the models `mask` and `cells`: gain V times the mean of the light that is seen,
 ///     mean + (n . sum_k f_k Int_k (L - mean) w dw) / (n . sum_k f_k Int_k w dw),
 /// where k runs over the columns' intervals or the cells (packed_visibility.h), and f is how much of each is seen. The
-/// ratio makes V, which is known best, tell how much is seen, and the rest only which part of the sky. Where what is
-/// seen lies so near to the horizon that the weight n . sum is no more to be trusted (below a fifth of the sum's
-/// length), n gives way to the sum's own direction. `vismap` has V, B, n and the packed numbers, in this order; a
-/// number that is not whole, or not in [0, 2^24), counts as 0 and makes the result false.
+/// ratio makes V, which is known best, tell how much is seen, and the rest only which part of the sky. Where the mean
+/// of n.w over what is seen is below 0.2, since cells lie across the horizon, it gives way to n.w + 1, so that the
+/// weight never vanishes; and the result stays within V times the least and the most of the environment. `vismap` has
+/// V, B, n and the packed numbers, in this order; a number that is not whole, or not in [0, 2^24), counts as 0 and
+/// makes the result false.
 VMLIGHT_API bool shade_mask(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb);
 VMLIGHT_API bool shade_cells(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,
                              float* rgb);

@@ -49,7 +49,8 @@ Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
     Visibility result;
     result.visibility = double(seen.rays) / double(all.rays);
     if (basis)
-        m_basis.project(m_fan, m_asked, all.rays == m_pattern.count(), point.normal, result.visibility, basis);
+        m_basis.project(m_fan, m_asked, all.rays == m_pattern.count(), point.normal, point.geometric_normal,
+                        result.visibility, basis);
     if (m_wants_error)
         result.error = lane_scatter(m_asked, m_fan.lanes);
     if (seen.rays == 0)

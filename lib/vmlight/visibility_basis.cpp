@@ -61,14 +61,15 @@ VisibilityBasis::VisibilityBasis(const VismapParams& params)
 }
 
 void VisibilityBasis::project(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole,
-                              const Imath::V3f& normal, double visibility, float* dst)
+                              const Imath::V3f& normal, const Imath::V3f& surface, double visibility, float* dst)
 {
     if (m_harmonics)
         return project_harmonics(fan, asked, whole, normal, visibility, dst);
     if (!m_grid)
         return;
     m_grid->take(fan, asked);
-    m_basis == "mask" ? m_grid->mask(dst, Imath::V3d(normal)) : m_grid->cells(dst, Imath::V3d(normal));
+    m_basis == "mask" ? m_grid->mask(dst, Imath::V3d(normal), Imath::V3d(surface))
+                      : m_grid->cells(dst, Imath::V3d(normal), Imath::V3d(surface));
 }
 
 void VisibilityBasis::project_harmonics(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole,

@@ -33,10 +33,11 @@ public:
     ///
     /// @param fan          rays around `normal`, with the density of the cosine; lane bits where nothing blocks them
     /// @param asked        lane bits of those that lie above the surface
+    /// @param surface      the geometric normal
     /// @param whole        whether all of the fan's rays do
     /// @param visibility   the share of them that nothing blocks
     void project(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole, const Imath::V3f& normal,
-                 double visibility, float* dst);
+                 const Imath::V3f& surface, double visibility, float* dst);
 
 private:
     void project_harmonics(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole, const Imath::V3f& normal,

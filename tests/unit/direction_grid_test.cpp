@@ -54,7 +54,7 @@ std::vector<uint32_t> codes(const std::vector<float>& packed)
 template <class Open> std::array<ColumnView, kColumns> mask_of(const V3f& normal, int rays, Open&& open)
 {
     std::vector<float> packed(kMaskFloats);
-    looking(normal, rays, open).mask(packed.data(), V3d(normal));
+    looking(normal, rays, open).mask(packed.data(), V3d(normal), V3d(normal));
     std::array<ColumnView, kColumns> columns;
     for (int c = 0; c < kColumns; ++c)
         columns[size_t(c)] = unpack_mask(codes(packed).data(), c);
@@ -64,7 +64,7 @@ template <class Open> std::array<ColumnView, kColumns> mask_of(const V3f& normal
 template <class Open> std::vector<int> cells_of(const V3f& normal, int rays, Open&& open)
 {
     std::vector<float> packed(kCellsFloats);
-    looking(normal, rays, open).cells(packed.data(), V3d(normal));
+    looking(normal, rays, open).cells(packed.data(), V3d(normal), V3d(normal));
     std::vector<int> thirds;
     for (const uint32_t code : codes(packed))
         for (int c = kCellsPerFloat - 1; c >= 0; --c)

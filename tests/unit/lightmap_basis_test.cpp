@@ -237,3 +237,68 @@ TEST(LightmapBasis, ABasisGoesWithTheCosine)
     EXPECT_FALSE(make_vismap(vm, scenes::floor_facing_z(1), {}, params));
     EXPECT_EQ(vm.geterror(), "basis: sh goes with the measure cosine, not with uniform");
 }
+
+TEST(LightmapBasis, NoTexelIsLitBeyondWhatThereIs)
+{
+    // Cells, and with them their weights, lie across the horizon: a floor that sees a low strip all around, and a ball
+    // under which a lamp shines.
+    const Mesh floor = scenes::sphere(V3d(0), 1, 12);
+    const Mesh plate = scenes::quad({ -3, 1.05, -3 }, { -3, 1.05, 3 }, { 3, 1.05, 3 }, { 3, 1.05, -3 });
+    ImageBuf lamp = environment([](V3d) { return V3f(1); }, 128);
+    const float bright[3] { 1e4f, 1e4f, 1e4f };
+    for (const int row : { 30, 32, 34 })
+        lamp.setpixel(10 * row - 280, row, bright, 3);
+    const std::vector<ImageBuf> stack = filtered_stack(lamp, 128), coarse = filtered_stack(lamp, 2);
+    for (const char* name : { "mask", "cells" })
+        for (const int samples : { 16, 256, 4096 }) {
+            VismapParams params;
+            params.resolution = { 24, 24 };
+            params.samples = samples;
+            params.basis = name;
+            ImageBuf vm;
+            ASSERT_TRUE(make_vismap(vm, floor, { plate }, params)) << vm.geterror();
+            for (const auto& light : { stack, coarse }) {
+                const ImageBuf image = lit(vm, light);
+                const float* sky = pixels(light.back());
+                const auto [least, most] = std::minmax_element(sky, sky + 3 * light.back().spec().image_pixels());
+                for (int i = 0; i < 24 * 24; ++i) {
+                    const float v = visibility(vm, i), c = pixels(image)[3 * i];
+                    ASSERT_TRUE(c >= 0.9999f * v * *least && c <= 1.0001f * v * *most)
+                        << name << " " << samples << " texel " << i << ": V " << v << ", light " << c;
+                }
+            }
+        }
+}
+
+TEST(LightmapBasis, LightOutOfFloatsRangeIsRefusedNotBlack)
+{
+    const ImageBuf env = environment([](V3d w) { return V3f(w.y > 0.5 ? 0.0f : 3e38f); });
+    std::vector<ImageBuf> light(1);
+    std::string error;
+    ASSERT_TRUE(make_radiance(light[0], env, {}, error)) << error;
+    for (const char* name : kModels) {
+        LightmapParams params = model(name);
+        params.exposure = 1;
+        EXPECT_NE(refusal(baked(name, 64), light, params), "") << name;
+    }
+}
+
+TEST(LightmapBasis, TheShapeOfTheEnvironmentsPixelsMattersLittle)
+{
+    const ImageBuf env = environment([](V3d w) { return V3f(float(std::exp(2 * w.x) + w.y * w.y)); }, 256);
+    for (const char* name : { "mask", "cells" }) {
+        const ImageBuf vm = baked(name, 512);
+        const auto at_size = [&](int width, int height) {
+            CfemParams params;
+            params.resolution = { width, height };
+            std::vector<ImageBuf> light(1);
+            std::string error;
+            EXPECT_TRUE(make_radiance(light[0], env, params, error)) << error;
+            return lit(vm, light);
+        };
+        const ImageBuf square = at_size(128, 64);
+        EXPECT_LT(difference(at_size(32, 64), square), 0.06f) << name;
+        EXPECT_LT(difference(at_size(512, 32), square), 0.06f) << name;
+        EXPECT_LT(difference(at_size(1024, 512), square), 0.02f) << name; // reduced, where it is made ready
+    }
+}
