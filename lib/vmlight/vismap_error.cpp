@@ -91,7 +91,7 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 {
     PilotError timed;
     for (int samples = 16;; samples *= 4) {
-        if (!pilot.measure(samples, timed))
+        if (!pilot.measure(samples, timed, true))
             return false;
         seconds = timed.seconds / double(2 * pilot.texels() * samples);
         if (timed.seconds >= std::min(0.1, time_budget / 20) || samples >= kMost)
