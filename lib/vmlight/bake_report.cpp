@@ -42,8 +42,8 @@ std::string error_line(const VismapReport& report)
     const std::string texels = counted(report.error_texels, "texel", "texels");
     const std::string rays = counted(report.samples, "ray", "rays");
     if (report.error == 0)
-        return format("error: 0 ({} baked twice are the same both times) at {} a texel; {:.2f} s", texels, rays,
-                      report.pilot_seconds);
+        return format("error: 0 ({} baked twice {} the same both times) at {} a texel; {:.2f} s", texels,
+                      plural(report.error_texels, "is", "are"), rays, report.pilot_seconds);
     return format("error: {:.2g} (RMS of V, from {} baked twice) at {} a texel; {:.2f} s", report.error, texels, rays,
                   report.pilot_seconds);
 }

@@ -15,6 +15,8 @@ namespace {
 constexpr int kFirst = 64, kMost = 1 << 20;
 // The error is known no better than to some per cent: counts nearer than this are as good.
 constexpr double kNear = 1.04;
+// Fewer texels may well agree by chance, all of them.
+constexpr int64_t kTelling = 256;
 
 // error ~ samples^-0.75, the rate of all samplers.
 double samples_for(const PilotError& known, double target)
@@ -36,7 +38,7 @@ int to_count(double samples, double least, double most)
 int between(const PilotError& misses, const PilotError& reaches, double target, bool halve)
 {
     double share = 0.5;
-    if (reaches.rms > 0 && !halve)
+    if (reaches.rms > 0 && misses.rms > target && !halve)
         share = std::log(misses.rms / target) / std::log(misses.rms / reaches.rms);
     const double samples = misses.samples * std::pow(double(reaches.samples) / misses.samples, share);
     const int low = misses.samples + 1, high = reaches.samples - 1;
@@ -55,10 +57,17 @@ Outcome reach(PilotError& dst, const VismapPilot& pilot, double target, int leas
 {
     PilotError misses, reaches; // samples 0: none yet
     int samples = kFirst;
+    bool still = false; // nothing scatters
     for (int tries = 1;; ++tries) {
         if (!pilot.measure(samples, dst))
             return Outcome::Stopped;
-        (dst.rms <= target ? reaches : misses) = dst;
+        if (tries == 1 && dst.rms == 0) {
+            still = pilot.texels() == 0 || pilot.texels() >= kTelling;
+            least = still ? least : samples;
+        }
+        // Few rays may all go the same way where many would not.
+        const bool by_chance = dst.rms == 0 && samples < kFirst && !still;
+        (dst.rms <= target && !by_chance ? reaches : misses) = dst;
         if (reaches.samples && (reaches.samples == least || reaches.samples - 1 <= misses.samples * kNear)) {
             dst = reaches;
             return Outcome::Done;
@@ -82,7 +91,7 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 {
     PilotError timed;
     for (int samples = 16;; samples *= 4) {
-        if (!pilot.measure(samples, timed))
+        if (!pilot.measure(samples, timed, true))
             return false;
         seconds = timed.seconds / double(2 * pilot.texels() * samples);
         if (timed.seconds >= std::min(0.1, time_budget / 20) || samples >= kMost)

@@ -34,8 +34,10 @@ struct VismapError
 ///                 one it is
 /// @returns false, with the reason in `error`, if `params.target_error` is out of reach, `progress` stopped it, or
 ///          the channel `error` is asked for with 1 ray a texel
-/// For a target, a count that measured at most as much, where one 4 % lower (if there is one) measured more; 1 where
-/// nothing scatters. A function of scene and params, but for the samples that `time_budget` chooses.
+/// For a target, a count that measured at most as much, where one 4 % lower (if there is one) measured more. Where
+/// 64 rays do not scatter, on 256 texels or more or on none, the least count is tried; on fewer 64 it is. A measured 0
+/// of less than 64 rays counts as chance where 64 scatter. A function of scene and params, but for the samples that
+/// `time_budget` chooses.
 bool settle_samples(VismapError& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
                     double time_budget, int nthreads, const Progress& progress, std::string& error);
 

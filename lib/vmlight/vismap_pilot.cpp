@@ -78,7 +78,7 @@ bool VismapPilot::pick(const UvRaster& raster)
     return parallel_items(int64_t(before.size()) - 1, m_threads, take, m_progress);
 }
 
-bool VismapPilot::measure(int samples, PilotError& dst) const
+bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
 {
     const OIIO::Timer timer;
     const SamplePattern pattern(m_params.sampler, samples, m_params.measure == "uniform");
@@ -88,18 +88,25 @@ bool VismapPilot::measure(int samples, PilotError& dst) const
     params[0].seed = int(hash.u | 0x80000000u);
     params[1].seed = int((hash.v == hash.u ? ~hash.v : hash.v) | 0x80000000u);
 
-    using Eyes = std::array<std::unique_ptr<Eye>, 2>;
-    std::vector<Eyes> workers(static_cast<size_t>(worker_count(m_threads)));
-    for (Eyes& eyes : workers)
+    struct Worker
+    {
+        std::array<std::unique_ptr<Eye>, 2> eyes;
+        std::vector<float> basis;
+    };
+    std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
+    for (Worker& worker : workers) {
         for (size_t k = 0; k < 2; ++k)
-            eyes[k] = std::make_unique<Eye>(m_scene.occluder(), pattern, params[k], m_scene.frame().scale);
+            worker.eyes[k] = std::make_unique<Eye>(m_scene.occluder(), pattern, params[k], m_scene.frame().scale);
+        worker.basis.resize(basis_channels(m_params).size());
+    }
     std::vector<std::array<Visibility, 2>> seen(m_texels.size());
     const int64_t step = std::max<int64_t>(1, kRaysPerItem / samples);
     const auto bake = [&](int64_t item, int worker) {
+        auto& [eyes, basis] = workers[size_t(worker)];
         for (int64_t i = item * step; i < std::min(texels(), (item + 1) * step); ++i)
             for (size_t k = 0; k < 2; ++k) {
                 const Texel& texel = m_texels[size_t(i)];
-                seen[size_t(i)][k] = workers[size_t(worker)][k]->see(texel.point, texel.x, texel.y);
+                seen[size_t(i)][k] = eyes[k]->see(texel.point, texel.x, texel.y, with_basis ? basis.data() : nullptr);
             }
     };
     if (!parallel_items((texels() + step - 1) / step, m_threads, bake, m_progress))

@@ -46,7 +46,9 @@ public:
     /// Bake the texels twice, with two seeds of which neither is the map's: the root mean square of the difference over
     /// sqrt(2) is an estimate of the root mean square standard error, whatever the sampler, and its square is unbiased.
     /// Bit-equal for every number of threads, but for the seconds. False if stopped.
-    bool measure(int samples, PilotError& dst) const;
+    ///
+    /// @param with_basis make the channels of the basis too, which change the seconds alone: they are the bake's then
+    bool measure(int samples, PilotError& dst, bool with_basis = false) const;
 
 private:
     struct Texel

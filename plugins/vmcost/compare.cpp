@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -55,11 +56,14 @@ int64_t covered_texels(const OIIO::ImageBuf& reference)
     return count;
 }
 
-bool is_lit(const OIIO::ImageBuf& reference)
+int lit_batches(const OIIO::ImageBuf& reference)
 {
-    double sum = 0;
-    for_each_covered(reference, [&](const auto& truth) { sum += truth[0] + truth[1] + truth[2]; });
-    return sum > 0;
+    std::array<bool, kBatches> lit {};
+    for_each_covered(reference, [&](const auto& truth) {
+        if (truth[0] + truth[1] + truth[2] > 0)
+            lit[size_t(batch_of(truth.x(), truth.y()))] = true;
+    });
+    return int(std::count(lit.begin(), lit.end(), true));
 }
 
 } // namespace vmlight::cost

@@ -19,7 +19,7 @@ Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference);
 /// Texels that a reference covers.
 int64_t covered_texels(const OIIO::ImageBuf& reference);
 
-/// Is there light on the texels that a reference covers?
-bool is_lit(const OIIO::ImageBuf& reference);
+/// Batches of which some texel is lit. An error relative to the light has an interval from 2 on: see errors_of().
+int lit_batches(const OIIO::ImageBuf& reference);
 
 } // namespace vmlight::cost

@@ -2,12 +2,13 @@
 #include "heat_map_file.h"
 
 #include "heat_map.h"
+#include "named_channels.h"
 
 #include <vmlight/image_file.h>
 #include <vmlight/interrupt.h>
 #include <vmlight/output_file.h>
 
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/filesystem.h>
 
 namespace vmlight::cost {
 namespace {
@@ -25,10 +26,10 @@ bool has_heat_map(const std::string& folder, const std::string& environment, con
                   const std::string& key)
 {
     const std::string path = heat_map_path(folder, environment, model);
-    const auto in = OIIO::ImageInput::open(path + ".exr");
-    if (!in)
-        OIIO::geterror(); // it will be made
-    return in && OIIO::Filesystem::exists(path + ".png") && in->spec().get_string_attribute(kKey) == key;
+    OIIO::ImageBuf map;
+    std::string unread; // it will be made
+    return OIIO::Filesystem::exists(path + ".png") && read_channels(map, path + ".exr", kHeatMapChannels, unread)
+        && map.spec().get_string_attribute(kKey) == key;
 }
 
 bool write_heat_map(const std::string& folder, const std::string& environment, const std::string& model,

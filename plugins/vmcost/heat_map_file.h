@@ -11,7 +11,7 @@ namespace vmlight::cost {
 /// "FOLDER/error_ENVIRONMENT_MODEL", without extension.
 std::string heat_map_path(const std::string& folder, const std::string& environment, const std::string& model);
 
-/// Is there one, of the row of that key?
+/// Is there one, of the row of that key, that can be read?
 bool has_heat_map(const std::string& folder, const std::string& environment, const std::string& model,
                   const std::string& key);
 

@@ -35,6 +35,17 @@ std::string unique_name(const std::string& path, std::set<std::string>& taken)
     return name;
 }
 
+// Of all that its light is made of: equal pixels in another frame are other light.
+std::string environment_hash(const OIIO::ImageBuf& image)
+{
+    const OIIO::ImageSpec& spec = image.spec();
+    return OIIO::ImageBufAlgo::computePixelHashSHA1(
+        image,
+        format("{}x{} {} {} of {}x{} {} {} border {} channels {}", spec.width, spec.height, spec.x, spec.y,
+               spec.full_width, spec.full_height, spec.full_x, spec.full_y, spec.get_int_attribute("oiio:sampleborder"),
+               OIIO::Strutil::join(spec.channelnames, ",")));
+}
+
 bool read_environment(Environment& dst, const ColorSettings& color, const MakeOptions& options, std::string& error)
 {
     std::string note;
@@ -43,7 +54,7 @@ bool read_environment(Environment& dst, const ColorSettings& color, const MakeOp
     error = input_fault(dst.path, dst.image.spec().get_string_attribute("vmlight:stage"), Input::Environment);
     if (!error.empty() || !to_scene_linear(dst.image, dst.path, color, note, error))
         return false;
-    dst.hash = OIIO::ImageBufAlgo::computePixelHashSHA1(dst.image, format("{}", dst.image.nchannels()));
+    dst.hash = environment_hash(dst.image);
     options.say(format("{}: {}x{}, {}", dst.name, dst.image.spec().width, dst.image.spec().height, note));
     return true;
 }
@@ -121,7 +132,9 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         std::string unread;
         const bool kept
             = OIIO::Filesystem::exists(path) && read_channels(environment.reference, path, kReferenceChannels, unread);
-        if (kept)
+        if (kept
+            && environment.reference.roi()
+                == OIIO::ROI(0, params.side(), 0, params.side(), 0, 1, 0, int(kReferenceChannels.size())))
             options.say(format("{}: reused the reference", environment.name));
         else if (!trace(environment, inputs, params, path, options, error))
             return false;
@@ -129,8 +142,10 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         if (covered < kFewestTexels)
             error = format("the mesh covers {} of {}x{} texels, of which {} are needed: raise resolution", covered,
                            params.side(), params.side(), kFewestTexels);
-        else if (!is_lit(environment.reference))
-            error = format("\"{}\": no light falls on the mesh", environment.path);
+        else if (const int lit = lit_batches(environment.reference); lit < 2)
+            error = format("\"{}\": {}", environment.path,
+                           lit ? "light falls on too few texels to tell an error: raise resolution"
+                               : "no light falls on the mesh");
         if (!error.empty())
             return false;
     }

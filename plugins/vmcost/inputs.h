@@ -21,7 +21,7 @@ struct Environment
     std::string name;
     std::string path;
     OIIO::ImageBuf image; ///< scene-linear
-    std::string hash; ///< of its pixels
+    std::string hash; ///< of its pixels, their frame and what they sample
     OIIO::ImageBuf reference;
     std::string reference_key;
 };
@@ -43,10 +43,10 @@ bool read_inputs(Inputs& dst, const VismapRecipe& mesh, const std::vector<std::s
                  const ColorSettings& color, const MakeOptions& options, std::string& error);
 
 /// Trace the light on each texel under each environment, or read what an earlier run traced from the same inputs and
-/// left in `folder`.
+/// left in `folder`. What is there but cannot be read, or is of another size, is traced anew.
 ///
-/// @returns false, with the reason in `error`, if an environment has bad pixels, the mesh covers too few texels or no
-///          light falls on them, a file cannot be written, or the work was stopped
+/// @returns false, with the reason in `error`, if an environment has bad pixels, the mesh covers too few texels or
+///          light falls on too few or none of them, a file cannot be written, or the work was stopped
 bool trace_references(Inputs& inputs, const CostParams& params, const std::string& folder, const MakeOptions& options,
                       std::string& error);
 

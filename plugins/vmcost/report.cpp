@@ -14,6 +14,7 @@ using OIIO::Strutil::fmt::format;
 
 constexpr double kTargets[] = { 0.01, 0.05, 0.10 };
 constexpr int kManyPictures = 100;
+constexpr const char* kTooNoisy = "the reference is too noisy to tell";
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -71,10 +72,10 @@ std::vector<Point> of_kind(const std::vector<Point>& points, bool traced)
     return found;
 }
 
-std::string choice_row(const std::string& targets, const Point& point, bool reaches)
+std::string choice_row(const std::string& targets, const Point& point, const std::string& missed = "")
 {
     std::vector<std::string> row { targets,
-                                   (reaches ? "" : "<span class=none>no model reaches it; nearest:</span> ")
+                                   (missed.empty() ? "" : "<span class=none>" + missed + "; nearest:</span> ")
                                        + setting_text(point.setting),
                                    with_half(point.rmse, point.rmse_half) };
     for (const std::string& cell : cost_cells(point))
@@ -91,15 +92,18 @@ std::string choices(const std::vector<Point>& points)
                   "shade, each rotation", "bytes a texel", format("{} rotations", kManyPictures) });
     for (const bool traced : { false, true }) {
         const std::vector<Point> kind = of_kind(points, traced);
-        std::vector<std::string> missed;
-        for (const double target : kTargets)
-            if (!cheapest(kind, target))
-                missed.push_back(percent_text(target));
-        if (!missed.empty() && !traced && !kind.empty())
-            text += choice_row(OIIO::Strutil::join(missed, ", "), *nearest(kind), false);
+        for (const bool maybe : { false, true }) {
+            std::vector<std::string> missed;
+            for (const double target : kTargets)
+                if (!cheapest(kind, target) && may_reach(kind, target) == maybe)
+                    missed.push_back(percent_text(target));
+            if (!missed.empty() && !traced && !kind.empty())
+                text += choice_row(OIIO::Strutil::join(missed, ", "), *nearest(kind),
+                                   maybe ? kTooNoisy : "no model reaches it");
+        }
         for (const double target : kTargets)
             if (const Point* found = cheapest(kind, target))
-                text += choice_row(percent_text(target), *found, true);
+                text += choice_row(percent_text(target), *found);
     }
     return text + "</table>\n";
 }
@@ -154,16 +158,21 @@ std::string choice_text(const std::vector<Point>& points, double target)
     const std::vector<Point> models = of_kind(points, false);
     const Point* found = cheapest(models, target);
     const Point* told = found ? found : nearest(models);
-    return !told ? ""
-                 : format("{}: {}{}, {} in {}", percent_text(target), found ? "" : "not reached by any model; nearest ",
-                          setting_text(told->setting), percent_text(told->rmse), seconds_text(told->total()));
+    if (!told)
+        return "";
+    std::string missed;
+    if (!found)
+        missed = format("{}; nearest ", may_reach(models, target) ? kTooNoisy : "not reached by any model");
+    return format("{}: {}{}, {} in {}", percent_text(target), missed, setting_text(told->setting),
+                  percent_text(told->rmse), seconds_text(told->total()));
 }
 
 std::string report_html(const Report& report)
 {
     std::string text = kHead + format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", escaped(report.title));
     text += "<h2>What to choose</h2>\n<p>The least time to a first picture. Errors are root mean squares over the "
-            "surface against ray tracing, in parts of the mean light, and means over the environments. "
+            "surface against ray tracing, in parts of the mean light, and means over the environments. A "
+            "setting has an error if its whole interval is below. "
             "<i>traced</i> bakes nothing and traces rays to the light in each picture, at each rotation anew.</p>\n"
         + choices(report.points);
     text += "<h2>What accuracy costs</h2>\n";

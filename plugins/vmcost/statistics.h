@@ -48,7 +48,8 @@ struct Errors
 /// surface, other rays of the bake and other rays of the reference would have changed; not another environment or
 /// rotation. The one of `rmse` is made of its square, which may be 0 or below within the noise, and cut off at 0.
 ///
-/// @param batches  of which two or more hold values; the sum of `reference` is above 0. Not checked
+/// @param batches  of which two or more hold values; the sum of `reference` is above 0 without any one of them, or
+///                 what is returned is not finite. Not checked
 /// Source: B. Efron, "The Jackknife, the Bootstrap and Other Resampling Plans", SIAM 1982, chapter 3.
 Errors errors_of(OIIO::cspan<Batch> batches);
 

@@ -16,7 +16,7 @@ Point mean_point(const std::vector<const Row*>& rows)
         const Errors& errors = row->errors;
         point.rmse += share * errors.rmse.value;
         point.worst = std::max(point.worst, errors.rmse.value);
-        point.rmse_half += share * (errors.rmse.high - errors.rmse.low) / 2;
+        point.rmse_half += share * std::max(errors.rmse.high - errors.rmse.value, errors.rmse.value - errors.rmse.low);
         point.bias += share * errors.bias.value;
         point.bias_half += share * (errors.bias.high - errors.bias.low) / 2;
         point.p95 += share * errors.p95;
@@ -82,7 +82,7 @@ const Point* cheapest(const std::vector<Point>& points, double target)
 {
     const Point* found = nullptr;
     for (const Point& point : points)
-        if (point.rmse <= target && (!found || point.total() < found->total()))
+        if (point.bound() <= target && (!found || point.total() < found->total()))
             found = &point;
     return found;
 }
@@ -90,8 +90,13 @@ const Point* cheapest(const std::vector<Point>& points, double target)
 const Point* nearest(const std::vector<Point>& points)
 {
     const auto least = std::min_element(points.begin(), points.end(),
-                                        [](const Point& a, const Point& b) { return a.rmse < b.rmse; });
-    return least == points.end() ? nullptr : cheapest(points, least->rmse / (1 - kKneeGain));
+                                        [](const Point& a, const Point& b) { return a.bound() < b.bound(); });
+    return least == points.end() ? nullptr : cheapest(points, least->bound() / (1 - kKneeGain));
+}
+
+bool may_reach(const std::vector<Point>& points, double target)
+{
+    return std::any_of(points.begin(), points.end(), [&](const Point& point) { return point.rmse <= target; });
 }
 
 } // namespace vmlight::cost

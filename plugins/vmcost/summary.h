@@ -15,13 +15,15 @@ struct Point
     Setting setting;
     double rmse = 0, worst = 0; ///< mean and largest of the environments
     /// Half the interval of 95 %: the mean of those of the environments, which bounds that of the mean however their
-    /// errors go together.
+    /// errors go together. Of `rmse`, which is cut off at 0, the longer half.
     double rmse_half = 0, bias_half = 0;
     double bias = 0; ///< mean
     double p95 = 0; ///< mean
     double bake = 0, light = 0, shade = 0; ///< seconds; means
     int bytes = 0;
 
+    /// What the error is surely below, as far as the interval is sure.
+    double bound() const { return rmse + rmse_half; }
     /// Seconds to so many pictures of one environment, each at another rotation.
     double total(int pictures = 1) const { return bake + light + pictures * shade; }
 };
@@ -41,10 +43,13 @@ constexpr double kKneeGain = 0.02;
 /// The first point of a curve (not empty) whose error is within kKneeGain of the least that this or any later one has.
 const Point& knee(const std::vector<Point>& curve);
 
-/// Of those that err no more than `target` the one that takes least time; nullptr if none does.
+/// Of those that surely, by bound(), err no more than `target` the one that takes least time; nullptr if none does.
 const Point* cheapest(const std::vector<Point>& points, double target);
 
-/// The one that takes least time of those that err least, but for kKneeGain; nullptr if there is none.
+/// The one that takes least time of those whose bound() is least, but for kKneeGain; nullptr if there is none.
 const Point* nearest(const std::vector<Point>& points);
+
+/// Does one seem to err no more than `target`? Where cheapest() has none, the reference is too noisy to tell.
+bool may_reach(const std::vector<Point>& points, double target);
 
 } // namespace vmlight::cost

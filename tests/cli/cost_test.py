@@ -85,6 +85,17 @@ class Cost(Case):
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, "the mesh covers [0-9]+ of 16x16 texels, of which 64 are needed: raise resolution")
 
+    def test_light_on_a_single_texel_is_refused(self):
+        # A floor, and a speck of one texel that looks the other way, where all the light is.
+        self.file("speck.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 5 0 0\nv 5 1 0\nv 6 1 0\nv 6 0 0\n"
+                  "vt 0 0\nvt 0.8 0\nvt 0.8 1\nvt 0 1\nvt 0.94 0\nvt 0.94 0.06\nvt 1 0.06\nvt 1 0\nvn 0 0 1\nvn 0 0 -1\n"
+                  "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 5/5/2 6/6/2 7/7/2 8/8/2\n")
+        self.oiiotool("--pattern", "constant:color=0,0,0", "64x32", "3", "--fill:color=1,1,1", "4x32+0+0", "-d", "float",
+                      "-o", "back.exr")
+        result = self.run_tool("vmcost", "speck.obj", "back.exr", "-o", "report", *SMALL)
+        self.assertEqual((result.returncode, result.stderr), (
+            1, 'vmcost ERROR: "back.exr": light falls on too few texels to tell an error: raise resolution\n'))
+
     def test_gnuplot_is_asked_for_before_the_work(self):
         path = self.environment["PATH"]
         os.mkdir(self.path("empty"))
@@ -161,6 +172,34 @@ class Cost(Case):
         os.remove(self.path("report/error_sky_lobe.png"))
         self.cost("sky.exr", *SMALL)
         self.assertEqual((self.measured, self.reused), (2, count - 2))
+
+    def test_the_same_pixels_in_another_frame_are_another_light(self):
+        even = ["--pattern", "constant:color=1,2,3"]
+        self.oiiotool(*even, "8x4", "3", "-d", "float", "-o", "sky.exr")
+        self.cost("sky.exr", *SMALL)
+        count = self.measured
+        for other in ["4x8", "3", "-o"], ["8x4", "3", "--fullsize", "16x4+0+0", "-o"], ["8x4", "3", "-oenv"]:
+            self.oiiotool(*even, *other[:-1], "-d", "float", other[-1], "sky.exr")
+            self.cost("sky.exr", *SMALL)
+            self.assertEqual((self.measured, self.reused), (count, 0), other)
+
+    def test_files_of_a_report_that_are_not_what_they_were_are_made_again(self):
+        self.cost("checker.exr", *SMALL)
+        count, before = self.measured, self.read("report/error_checker_lobe.exr")
+        self.file("report/error_checker_lobe.exr", before[:-40])
+        out = self.cost("checker.exr", *SMALL)
+        self.assertIn("checker: reused the reference", out)
+        self.assertEqual((self.measured, self.reused), (1, count - 1))
+        self.assertEqual(self.read("report/error_checker_lobe.exr"), before)
+        reference, = [name for name in self.names() if name.startswith("reference_")]
+        traced = self.read("report/" + reference)
+        for spoil in ["--resize", "8x8"], ["--crop", "16x8+0+0"]:
+            self.oiiotool("report/" + reference, *spoil, "-o", "report/" + reference)
+            self.assertNotIn("reused the reference", self.cost("checker.exr", *SMALL))
+            self.assertEqual(self.read("report/" + reference), traced)
+        self.file("report/" + reference, traced[:-40])
+        self.assertNotIn("reused the reference", self.cost("checker.exr", *SMALL))
+        self.assertEqual(self.read("report/" + reference), traced)
 
     def interrupted(self, number):
         words = [os.path.join(BIN, "vmcost"), "step.obj", "checker.exr", "-o", "report", "--quick",

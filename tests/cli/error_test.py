@@ -6,7 +6,7 @@ import re
 import sys
 import unittest
 
-from cli_test import SPOT, Case
+from cli_test import QUAD, SPOT, Case
 
 
 class Errors(Case):
@@ -50,6 +50,12 @@ class Errors(Case):
         out = self.done("makevismap", "quad.obj", "-o", "a.exr", "--resolution", "32", "--target-error", "1e-3")
         self.assertIn("error: 0 (1024 texels baked twice are the same both times) at 1 ray a texel", out)
         self.assertEqual(self.attribute("a.exr", "error"), "0")
+
+    def test_one_texel_that_agrees_with_itself_takes_64_rays(self):
+        self.file("quad.obj", QUAD)
+        self.assertIn("error: 0 (1 texel baked twice is the same both times) at 64 rays a texel; ",
+                      self.done("makevismap", "quad.obj", "-o", "a.exr", "--resolution", "1", "--target-error", "1e-3"))
+        self.assertEqual(self.attribute("a.exr", "samples"), "64")
 
     def test_an_error_out_of_reach_is_refused(self):
         self.refused(1, "target_error: 1e-09 is out of reach: 1048576 rays a texel come to ", *self.BAKE[:-1], "16", "-o",

@@ -110,8 +110,23 @@ TEST(CostCompare, AKnownOffsetIsItselfInPartsOfTheMeanLight)
     EXPECT_NEAR(errors.bias.value, 0.1, 1e-6);
     EXPECT_NEAR(errors.p95, 0.1, 1e-6);
     EXPECT_EQ(covered_texels(reference), 255);
-    EXPECT_TRUE(is_lit(reference));
-    EXPECT_FALSE(is_lit(filled({ 0, 0, 0, 0, 0, 0, 1 }, 4)));
+}
+
+TEST(CostCompare, AnErrorTakesLightOnTwoBatchesToHaveAnInterval)
+{
+    OIIO::ImageBuf reference = filled({ 0, 0, 0, 0, 0, 0, 1 }, 16);
+    EXPECT_EQ(lit_batches(reference), 0);
+    const float lit[] = { 0, 1, 0, 0, 0, 0, 1 };
+    reference.setpixel(3, 3, 0, lit);
+    EXPECT_EQ(lit_batches(reference), 1);
+    ASSERT_NE(batch_of(3, 3), batch_of(4, 3));
+    reference.setpixel(4, 3, 0, lit);
+    EXPECT_EQ(lit_batches(reference), 2);
+    const Errors errors = compare(filled({ 0.1f, 0.5f, 0 }, 16), reference);
+    for (const Estimate& estimate : { errors.rmse, errors.bias })
+        EXPECT_TRUE(std::isfinite(estimate.low) && std::isfinite(estimate.value) && std::isfinite(estimate.high));
+    EXPECT_EQ(lit_batches(filled({ 1, 0, 0, 0, 0, 0, 1 }, 16)), kBatches);
+    EXPECT_EQ(lit_batches(filled({ 1, 0, 0, 0, 0, 0, 0 }, 16)), 0) << "no triangle is there";
 }
 
 TEST(CostCompare, ASmallerMapIsShownBilinearly)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What vmcost makes of its rows: means, front, knee, choice, and the tables.
 #include <vmcost/models.h>
+#include <vmcost/report.h>
 #include <vmcost/summary.h>
 #include <vmcost/sweep.h>
 #include <vmcost/tables.h>
@@ -76,6 +77,27 @@ TEST(CostSummary, TheChoiceIsTheCheapestThatReachesTheTarget)
     EXPECT_EQ(nearest({}), nullptr);
 }
 
+TEST(CostSummary, AnErrorWithinTheNoiseReachesNothingYet)
+{
+    std::vector<Point> points { point(1, 0), point(2, 0.04), point(3, 0.03) };
+    points[0].rmse_half = 0.06;
+    points[1].rmse_half = 0.02;
+    points[2].rmse_half = 0.02;
+    EXPECT_EQ(cheapest(points, 0.05)->rmse, 0.03);
+    EXPECT_EQ(cheapest(points, 0.06)->rmse, 0);
+    EXPECT_EQ(cheapest(points, 0.01), nullptr);
+    EXPECT_TRUE(may_reach(points, 0.01));
+    EXPECT_EQ(choice_text(points, 0.01),
+              "1.0 %: the reference is too noisy to tell; nearest paper, 128 rays, 3.0 % in 3.0 s");
+    points[0].rmse = 0.02;
+    EXPECT_FALSE(may_reach(points, 0.01));
+    EXPECT_EQ(choice_text(points, 0.01), "1.0 %: not reached by any model; nearest paper, 128 rays, 3.0 % in 3.0 s");
+    EXPECT_EQ(choice_text(points, 0.05), "5.0 %: paper, 128 rays, 3.0 % in 3.0 s");
+    EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("no model reaches it; nearest:"), std::string::npos);
+    points[0].rmse = 0;
+    EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("too noisy to tell; nearest:"), std::string::npos);
+}
+
 TEST(CostSummary, PointsAreMeansOverEnvironments)
 {
     const Setting paper = default_setting("paper"), lobe = default_setting("lobe");
@@ -83,7 +105,7 @@ TEST(CostSummary, PointsAreMeansOverEnvironments)
     ASSERT_EQ(points.size(), 2u);
     EXPECT_DOUBLE_EQ(points[0].rmse, 0.3);
     EXPECT_DOUBLE_EQ(points[0].worst, 0.4);
-    EXPECT_DOUBLE_EQ(points[0].rmse_half, 0.02);
+    EXPECT_DOUBLE_EQ(points[0].rmse_half, 0.03) << "the longer half";
     EXPECT_DOUBLE_EQ(points[0].bias, -0.1);
     EXPECT_DOUBLE_EQ(points[0].total(), 2.55);
     EXPECT_EQ(points[1].setting.model, "lobe");

@@ -6,6 +6,8 @@
 #include <vmlight/visibility.h>
 #include <vmlight/vismap_baker.h>
 
+#include <OpenImageIO/imagebufalgo.h>
+
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -315,6 +317,30 @@ TEST(VismapError, WhereNothingScattersTheLeastCountIsChosen)
     EXPECT_EQ(channel_rms(scatter), 0);
 }
 
+TEST(VismapError, FewTexelsThatDoNotScatterTake64Rays)
+{
+    for (int side : { 8, 15, 16 }) {
+        VismapParams params = map_params(side, side, 100);
+        params.target_error = 0.01;
+        const BakedMap map(floor_facing_z(1), {}, params);
+        EXPECT_EQ(map.report.error, 0);
+        EXPECT_EQ(map.report.samples, side < 16 ? 64 : 1) << map.report.error_texels;
+    }
+}
+
+TEST(VismapError, AZeroOfFewRaysIsChanceWhereManyScatter)
+{
+    // A speck that one ray in ten thousand meets: a few rays a texel pass it by everywhere, both times.
+    const Scene scene { floor_facing_z(1), { rectangle(V3d(-0.015, -0.015, 2), V3d(0.03, 0, 0), V3d(0, 0.03, 0)) } };
+    VismapParams params = error_params(16, 7);
+    params.target_error = 0.005;
+    const BakedMap map(scene.mesh, scene.occluders, params);
+    EXPECT_GT(map.report.error, 0);
+    EXPECT_LE(map.report.error, 0.005);
+    EXPECT_LE(true_rms(map, reference_of(scene, 16, 256)), 0.005);
+    EXPECT_EQ(BakedMap(scene.mesh, scene.occluders, error_params(16, 3)).report.error, 0);
+}
+
 TEST(VismapError, AnErrorOutOfReachIsRefusedWithWhatIsReached)
 {
     const Scene scene = ball_over_floor();
@@ -403,6 +429,14 @@ TEST(VismapError, ATimeIsTurnedIntoRaysAndTheirErrorIsTold)
     ASSERT_TRUE(make_vismap(plain, parts.mesh, parts.occluders, map_params(32, 32, report.samples)));
     for (int i = 0; i < 32 * 32; ++i)
         ASSERT_EQ(timed.getchannel(i % 32, i / 32, 0, 0), plain.getchannel(i % 32, i / 32, 0, 0));
+    for (const char* basis : { "sh", "mask", "cells" }) {
+        VismapParams with_basis = params;
+        with_basis.basis = basis;
+        ASSERT_TRUE(make_vismap(timed, scene, with_basis, &report, 0, {}, 0.05)) << timed.geterror();
+        with_basis.samples = report.samples;
+        ASSERT_TRUE(make_vismap(plain, parts.mesh, parts.occluders, with_basis));
+        EXPECT_EQ(OIIO::ImageBufAlgo::compare(timed, plain, 0, 0).nfail, 0) << basis;
+    }
     ASSERT_TRUE(make_vismap(timed, scene, params, &report, 0, {}, 1e-12)) << timed.geterror();
     EXPECT_EQ(report.samples, 1);
     EXPECT_GT(report.expected_seconds, 1e-12);
