@@ -165,7 +165,7 @@ class Info(Case):
         self.file("x.cfem", 'environment = "cut.exr"\n')
         self.file("x.lightmap", 'vismap = "x.vismap"\ncfem = "x.cfem"\nexposure = 1.5\n')
         info = self.done("oiiotool", "--info", "-v", "x.vismap", "x.cfem", "x.lightmap")
-        for text in ("8192 x 8192, 4 channel, float vismap", "256 x  128, 3 channel, float cfem",
+        for text in ("8192 x 8192, 4 channel, float vismap", "128 x   64, 3 channel, float cfem",
                      "8192 x 8192, 3 channel, float lightmap", "tile size: 64 x 64",
                      "channel list: visibility, direction.x, direction.y, direction.z", 'colorInteropID: "data"',
                      'colorInteropID: "lin_rec709_scene"', 'vmlight:stage: "vismap"', 'vmlight:stage: "cfem"',
