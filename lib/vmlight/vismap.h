@@ -57,9 +57,8 @@ struct VismapParams
     /// sphere. The last two pack whole numbers into floats, which must be neither filtered nor stored as half, and
     /// bring the normal along; in the margin they are those of a neighbour.
     std::string basis = "vector";
-    /// Bands of `sh`. Measured on six scenes and eight skies, against `paper`: 4 bands leave 0.56 to 0.73 of its
-    /// error, 5 leave 0.48 to 0.59, 6 leave 0.43 to 0.53, 8 leave 0.36 to 0.45. Five, as half floats, take 50 bytes a
-    /// texel.
+    /// Bands of `sh`. Measured on six scenes under four skies (bench/ladder.py), in parts of the error of `paper`: 4
+    /// bands leave .59, 5 leave .51, 6 leave .46, 8 leave .38. Five, as half floats, take 50 bytes a texel.
     int order = 5;
     /// Whether a further channel is stored; a normal also because the basis needs it.
     bool has(const char* channel) const
