@@ -12,8 +12,8 @@ namespace vmlight {
 namespace {
 
 std::atomic<bool> s_interrupted { false };
-std::atomic<bool> s_leaves_debris { false }; // while an output is being written
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> s_debris { 0 }; // files that an exit would leave behind
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 char s_farewell[64]; // what to say from within a signal handler, which may format nothing
 int s_exit_code = 1;
 
@@ -21,7 +21,7 @@ int s_exit_code = 1;
 // there is nothing to tidy up, and no need to wait for them.
 void interrupt(int)
 {
-    if (!s_interrupted.exchange(true) && s_leaves_debris)
+    if (!s_interrupted.exchange(true) && s_debris > 0)
         return; // the second time the user means it
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_farewell, std::strlen(s_farewell));
     ::_exit(s_exit_code);
@@ -47,12 +47,12 @@ bool interrupted()
 
 WhileWriting::WhileWriting()
 {
-    s_leaves_debris = true;
+    ++s_debris;
 }
 
 WhileWriting::~WhileWriting()
 {
-    s_leaves_debris = false;
+    --s_debris;
 }
 
 } // namespace vmlight

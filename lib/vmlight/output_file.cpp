@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/output_file.h>
 
+#include <vmlight/interrupt.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <cerrno>
@@ -58,6 +60,7 @@ std::string trial_fault(const std::string& path)
 {
     // Rights alone do not tell: some folders (/proc) take no files from anyone.
     const std::string trial = temporary_path(path);
+    const WhileWriting there; // an interrupt waits for it to be gone
     const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
     if (file < 0)
         return std::strerror(errno);

@@ -298,6 +298,8 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
             exit = Exit::Failed;
             if (!has_udim(state.output)) // else each tile's file is looked at
                 error = state.output_fault();
+            if (interrupted()) // which waited for the look at the folder
+                error = "interrupted";
             exit = error.empty() && work(error) ? Exit::Done : Exit::Failed;
         }
     } catch (const std::bad_alloc&) {

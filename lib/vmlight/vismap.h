@@ -57,8 +57,9 @@ struct VismapParams
     /// sphere. The last two pack whole numbers into floats, which must be neither filtered nor stored as half, and
     /// bring the normal along; in the margin they are those of a neighbour.
     std::string basis = "vector";
-    /// Bands of `sh`. Measured on six scenes under four skies (bench/ladder.py), in parts of the error of `paper`: 4
-    /// bands leave .59, 5 leave .51, 6 leave .46, 8 leave .38. Five, as half floats, take 50 bytes a texel.
+    /// Bands of `sh`. Measured on six scenes under four skies (bench/ladder.py), in parts of the error of `paper`:
+    /// 4 bands leave .59, 5 leave .51, 6 leave .46, 8 leave .38 (README, "What accuracy costs").
+    /// Five, as half floats, take 50 bytes a texel.
     int order = 5;
     /// Whether a further channel is stored; a normal also because the basis needs it.
     bool has(const char* channel) const
