@@ -69,8 +69,8 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 ///                 processor has.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, an image is not what it should
 ///          be, a pixel of one is not finite (how many, and where the first is) or the albedo's is negative, the result
-///          is too large for float, `lobe` is asked for without a stack, `ao` without normals, or `progress` stopped
-///          the work
+///          is too large for float, the map or the light lacks what the model reads (what, and how it is made), a map
+///          for `mask` or `cells` holds no whole numbers any more, or `progress` stopped the work
 ///          ("interrupted"); `dst` then has no pixels. Not checked: that `cfem` was filtered with a cosine, unless its
 ///          `vmlight:stage` says otherwise.
 VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& vismap, const OIIO::ImageBuf& cfem,

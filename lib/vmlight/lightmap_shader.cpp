@@ -77,7 +77,7 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
     spec.attribute("vmlight:model", model);
     for (const char* name : { "vmlight:mesh", "vmlight:meshHash" })
         copy_attribute(spec, vismap, name);
-    copy_filter(spec, cfem, model != "sh" && model != "mask" && model != "cells");
+    copy_filter(spec, cfem, !reads_radiance(model));
     for (const char* name : { "colorInteropID", "chromaticities" })
         copy_attribute(spec, cfem, name);
     return spec;

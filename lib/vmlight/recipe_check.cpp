@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/recipe_check.h>
 
+#include <vmlight/shading_model.h>
+
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
@@ -33,7 +35,7 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
         return OIIO::Strutil::fmt::format("there is no environment to {}: \"{}\" is filtered already",
                                           is_filter ? "filter" : "convert", recipe.cfem);
     const std::string& model = recipe.lightmap_params.model;
-    if ((key == "cfem_filter" || key == "cfem_order") && (model == "sh" || model == "mask" || model == "cells"))
+    if ((key == "cfem_filter" || key == "cfem_order") && reads_radiance(model))
         return "the model " + model + " reads the environment unfiltered";
     if (key == "cfem_order" && recipe.cfem_params.filter != "sh")
         return "only the filter sh uses it";

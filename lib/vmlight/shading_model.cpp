@@ -43,6 +43,11 @@ std::string best_model(const OIIO::ImageSpec& vismap)
 
 } // namespace
 
+bool reads_radiance(const std::string& model)
+{
+    return model == "sh" || model == "mask" || model == "cells";
+}
+
 bool find_model(ShadingModel& dst, const LightmapParams& params, const OIIO::ImageSpec& vismap, bool has_stack,
                 std::string& error)
 {
@@ -65,7 +70,7 @@ bool find_model(ShadingModel& dst, const LightmapParams& params, const OIIO::Ima
         flag = "--channels normal";
     } else if (dst.name == "lobe") {
         dst.light = ModelLight::lobes;
-    } else if (dst.name != "paper") {
+    } else if (reads_radiance(dst.name)) {
         dst.light = ModelLight::radiance;
         flag = "--basis " + dst.name;
     }

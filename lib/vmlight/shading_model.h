@@ -21,6 +21,9 @@ enum class ModelLight
     radiance ///< the last, or the environment alone as make_radiance() makes it
 };
 
+/// Whether the model of that name reads the environment itself, to which a filter means nothing.
+VMLIGHT_API bool reads_radiance(const std::string& model);
+
 struct ShadingModel
 {
     std::string name;

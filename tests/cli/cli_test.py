@@ -451,6 +451,12 @@ class Light(Case):
             if basis != "sh":
                 self.refused(1, "whole numbers below 2^24 any more", "makelightmap", "small.exr", "stack.exr", "-o",
                              "x.exr")
+            info = self.oiiotool("--info", "-v", "b.exr")  # and no word of a filter that was not used
+            self.assertIn("vmlight:cfem_resolution", info)
+            self.assertNotIn("vmlight:cfem_filter", info)
+            for flag, value in ("--cfem-filter", "sh"), ("--cfem-order", "4"):
+                self.refused(2, f"the model {basis} reads the environment unfiltered", "makelightmap", basis + ".exr",
+                             SKY, "--model", basis, flag, value, "-o", "x2.exr")
         self.refused(2, "only the basis sh has bands", "makevismap", SPOT, "--order", "4", "-o", "x.exr")
         self.refused(1, "basis: mask goes with the measure cosine, not with uniform", "makevismap", SPOT, "--basis",
                      "mask", "--measure", "uniform", "-o", "x.exr")
