@@ -36,7 +36,7 @@ void record_environment(OIIO::ImageSpec& cfem, const std::string& image)
     cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(image.substr(0, image.find('?'))));
 }
 
-bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, int nthreads,
+bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params, int nthreads,
                const Progress& progress)
 {
     std::string error;
@@ -64,9 +64,12 @@ bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams&
 bool set_cfem(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vector<double>& rgb, bool clamp,
               std::string& error)
 {
+    constexpr float kLargest = std::numeric_limits<float>::max();
     std::vector<float> pixels(rgb.size());
     for (size_t i = 0; i < rgb.size(); ++i) {
-        pixels[i] = float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
+        // A mean of light is no brighter than its brightest: beyond the largest float is rounding, if it is no more.
+        const bool rounding = rgb[i] > kLargest && rgb[i] <= kLargest * (1 + 1e-6);
+        pixels[i] = rounding ? kLargest : float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
         if (!std::isfinite(pixels[i])) {
             error = OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]);
             return false;

@@ -5,6 +5,7 @@
 /// Source: I. Neulander, "Image-Based Diffuse Lighting Using Visibility Maps", section 3.
 #pragma once
 
+#include <vmlight/environment.h>
 #include <vmlight/export.h>
 #include <vmlight/params.h>
 #include <vmlight/progress.h>
@@ -48,8 +49,7 @@ struct CfemParams
 ///                 mended, `vmlight:sanitized` says how many
 /// @param env      a lat-long map of any size from 1x1, with channels R, G, B or one channel, in linear light. Its
 ///                 display window is the sphere. Its pixels are taken as constant over their area, or, if the file says
-///                 `oiio:sampleborder`, as samples that lie on the seam and the poles. May be backed by an ImageCache:
-///                 it is read row by row.
+///                 `oiio:sampleborder`, as samples that lie on the seam and the poles. It is read row by row, once.
 /// @param params   `exact` (the default) integrates each row of the environment in closed form along longitude and
 ///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy kept. Measured error,
 ///                 relative to the map's mean: below 1e-5 on photographed maps, below 5e-5 with a sun of one pixel. Its
@@ -59,8 +59,8 @@ struct CfemParams
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, or a pixel
 ///          is NaN, infinite or negative (how many, where the first is, and the flag that mends them); `dst` then has
 ///          no pixels. Not checked: that `env` is scene-linear, or a lat-long map at all.
-VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params = {},
-                           int nthreads = 0, const Progress& progress = {});
+VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params = {}, int nthreads = 0,
+                           const Progress& progress = {});
 
 /// What make_cfem() would make of an environment with this spec: size, channels and metadata, but for
 /// `vmlight:sanitized`, which takes the pixels to know.

@@ -2,20 +2,16 @@
 #include <vmlight/cfem_rows.h>
 
 #include <vmlight/channels.h>
-#include <vmlight/oiio.h>
 #include <vmlight/words.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vmlight {
 
-using OIIO::Strutil::fmt::format;
-
-EnvironmentRows::EnvironmentRows(const OIIO::ImageBuf& env, bool sanitize)
-    : m_env(env)
+EnvironmentRows::EnvironmentRows(Environment env, bool sanitize)
+    : m_env(std::move(env))
     , m_sanitize(sanitize)
 {
 }
@@ -23,21 +19,16 @@ EnvironmentRows::EnvironmentRows(const OIIO::ImageBuf& env, bool sanitize)
 bool EnvironmentRows::open()
 {
     const OIIO::ImageSpec& spec = m_env.spec();
-    if (!m_env.initialized() || spec.width < 1 || spec.height < 1) {
-        m_error = m_env.has_error() ? oiio::reason(m_env) : "environment has no pixels";
+    m_error = m_env.fault();
+    if (!m_error.empty())
         return false;
-    }
-    if (m_env.deep() || spec.depth > 1) {
-        m_error = "environment is a deep image or a volume, not a lat-long map";
-        return false;
-    }
     std::array<int, 3> index;
     if (!find_color_channels(spec, index, m_error)) {
         m_error = "environment: " + m_error;
         return false;
     }
     // The display window is the sphere: a cropped map is black outside its pixels.
-    m_roi = m_env.roi_full();
+    m_roi = OIIO::get_roi_full(spec);
     const auto range = std::minmax_element(index.begin(), index.end());
     m_roi.chbegin = *range.first;
     m_roi.chend = *range.second + 1;
@@ -83,12 +74,8 @@ bool EnvironmentRows::load(int row)
     OIIO::ROI roi = m_roi;
     roi.ybegin = m_roi.ybegin + row;
     roi.yend = roi.ybegin + 1;
-    const bool read = m_env.get_pixels(roi, OIIO::TypeFloat, m_row.data());
-    if (!read || m_env.has_error()) {
-        const std::string reason = oiio::reason(m_env);
-        m_error = reason.empty() ? format("cannot read row {} of the environment", row) : reason;
+    if (!m_env.read(roi, m_row.data(), m_error))
         return false;
-    }
 
     const int stride = m_roi.nchannels();
     std::vector<float>& rgb = window(row);

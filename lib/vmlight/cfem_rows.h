@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vmlight/cfem_grid.h>
+#include <vmlight/environment.h>
 #include <vmlight/faults.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -17,8 +18,8 @@ namespace vmlight {
 class EnvironmentRows
 {
 public:
-    /// `env` must outlive this.
-    EnvironmentRows(const OIIO::ImageBuf& env, bool sanitize);
+    /// The image that `env` may be must outlive this.
+    EnvironmentRows(Environment env, bool sanitize);
 
     /// False, with the reason in error(), if there is no colour to read.
     bool open();
@@ -39,7 +40,7 @@ private:
     std::vector<float>& window(int row) { return m_window[row % 3]; }
     const std::vector<float>& window(int row) const { return m_window[row % 3]; }
 
-    const OIIO::ImageBuf& m_env;
+    const Environment m_env;
     bool m_sanitize;
     EnvironmentGrid m_grid;
     OIIO::ROI m_roi;

@@ -8,6 +8,7 @@
 #include <vmlight/radiance.h>
 #include <vmlight/recipe_udim.h>
 #include <vmlight/stage_counts.h>
+#include <vmlight/stored_environment.h>
 #include <vmlight/stored_image.h>
 #include <vmlight/uvraster.h>
 
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace vmlight {
 namespace {
@@ -79,19 +81,24 @@ public:
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
-    bool open(OIIO::ImageBuf& environment, std::string& error)
+    // `held` is what `dst` reads, unless that is too large.
+    bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, std::string& error)
     {
         std::string note;
-        return read_all(environment, *m_environment, error)
-            && to_scene_linear(environment, m_recipe.environment, m_color, note, error, 1);
+        if (is_large(m_environment->spec()))
+            return read_as_it_goes(dst, m_environment, m_recipe.environment, m_color, note, error);
+        dst.emplace(held);
+        return read_all(held, *m_environment, error)
+            && to_scene_linear(held, m_recipe.environment, m_color, note, error, 1);
     }
 
     bool reduce(std::string& error)
     {
-        OIIO::ImageBuf environment;
-        if (!open(environment, error))
+        OIIO::ImageBuf held;
+        std::optional<Environment> environment;
+        if (!open(environment, held, error))
             return false;
-        if (make_radiance(m_radiance, environment, m_recipe.cfem_params, error))
+        if (make_radiance(m_radiance, *environment, m_recipe.cfem_params, error))
             return true;
         error = format("\"{}\": {}", m_recipe.environment, error);
         return false;
@@ -99,12 +106,13 @@ private:
 
     bool make(std::string& error)
     {
-        OIIO::ImageBuf environment;
-        if (!open(environment, error))
+        OIIO::ImageBuf held;
+        std::optional<Environment> environment;
+        if (!open(environment, held, error))
             return false;
         m_cfem.resize(1);
-        const bool made = m_recipe.stack ? make_lobes(m_cfem, environment, m_recipe.cfem_params, error)
-                                         : make_cfem(m_cfem[0], environment, m_recipe.cfem_params);
+        const bool made = m_recipe.stack ? make_lobes(m_cfem, *environment, m_recipe.cfem_params, error)
+                                         : make_cfem(m_cfem[0], *environment, m_recipe.cfem_params);
         if (!made) {
             error = format("\"{}\": {}", m_recipe.environment, m_recipe.stack ? error : m_cfem[0].geterror());
             return false;

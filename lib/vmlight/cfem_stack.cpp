@@ -43,7 +43,7 @@ OIIO::ImageSpec describe_cfem_level(const OIIO::ImageSpec& env, const CfemParams
     return spec;
 }
 
-bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
+bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const CfemParams& params,
                      std::string& error, int nthreads, const Progress& progress)
 {
     OIIO::ImageBuf radiance;
@@ -57,8 +57,8 @@ bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env
     return true;
 }
 
-bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
-                std::string& error, int nthreads, const Progress& progress)
+bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const CfemParams& params, std::string& error,
+                int nthreads, const Progress& progress)
 {
     dst.clear();
     std::vector<OIIO::ImageBuf> levels(kStackLevels);

@@ -58,11 +58,11 @@ VMLIGHT_API double power_lobe_eigenvalue(int l, double s);
 /// ringing below 0 is cut off. Their error against quadrature, relative to the map's mean, is below 1e-3 under a sun of
 /// one texel, but for the narrowest: 8e-3, which is 1e-4 of its own brightest. 16 bands would not do: the narrowest
 /// lobe would ring by a fifth. Cost: 4.6 to 5 times that of the CFEM alone (1024x512 to 128x64).
-VMLIGHT_API bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
+VMLIGHT_API bool make_cfem_stack(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const CfemParams& params,
                                  std::string& error, int nthreads = 0, const Progress& progress = {});
 
 /// The images of a stack but the last.
-VMLIGHT_API bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& env, const CfemParams& params,
+VMLIGHT_API bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const CfemParams& params,
                             std::string& error, int nthreads = 0, const Progress& progress = {});
 
 /// What make_cfem_stack() would make of an environment with this spec, by the level.

@@ -26,11 +26,10 @@ using OIIO::Strutil::fmt::format;
 
 namespace {
 
-// What to do with an image, decided before a pixel is touched. `convert` works on rows of RGB triples in place, from
-// several threads; none means that the pixels stay.
+// What to do with an image, decided before a pixel is touched.
 struct Decision
 {
-    std::function<void(float* rgb, int count)> convert;
+    ColorConversion convert; // of finite triples
     std::string space; // to tag the image with
     std::string note;
 };
@@ -176,27 +175,44 @@ bool make_float(OIIO::ImageBuf& image, std::string& error)
     return true;
 }
 
-// Only the colour channels, wherever they are: neither alpha nor data channels are colour. A pixel that is not finite
-// stays as it is: a matrix would spread it to the other channels, and a curve might hide it.
-void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, const Decision& decision, int nthreads)
+// A pixel that is not finite stays as it is: a matrix would spread it to the other channels, and a curve might hide it.
+ColorConversion among_finite(ColorConversion convert)
+{
+    if (!convert)
+        return {};
+    return [convert = std::move(convert)](float* rgb, int count) {
+        std::vector<std::pair<int, std::array<float, 3>>> odd;
+        for (int i = 0; i < count; ++i) {
+            float* p = rgb + 3 * size_t(i);
+            if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
+                continue;
+            odd.push_back({ i, { p[0], p[1], p[2] } });
+            std::fill_n(p, 3, 0.0f);
+        }
+        convert(rgb, count);
+        for (const auto& [i, pixel] : odd)
+            std::copy_n(pixel.data(), 3, rgb + 3 * size_t(i));
+    };
+}
+
+// Only the colour channels, wherever they are: neither alpha nor data channels are colour.
+void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, const ColorConversion& convert,
+                    int nthreads)
 {
     OIIO::ImageBufAlgo::parallel_image(image.roi(), nthreads, [&](OIIO::ROI roi) {
         const int width = roi.width();
         std::vector<float> row(3 * size_t(width));
-        std::vector<char> finite(width);
         for (int z = roi.zbegin; z < roi.zend; ++z) {
             for (int y = roi.ybegin; y < roi.yend; ++y) {
                 const OIIO::ROI line(roi.xbegin, roi.xend, y, y + 1, z, z + 1);
                 int i = 0;
-                for (OIIO::ImageBuf::ConstIterator<float> p(image, line); !p.done(); ++p, ++i) {
-                    finite[i] = std::isfinite(p[index[0]]) && std::isfinite(p[index[1]]) && std::isfinite(p[index[2]]);
+                for (OIIO::ImageBuf::ConstIterator<float> p(image, line); !p.done(); ++p, ++i)
                     for (int c = 0; c < 3; ++c)
-                        row[3 * size_t(i) + c] = finite[i] ? p[index[c]] : 0.0f;
-                }
-                decision.convert(row.data(), width);
+                        row[3 * size_t(i) + c] = p[index[c]];
+                convert(row.data(), width);
                 i = 0;
                 for (OIIO::ImageBuf::Iterator<float> p(image, line); !p.done(); ++p, ++i)
-                    for (int c = 0; c < 3 && finite[i]; ++c)
+                    for (int c = 0; c < 3; ++c)
                         p[index[c]] = row[3 * size_t(i) + c];
             }
         }
@@ -249,15 +265,15 @@ bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const Color
     if (decision.convert) {
         if (!make_float(image, error))
             return false;
-        convert_pixels(image, index, decision, nthreads);
+        convert_pixels(image, index, among_finite(std::move(decision.convert)), nthreads);
     }
     tag_scene_linear(image.specmod(), decision.space);
     note = decision.note;
     return true;
 }
 
-bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
-                           std::string& error)
+bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& conversion, const std::string& path,
+                           const ColorSettings& settings, std::string& note, std::string& error)
 {
     ColorSettings known = settings;
     if (known.stored == OIIO::TypeUnknown)
@@ -266,7 +282,17 @@ bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const
     if (!decide(decision, spec, path, known, error))
         return false;
     tag_scene_linear(spec, decision.space);
+    conversion = among_finite(std::move(decision.convert));
+    note = decision.note;
     return true;
+}
+
+bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
+                           std::string& error)
+{
+    ColorConversion unused;
+    std::string note;
+    return describe_scene_linear(spec, unused, path, settings, note, error);
 }
 
 void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id)

@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <functional>
 #include <string>
 
 namespace vmlight {
@@ -37,7 +38,14 @@ struct ColorSettings
 VMLIGHT_API bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings,
                                  std::string& note, std::string& error, int nthreads = 0);
 
-/// Tag `spec`, read from the file `path`, as to_scene_linear() would tag its image: no pixel is looked at.
+/// Converts RGB triples in place, on any thread; one that is not finite stays as it is. None: all stay.
+using ColorConversion = std::function<void(float* rgb, int count)>;
+
+/// What to_scene_linear() would do to the pixels of an image that are read later. Tags `spec`, read from the file
+/// `path`, as it would tag the image: no pixel is looked at.
+VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& conversion, const std::string& path,
+                                       const ColorSettings& settings, std::string& note, std::string& error);
+/// The same, of which the tags alone are wanted.
 VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
                                        std::string& error);
 

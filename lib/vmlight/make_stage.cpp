@@ -15,6 +15,7 @@
 #include <vmlight/scene_cache.h>
 #include <vmlight/shading_model.h>
 #include <vmlight/stage_counts.h>
+#include <vmlight/stored_environment.h>
 #include <vmlight/vismap_baker.h>
 #include <vmlight/words.h>
 
@@ -24,6 +25,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace vmlight {
 namespace {
@@ -125,7 +127,7 @@ bool make_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const MakeOpt
 }
 
 // What `light` says of an environment.
-bool filter(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& environment, const CfemParams& params,
+bool filter(std::vector<OIIO::ImageBuf>& dst, const Environment& environment, const CfemParams& params,
             ModelLight light, int threads, const Progress& progress, std::string& error)
 {
     if (light == ModelLight::lobes)
@@ -138,25 +140,43 @@ bool filter(std::vector<OIIO::ImageBuf>& dst, const OIIO::ImageBuf& environment,
     return false;
 }
 
+// `recipe.environment` in scene-linear light: `held`, or a file that is too large for that.
+template <class Recipe>
+bool open_environment(std::optional<Environment>& dst, OIIO::ImageBuf& held, const Recipe& recipe,
+                      const MakeOptions& options, std::string& note, std::string& error)
+{
+    constexpr Input kWanted = std::is_same_v<Recipe, LightmapRecipe> ? Input::Environment : Input::Panorama;
+    const std::string& name = recipe.environment;
+    const ColorSettings color { recipe.colorconfig, recipe.colorspace };
+    const PixelSourcePointer file = recipe_stage(name).empty() ? open_large_image(name) : nullptr;
+    if (!file) {
+        dst.emplace(held);
+        return read_input(held, recipe, "environment", name, kWanted, options, error)
+            && to_scene_linear(held, name, color, note, error);
+    }
+    error = input_fault(name, file->spec().get_string_attribute("vmlight:stage"), kWanted);
+    if (!error.empty())
+        error = placed(recipe, "environment", options.chain, error);
+    return error.empty() && read_as_it_goes(dst, file, name, color, note, error);
+}
+
 // Read `recipe.environment` in scene-linear light and filter it.
 template <class Recipe>
 bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, ModelLight light,
                         const MakeOptions& options, std::string& error)
 {
-    constexpr Input kWanted = std::is_same_v<Recipe, LightmapRecipe> ? Input::Environment : Input::Panorama;
     const std::string& name = recipe.environment;
-    OIIO::ImageBuf environment;
+    OIIO::ImageBuf held;
+    std::optional<Environment> environment;
     std::string note;
-    if (!read_input(environment, recipe, "environment", name, kWanted, options, error))
+    if (!open_environment(environment, held, recipe, options, note, error))
         return false;
-    const int width = environment.spec().width, height = environment.spec().height;
-    if (!to_scene_linear(environment, name, { recipe.colorconfig, recipe.colorspace }, note, error))
-        return false;
+    const int width = environment->spec().width, height = environment->spec().height;
     const OIIO::Timer timer;
     dst.resize(1);
     const Size size = recipe.cfem_params.resolution;
     const Progress progress = step(options, "filter", size.width, size.height);
-    if (!filter(dst, environment, recipe.cfem_params, light, options.threads, progress, error)) {
+    if (!filter(dst, *environment, recipe.cfem_params, light, options.threads, progress, error)) {
         error = format("\"{}\": {}", name, error);
         return false;
     }

@@ -40,7 +40,7 @@ std::vector<Share> shares(double from, double to, int count, double length, cons
 
 } // namespace
 
-bool make_radiance(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params, std::string& error,
+bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params, std::string& error,
                    const Progress& progress)
 {
     if (!check_params(params, error))

@@ -19,7 +19,7 @@ namespace vmlight {
 ///                 (cfem_stack.h) with `vmlight:lobe` 1. Sums are in double
 /// @param env, params  as for make_cfem()
 /// @returns false, with the reason in `error`, if make_cfem() would be.
-VMLIGHT_API bool make_radiance(OIIO::ImageBuf& dst, const OIIO::ImageBuf& env, const CfemParams& params,
+VMLIGHT_API bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params,
                                std::string& error, const Progress& progress = {});
 
 /// The image of `light`, the images of a stack or that one alone, which make_radiance() made; nullptr if none is.

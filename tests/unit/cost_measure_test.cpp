@@ -48,7 +48,7 @@ public:
                 const float value[3] = { float(1 + 3 * std::pow(std::max(0.0, d.x), 4)), 1, float(1 + 0.9 * d.z) };
                 image.setpixel(x, y, 0, value);
             }
-        Environment& sky = inputs.environments.emplace_back();
+        cost::Environment& sky = inputs.environments.emplace_back();
         sky.name = "sky";
         sky.path = "sky.exr";
         sky.image = image;
