@@ -9,10 +9,6 @@
 #include <random>
 #include <thread>
 
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
-
 using namespace vmlight;
 using namespace stage_scene;
 using OIIO::ImageInput;
@@ -157,14 +153,4 @@ TEST(StageHost, ARecipeThatReadsItselfIsNamedWithTheWholeWay)
         folder.write("deep" + std::to_string(i) + ".lightmap",
                      rest + "albedo = \"deep" + std::to_string(i + 1) + ".lightmap\"\n");
     EXPECT_NE(error_of_open(folder / "deep0.lightmap").find("more than 64 recipes"), std::string::npos);
-}
-
-TEST(StageHost, AThreadsFloatingPointModeIsLeftAsItWas)
-{
-#if defined(__SSE__)
-    const Folder folder;
-    const unsigned before = _mm_getcsr() & 0xffc0; // but for the flags of what happened
-    all_pixels(*ImageInput::open(folder / "hero.lightmap"));
-    EXPECT_EQ(_mm_getcsr() & 0xffc0, before);
-#endif
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directions that cancel, and lookups where the map ends.
+#include "hard_case.h"
+
+#include "stack_maps.h"
+
+#include <cmath>
+
+using namespace vmlight;
+using Imath::V3d;
+using Imath::V3f;
+using scene::color;
+using scene::lit;
+using scene::model;
+using scene::one_texel;
+
+namespace {
+
+V3f naive_lookup(const OIIO::ImageBuf& cfem, const V3f& b)
+{
+    const V3f n = b / std::sqrt(b.dot(b)); // not Imath's, which guards
+    const Imath::V2d at = latlong::position(V3d(n));
+    const int x = int(at.x * cfem.spec().width), y = int(at.y * cfem.spec().height);
+    return std::isfinite(n.x) ? color(cfem, x, std::min(y, cfem.spec().height - 1)) : V3f(NAN);
+}
+
+} // namespace
+
+TEST(Arithmetic, ATexelThatSeesAlikeOnAllSides)
+{
+    HardCase row("A slot open at both ends: the directions cancel, and what is left of them is rounding",
+                 "all formats of unit normals: a bent normal that is noise");
+    const auto stack = scene::random_stack(16, 8);
+    const V3f noise[] = { V3f(1e-8f, 0, 0), V3f(-1e-8f, 3e-9f, 0), V3f(0, 1e-9f, -1e-8f) };
+    EXPECT_NE(naive_lookup(stack[0], noise[0]), naive_lookup(stack[0], noise[1]));
+    row.naive("light from wherever rounding points, another for each seed");
+    for (const char* name : { "paper", "lobe" }) {
+        const V3f expected = color(lit(one_texel(0.4f, V3f(0)), stack, model(name)));
+        EXPECT_GT(expected.length(), 0.1f);
+        for (const V3f& b : noise)
+            EXPECT_EQ(color(lit(one_texel(0.4f, b), stack, model(name))), expected) << name;
+    }
+    row.ours("V times the mean light: bit-equal for |B| below 1e-6 V");
+}
+
+TEST(Arithmetic, ATexelThatSeesNothing)
+{
+    HardCase row("V = 0 and B = 0", "Filament, Fornos `normalize(acc)`: NaN (fully occluded texel)");
+    const auto stack = scene::random_stack(16, 8);
+    EXPECT_TRUE(std::isnan(naive_lookup(stack[0], V3f(0)).x));
+    row.naive("0/0: NaN");
+    for (const char* name : { "paper", "lobe", "auto" })
+        for (float v : { 0.0f, -0.0f })
+            EXPECT_EQ(color(lit(one_texel(v, V3f(0)), stack, model(name))), V3f(0)) << name;
+    row.ours("0");
+}
+
+TEST(Arithmetic, LookupsWhereTheMapEnds)
+{
+    HardCase row("A lookup exactly at a pole, on the seam, at the corners of texels, with directions of any length");
+    EXPECT_TRUE(std::isnan(std::acos(std::nextafter(1.0f, 2.0f))));
+    // A hair's breadth before the seam, in float.
+    const float s = std::atan2(1e-9f, -1.0f) / float(2 * latlong::pi) + 0.5f;
+    EXPECT_EQ(int(s * 16), 16);
+    row.naive("acos(1 + 1e-7) is NaN; column 16 of 16 is another row's, or no memory at all");
+    for (const auto& [w, h] : { std::pair { 16, 8 }, { 5, 3 }, { 2, 1 }, { 1, 7 }, { 1, 1 } }) {
+        const OIIO::ImageBuf map = scene::random_cfem(w, h);
+        float low = 1, high = 0;
+        for (OIIO::ImageBuf::ConstIterator<float> p(map); !p.done(); ++p)
+            for (int c = 0; c < 3; ++c)
+                low = std::min<float>(low, p[c]), high = std::max<float>(high, p[c]);
+        for (int j = 0; j <= 2 * h; ++j)
+            for (int i = 0; i <= 2 * w; ++i)
+                for (const double length : { 1.0, 1 + 1e-6, 1e-3, 1e18 }) {
+                    const V3f d(latlong::direction(0.5 * i / w, 0.5 * j / h) * length);
+                    const V3f c = color(lit(one_texel(1, d), map));
+                    for (int k = 0; k < 3; ++k)
+                        EXPECT_TRUE(c[k] >= low - 1e-6f && c[k] <= high + 1e-6f) << d << " of " << w << "x" << h;
+                }
+        for (const float tiny : { 0.0f, -0.0f, 1e-9f, -1e-9f, 1e-38f, -1e-38f }) {
+            const V3f seam = color(lit(one_texel(1, V3f(tiny, 0, -1)), map));
+            const V3f across = color(lit(one_texel(1, V3f(-tiny, 0, -1)), map));
+            EXPECT_LT((seam - across).length(), 1e-6f * float(w + h) + 1e-6f);
+        }
+    }
+    row.ours("finite, within the map's own range, continuous over the seam");
+}
+
+TEST(Arithmetic, AnglesNearThePole)
+{
+    HardCase row("The polar angle of directions 1e-6 to 1e-2 from the pole");
+    double naive = 0, ours = 0;
+    for (double angle = 1e-6; angle < 1e-2; angle *= 1.1) {
+        const V3f d(float(std::sin(angle)), float(std::cos(angle)), 0);
+        naive = std::max(naive, std::abs(double(std::acos(d.y)) - angle) / angle);
+        ours = std::max(ours, std::abs(latlong::position(d).y * latlong::pi - angle));
+    }
+    EXPECT_GE(naive, 0.99);
+    row.naive("acos(y) in float: up to 100 % off");
+    EXPECT_LT(ours, 3e-7);
+    row.ours("by atan2: to 3e-7 of a radian");
+}
