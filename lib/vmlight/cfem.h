@@ -56,9 +56,9 @@ struct CfemParams
 ///                 cost grows with the height of `env` and little with its width: 12 ms for 128x64 from 1024x512, one
 ///                 thread. `sh` rings, below 0 too, under small bright lights.
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
-/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, or a pixel
-///          is NaN, infinite or negative (how many, where the first is, and the flag that mends them); `dst` then has
-///          no pixels. Not checked: that `env` is scene-linear, or a lat-long map at all.
+/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, says that
+///          it is a cube map or that its pixels are stored flipped or turned, or a pixel is NaN, infinite or negative
+///          (how many, where the first is, and the flag that mends them); `dst` then has no pixels. Not checked: that `env` is scene-linear, or a lat-long map at all.
 VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params = {}, int nthreads = 0,
                            const Progress& progress = {});
 

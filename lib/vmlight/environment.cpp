@@ -35,7 +35,15 @@ std::string Environment::fault() const
     const bool there = (!m_image || m_image->initialized()) && own.width > 0 && own.height > 0;
     if (!there)
         return m_image && m_image->has_error() ? oiio::reason(*m_image) : "environment has no pixels";
-    return own.deep || own.depth > 1 ? "environment is a deep image or a volume, not a lat-long map" : "";
+    if (own.deep || own.depth > 1)
+        return "environment is a deep image or a volume, not a lat-long map";
+    if (OIIO::Strutil::istarts_with(own.get_string_attribute("textureformat"), "CubeFace"))
+        return "environment is a cube map, not a lat-long map";
+    const int orientation = own.get_int_attribute("Orientation", 1);
+    return orientation == 1
+        ? ""
+        : format("environment is stored flipped or turned (Orientation {}); oiiotool --reorient sets it upright",
+                 orientation);
 }
 
 bool Environment::read(OIIO::ROI row, float* pixels, std::string& error) const

@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 
 namespace vmlight {
@@ -171,7 +172,12 @@ bool filter_environment(std::vector<OIIO::ImageBuf>& dst, const Recipe& recipe, 
     std::string note;
     if (!open_environment(environment, held, recipe, options, note, error))
         return false;
-    const int width = environment->spec().width, height = environment->spec().height;
+    const OIIO::ImageSpec& spec = environment->spec();
+    const int width = spec.width, height = spec.height;
+    if (std::abs(spec.full_width - 2 * spec.full_height) > 2) // border samples are one more each way
+        tell(options.warn,
+             format("\"{}\" is {}x{}, not twice as wide as high; it is taken as a lat-long map all the same", name,
+                    spec.full_width, spec.full_height));
     const OIIO::Timer timer;
     dst.resize(1);
     const Size size = recipe.cfem_params.resolution;

@@ -70,6 +70,65 @@ TEST(Light, ConstantLightOfEverySize)
     row.ours("the constant, to 1 ulp of float");
 }
 
+TEST(Light, MapsStoredFlippedOrTurned)
+{
+    HardCase row("A Radiance picture that begins with its lowest row, or its right-most column");
+    const vmlight::TemporaryFolder folder;
+    const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n", dark(8 * 4, '\0');
+    std::string bright;
+    for (int x = 0; x < 8; ++x)
+        bright += "\x80\x80\x80\x81";
+    const auto ground = [](const OIIO::ImageBuf& cfem) {
+        float rgb[3] = {};
+        cfem.getpixel(0, cfem.spec().height - 1, 0, rgb, 3);
+        return rgb[0];
+    };
+    CfemRecipe recipe;
+    recipe.cfem_params.resolution = { 8, 4 };
+    OIIO::ImageBuf cfem;
+    recipe.environment = folder.write("upright.hdr", head + "-Y 4 +X 8\n" + bright + dark + dark + dark);
+    ASSERT_TRUE(make_image(cfem, recipe, MakeOptions {})) << cfem.geterror();
+    EXPECT_LT(ground(cfem), 0.1f);
+    recipe.environment = folder.write("flipped.hdr", head + "+Y 4 +X 8\n" + dark + dark + dark + bright);
+    OIIO::ImageBuf plain(recipe.environment), upside_down;
+    plain.read(0, 0, true, OIIO::TypeFloat);
+    plain.specmod().erase_attribute("Orientation");
+    ASSERT_TRUE(make_cfem(upside_down, plain, recipe.cfem_params)) << upside_down.geterror();
+    EXPECT_GT(ground(upside_down), 0.1f);
+    row.naive("light from below");
+    for (const char* order : { "+Y 4 +X 8\n", "-Y 4 -X 8\n", "+Y 4 -X 8\n" }) {
+        recipe.environment = folder.write("flipped.hdr", head + order + dark + dark + dark + bright);
+        EXPECT_FALSE(make_image(cfem, recipe, MakeOptions {}));
+        EXPECT_NE(cfem.geterror().find("oiiotool --reorient"), std::string::npos);
+    }
+    row.ours("refused, naming what sets it upright");
+}
+
+TEST(Light, MapsThatAreNotTwiceAsWideAsHigh)
+{
+    HardCase row("A cube map, or a square light probe, given as an environment");
+    row.naive("light from everywhere, without a word");
+    OIIO::ImageBuf cube = image(random_map(24, 16, 3));
+    cube.specmod().attribute("textureformat", "CubeFace Environment");
+    EXPECT_EQ(refusal(cube), "environment is a cube map, not a lat-long map");
+    const vmlight::TemporaryFolder folder;
+    CfemRecipe recipe;
+    recipe.cfem_params.resolution = { 8, 4 };
+    std::string warnings;
+    MakeOptions options;
+    options.warn = [&](const std::string& line) { warnings += line; };
+    for (const auto& [w, h, warned] :
+         { std::tuple { 16, 16, true }, { 24, 16, true }, { 16, 8, false }, { 17, 9, false } }) {
+        recipe.environment = folder / "probe.exr";
+        ASSERT_TRUE(image(random_map(w, h, 3)).write(recipe.environment));
+        OIIO::ImageBuf cfem;
+        warnings.clear();
+        ASSERT_TRUE(make_image(cfem, recipe, options)) << cfem.geterror();
+        EXPECT_EQ(warnings.find("not twice as wide as high") != std::string::npos, warned) << w << "x" << h;
+    }
+    row.ours("refused where the file says that it is a cube; warned about by its shape");
+}
+
 TEST(Light, LargeMapsAreReadInStrips)
 {
     HardCase row("An environment of 16384x8192");
