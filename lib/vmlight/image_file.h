@@ -22,8 +22,8 @@ VMLIGHT_API std::string output_name_fault(const std::string& path);
 /// and can be written, and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
 VMLIGHT_API std::string output_fault(const std::string& path);
 
-/// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a temporary file beside `path`, flushed
-/// to the disk, then renamed. A link stays, and the file that it leads to is replaced or made. On failure, and when
+/// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a file of no name, flushed to the disk,
+/// then given its name. A link stays, and the file that it leads to is replaced or made. On failure, and when
 /// `progress` returns false, `path` is as it was and nothing is left over. The bytes depend on the pixels and metadata
 /// alone: no date, host or command line. False, with the reason in `error`; a value beyond the range of half is
 /// refused, never written as infinity.
