@@ -11,7 +11,12 @@
 
 namespace vmlight {
 
-/// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`.
+/// Why what a header says of its image cannot be meant, or "": no side of its pixels, or of the display window around
+/// them, is longer than 2^20. What goes through a damaged one pixel by pixel would not come to an end.
+std::string header_fault(const OIIO::ImageSpec& spec);
+
+/// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`: before
+/// it is read if there is no memory for it.
 VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage = 0);
 
 /// Why `path` cannot be the name of an output, wherever it is, or "": it must end in .exr (other formats lose channel
