@@ -7,6 +7,7 @@
 #include <vmlight/cfem_sh.h>
 #include <vmlight/channels.h>
 #include <vmlight/fail.h>
+#include <vmlight/memory_need.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -41,6 +42,9 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
 {
     std::string error;
     if (!check_params(params, error))
+        return fail(dst, error);
+    error = memory_fault(describe_cfem(env.spec(), params));
+    if (!error.empty())
         return fail(dst, error);
     EnvironmentRows rows(env, params.sanitize);
     if (!rows.open())

@@ -2,6 +2,7 @@
 #include <vmlight/image_file.h>
 
 #include <vmlight/channels.h>
+#include <vmlight/memory_need.h>
 #include <vmlight/oiio.h>
 #include <vmlight/output_file.h>
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace vmlight {
@@ -59,6 +61,15 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 
 } // namespace
 
+std::string header_fault(const OIIO::ImageSpec& spec)
+{
+    constexpr int kLongestSide = 1 << 20;
+    for (const auto& [width, height] : { std::pair(spec.width, spec.height), { spec.full_width, spec.full_height } })
+        if (std::max(width, height) > kLongestSide)
+            return format("its header says {}x{} pixels, of at most {} a side", width, height, kLongestSide);
+    return "";
+}
+
 bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage)
 {
     if (!OIIO::Filesystem::is_regular(path) && path.find('?') == std::string::npos) {
@@ -66,6 +77,15 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         return false;
     }
     dst.reset(path, subimage);
+    // Without a file its spec is empty, and read() tells.
+    std::string fault = header_fault(dst.spec());
+    if (fault.empty())
+        fault = memory_fault(dst.spec());
+    if (!fault.empty()) {
+        error = format("\"{}\": {}", path, fault);
+        dst.clear();
+        return false;
+    }
     if (!dst.read(subimage, 0, true, OIIO::TypeDesc::FLOAT)) {
         error = oiio::named_reason(path, oiio::reason(dst));
         dst.clear();

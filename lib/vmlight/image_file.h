@@ -11,7 +11,12 @@
 
 namespace vmlight {
 
-/// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`.
+/// Why what a header says of its image cannot be meant, or "": no side of its pixels, or of the display window around
+/// them, is longer than 2^20. What goes through a damaged one pixel by pixel would not come to an end.
+std::string header_fault(const OIIO::ImageSpec& spec);
+
+/// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`: before
+/// it is read if there is no memory for it.
 VMLIGHT_API bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage = 0);
 
 /// Why `path` cannot be the name of an output, wherever it is, or "": it must end in .exr (other formats lose channel
@@ -22,8 +27,8 @@ VMLIGHT_API std::string output_name_fault(const std::string& path);
 /// and can be written, and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
 VMLIGHT_API std::string output_fault(const std::string& path);
 
-/// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a temporary file beside `path`, flushed
-/// to the disk, then renamed. A link stays, and the file that it leads to is replaced or made. On failure, and when
+/// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a file of no name, flushed to the disk,
+/// then given its name. A link stays, and the file that it leads to is replaced or made. On failure, and when
 /// `progress` returns false, `path` is as it was and nothing is left over. The bytes depend on the pixels and metadata
 /// alone: no date, host or command line. False, with the reason in `error`; a value beyond the range of half is
 /// refused, never written as infinity.

@@ -5,6 +5,7 @@
 #include <vmlight/fail.h>
 #include <vmlight/lightmap_input.h>
 #include <vmlight/lightmap_shader.h>
+#include <vmlight/memory_need.h>
 #include <vmlight/parallel.h>
 #include <vmlight/radiance.h>
 #include <vmlight/shading_model.h>
@@ -86,10 +87,13 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
     const bool is_input = &dst == &vismap || is_light || &dst == albedo;
     ImageBuf apart;
     ImageBuf& target = is_input ? apart : dst;
-    if (has_room(target, spec))
+    if (has_room(target, spec)) {
         target.specmod() = spec;
-    else
+    } else if (error = memory_fault(spec); !error.empty()) {
+        return false;
+    } else {
         target.reset(spec, OIIO::InitializePixels::No);
+    }
     if (!target.localpixels()) {
         error = format("no memory for a lightmap of {}x{} pixels", spec.width, spec.height);
         return false;

@@ -2,6 +2,7 @@
 #include <vmlight/mesh.h>
 
 #include <vmlight/mesh_file_fault.h>
+#include <vmlight/mesh_scene_fault.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/hash.h>
@@ -117,11 +118,14 @@ void scale_parts(aiScene& scene, const std::vector<int>& exponents, int sign)
 
 // Assimp 5.4 drops polygons of five and more corners whose ears have areas of less than 1e-6: they are cut in meshes
 // that are blown up to 2^30, by powers of two, so that not a bit is lost.
-const aiScene* read_triangles(Assimp::Importer& importer, const std::string& path)
+const aiScene* read_triangles(Assimp::Importer& importer, const std::string& path, std::string& error)
 {
-    if (!importer.ReadFile(path, 0))
+    const aiScene* read = importer.ReadFile(path, 0);
+    error = read ? mesh_scene_fault(*read) : importer.GetErrorString();
+    if (!error.empty())
         return nullptr;
-    aiScene& scene = const_cast<aiScene&>(*importer.GetScene());
+    aiScene& scene = const_cast<aiScene&>(*read);
+    correct_primitive_types(scene);
     std::vector<int> exponents;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         const aiMesh& part = *scene.mMeshes[m];
@@ -132,8 +136,10 @@ const aiScene* read_triangles(Assimp::Importer& importer, const std::string& pat
         exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), 0, 126) : 0);
     }
     scale_parts(scene, exponents, 1);
-    if (!importer.ApplyPostProcessing(aiProcess_Triangulate))
+    if (!importer.ApplyPostProcessing(aiProcess_Triangulate)) {
+        error = importer.GetErrorString();
         return nullptr;
+    }
     scale_parts(scene, exponents, -1);
     return &scene;
 }
@@ -190,9 +196,9 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
     importer.SetIOHandler(new ToldFiles(opens)); // the importer deletes it
     // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
     // relative distance, which collapses small meshes: both are done here, on equal bits.
-    const aiScene* scene = read_triangles(importer, path);
+    const aiScene* scene = read_triangles(importer, path, error);
     if (!scene || !scene->mRootNode) {
-        error = format("\"{}\": not a mesh that can be read: {}", path, importer.GetErrorString());
+        error = format("\"{}\": not a mesh that can be read: {}", path, error);
         return false;
     }
 

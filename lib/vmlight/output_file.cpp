@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/output_file.h>
 
-#include <vmlight/interrupt.h>
-
 #include <OpenImageIO/strutil.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
-#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace vmlight {
@@ -38,43 +35,13 @@ std::string link_target(std::string path)
     return "";
 }
 
-// A name beside `path` that no file has.
-std::string temporary_path(const std::string& path)
-{
-    // Cut, since the file system may take no longer names than this. Every % becomes a random digit: not the folder's.
-    const std::string name = OIIO::Filesystem::filename(path).substr(0, 200);
-    return folder_of(path) + "/" + OIIO::Filesystem::unique_path("." + name + ".%%%%%%%%.part");
-}
-
-void flush_folder(const std::string& path)
-{
-    const int folder = ::open(path.c_str(), O_RDONLY);
-    if (folder < 0)
-        return;
-    ::fsync(folder);
-    ::close(folder);
-}
-
-// What keeps a file from being made at `path`, or "".
-std::string trial_fault(const std::string& path)
-{
-    // Rights alone do not tell: some folders (/proc) take no files from anyone.
-    const std::string trial = temporary_path(path);
-    const WhileWriting there; // an interrupt waits for it to be gone
-    const int file = ::open(trial.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
-    if (file < 0)
-        return std::strerror(errno);
-    ::close(file);
-    ::unlink(trial.c_str());
-    return "";
-}
-
 std::string place_fault(const std::string& path, const std::string& target)
 {
     const std::string folder = folder_of(target);
     if (!OIIO::Filesystem::is_directory(folder))
         return format("\"{}\": no folder \"{}\"", path, folder);
-    const std::string fault = trial_fault(target);
+    // Rights alone do not tell: some folders (/proc) take no files from anyone.
+    const std::string fault = PartFile(target, PartKind::Nameless).reason();
     return fault.empty() ? "" : format("\"{}\": the folder \"{}\" cannot be written: {}", path, folder, fault);
 }
 
@@ -85,10 +52,16 @@ std::string output_file_fault(const std::string& path)
     const std::string target = link_target(path);
     if (target.empty())
         return format("\"{}\": a link that leads in circles", path);
-    if (OIIO::Filesystem::is_directory(target))
+    struct stat old;
+    if (::stat(target.c_str(), &old) != 0)
+        return errno == ENOENT || errno == ENOTDIR ? place_fault(path, target)
+                                                   : format("\"{}\": {}", path, std::strerror(errno));
+    if (S_ISDIR(old.st_mode))
         return format("\"{}\": is a folder", path);
-    if (OIIO::Filesystem::exists(target) && !OIIO::Filesystem::is_regular(target))
+    if (!S_ISREG(old.st_mode))
         return format("\"{}\": is a device or a pipe, which a file would replace", path);
+    if (::access(target.c_str(), W_OK) != 0) // the folder would let it be replaced
+        return format("\"{}\": cannot be written: {}", path, std::strerror(errno));
     return place_fault(path, target);
 }
 
@@ -116,25 +89,20 @@ bool write_file(const std::string& path, OIIO::string_view bytes, std::string& e
     return error.empty();
 }
 
-OutputFile::OutputFile(const std::string& path)
-    : OutputFile(link_target(path), temporary_path(link_target(path)))
+OutputFile::OutputFile(const std::string& path, PartKind kind)
+    : OutputFile(std::make_unique<PartFile>(link_target(path), kind))
+{
+    remove_abandoned_parts(link_target(path));
+}
+
+OutputFile::OutputFile(std::unique_ptr<PartFile> part)
+    : IOFile(part->stream(), Write)
+    , m_part(std::move(part))
+    , m_reason(m_part->reason())
 {
 }
 
-OutputFile::OutputFile(const std::string& target, const std::string& temporary)
-    : IOFile(temporary, Write)
-    , m_target(target)
-    , m_temporary(temporary)
-{
-    if (!opened())
-        m_reason = error();
-}
-
-OutputFile::~OutputFile()
-{
-    if (!m_kept)
-        OIIO::Filesystem::remove(m_temporary);
-}
+OutputFile::~OutputFile() = default;
 
 size_t OutputFile::write(const void* bytes, size_t size)
 {
@@ -145,18 +113,9 @@ size_t OutputFile::write(const void* bytes, size_t size)
 
 bool OutputFile::keep()
 {
-    // The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
-    if (sound() && (std::fflush(handle()) != 0 || ::fsync(::fileno(handle())) != 0))
+    if (sound() && !m_part->place())
         m_reason = std::strerror(errno);
-    if (!sound())
-        return false;
-    close();
-    if (std::rename(m_temporary.c_str(), m_target.c_str()) != 0)
-        m_reason = std::strerror(errno);
-    m_kept = sound();
-    if (m_kept)
-        flush_folder(folder_of(m_target));
-    return m_kept;
+    return sound();
 }
 
 } // namespace vmlight

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Files that appear when they are whole: written beside their place, flushed to the disk, then renamed.
+/// Files that appear when they are whole: written where no one sees them, flushed to the disk, then given their name.
 #pragma once
 
 #include <vmlight/export.h>
+#include <vmlight/part_file.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/string_view.h>
 
+#include <memory>
 #include <string>
 
 namespace vmlight {
 
 /// Why nothing can be written to `path` as things are, or "": it must lie in a folder that exists and can be written,
-/// and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
+/// and not be a folder, a device, a pipe, or a file that may not be written. Of a link all that is asked of what it
+/// leads to.
 VMLIGHT_API std::string output_file_fault(const std::string& path);
 
 /// Why no files can be written to the folder `path` as things are, or "": it must be one that can be written, or its
@@ -20,7 +23,7 @@ VMLIGHT_API std::string output_file_fault(const std::string& path);
 VMLIGHT_API std::string output_folder_fault(const std::string& path);
 
 /// Write a file whole or not at all. False, with the reason in `error`: `path` is then as it was, and nothing is left
-/// over.
+/// over. The file has the rights of the one that it replaces; another name of that one keeps the old bytes.
 VMLIGHT_API bool write_file(const std::string& path, OIIO::string_view bytes, std::string& error);
 
 /// The same for a writer that takes an IOProxy. It keeps its failure to itself: OpenEXR's writing threads, told of a
@@ -28,8 +31,8 @@ VMLIGHT_API bool write_file(const std::string& path, OIIO::string_view bytes, st
 class VMLIGHT_API OutputFile : public OIIO::Filesystem::IOFile
 {
 public:
-    /// Opens a temporary file beside what `path` leads to; see sound().
-    explicit OutputFile(const std::string& path);
+    /// Opens a file that is to replace what `path` leads to, see sound(); and removes what killed runs left of it.
+    explicit OutputFile(const std::string& path, PartKind kind = PartKind::Nameless);
     /// What was not kept is removed.
     ~OutputFile() override;
 
@@ -39,13 +42,14 @@ public:
 
     bool sound() const { return m_reason.empty(); }
     const std::string& reason() const { return m_reason; }
-    const std::string& temporary() const { return m_temporary; }
+    /// A name by which it can be opened meanwhile, for a writer of several images, who lets OpenEXR open it again.
+    std::string temporary() const { return m_part->path(); }
 
 private:
-    OutputFile(const std::string& target, const std::string& temporary);
+    explicit OutputFile(std::unique_ptr<PartFile> part);
 
-    std::string m_target, m_temporary, m_reason;
-    bool m_kept = false;
+    std::unique_ptr<PartFile> m_part;
+    std::string m_reason;
 };
 
 } // namespace vmlight

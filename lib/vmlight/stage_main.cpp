@@ -369,7 +369,6 @@ bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std:
 
 bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error)
 {
-    const WhileWriting writing;
     return write_images(
         images, path, m_state->file.format, [](double) { return !interrupted(); }, error);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stored_image.h>
 
+#include <vmlight/image_file.h>
+#include <vmlight/memory_need.h>
 #include <vmlight/oiio.h>
 #include <vmlight/once_cache.h>
 
@@ -79,6 +81,9 @@ public:
             return false;
         }
         m_spec = file->spec();
+        const std::string fault = header_fault(m_spec);
+        if (!fault.empty())
+            error = format("\"{}\": {}", m_path, fault);
         if (m_spec.deep || m_spec.depth > 1)
             error = format("\"{}\": a {} image", m_path, m_spec.deep ? "deep" : "volume");
         m_specs.push_back(m_spec);
@@ -193,6 +198,9 @@ bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int 
 {
     OIIO::ImageSpec spec = source.spec_of(subimage);
     spec.set_format(OIIO::TypeFloat);
+    error = memory_fault(spec);
+    if (!error.empty())
+        return false;
     dst.reset(spec, OIIO::InitializePixels::No);
     auto* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels) {

@@ -3,6 +3,7 @@
 
 #include <vmlight/fail.h>
 #include <vmlight/margin.h>
+#include <vmlight/memory_need.h>
 #include <vmlight/vismap_baker.h>
 
 #include <OpenImageIO/strutil.h>
@@ -46,8 +47,10 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     VismapReport counts;
     OIIO::Timer timer;
     std::string error;
+    if (check_params(params, error))
+        error = memory_fault(describe_vismap("", params));
     VismapBaker baker;
-    if (!baker.prepare(scene, params, error, nthreads, progress, time_budget))
+    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget))
         return fail(dst, error);
     const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
     dst.reset(spec, OIIO::InitializePixels::Yes);

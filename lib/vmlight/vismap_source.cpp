@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/pixel_source.h>
 
+#include <vmlight/memory_need.h>
 #include <vmlight/recipe_udim.h>
 #include <vmlight/scene_cache.h>
 #include <vmlight/vismap_baker.h>
@@ -52,6 +53,10 @@ private:
             || !m_baker.prepare(m_scene, m_recipe.vismap_params, error))
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
+        if (m_tiles->is_whole())
+            error = memory_fault(m_spec);
+        if (!error.empty())
+            return false;
         // Of its own it has the lists of triangles, and the map if that is baked as a whole.
         const size_t lists = sizeof(uint32_t) * m_scene->mesh().triangles.size();
         m_bytes = 1 + lists + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);

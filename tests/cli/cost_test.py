@@ -14,7 +14,7 @@ import sys
 import time
 import unittest
 
-from cli_test import BIN, CONFIG, QUAD, QUAD_WITHOUT_UV, Case
+from case import BIN, CONFIG, QUAD, QUAD_WITHOUT_UV, Case
 
 SMALL = ["--quick", "--resolution", "16", "--reference-samples", "8", "--no-plots"]
 # A floor with a wall on it, which casts.

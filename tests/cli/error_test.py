@@ -6,7 +6,7 @@ import re
 import sys
 import unittest
 
-from cli_test import QUAD, SPOT, Case
+from case import QUAD, SPOT, Case
 
 
 class Errors(Case):

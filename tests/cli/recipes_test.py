@@ -6,7 +6,7 @@ import os
 import sys
 import unittest
 
-from cli_test import CONFIG, QUAD, SKY, SOURCE, Case
+from case import CONFIG, QUAD, SKY, SOURCE, Case
 
 
 class Recipes(Case):

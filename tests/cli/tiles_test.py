@@ -6,7 +6,7 @@ import os
 import sys
 import unittest
 
-from cli_test import Case
+from case import Case
 
 
 class Tiles(Case):

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/memory_need.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::memformat;
+using OIIO::Strutil::splits;
+using OIIO::Strutil::starts_with;
+
+constexpr int64_t kUnknown = std::numeric_limits<int64_t>::max();
+
+// "" if there is none. Files of /proc tell no size beforehand.
+std::string read_text(const std::string& path)
+{
+    std::ifstream file(path);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+// The number after `key` at the start of a line, or `otherwise`. Numbers that do not fit ("max", 2^64 - 1) are none.
+int64_t number_after(const std::string& text, const std::string& key, int64_t otherwise)
+{
+    for (const std::string& line : splits(text, "\n")) {
+        if (!starts_with(line, key))
+            continue;
+        const std::string number = std::string(OIIO::Strutil::strip(line.substr(key.size())));
+        const size_t digits = std::min(number.find_first_not_of("0123456789"), number.size());
+        return digits > 0 && digits < 18 ? std::stoll(number.substr(0, digits)) : otherwise;
+    }
+    return otherwise;
+}
+
+int64_t free_swap(const std::string& root)
+{
+    return 1024 * number_after(read_text(root + "/proc/meminfo"), "SwapFree:", 0);
+}
+
+int64_t left_by_machine(const std::string& root)
+{
+    const int64_t kilobytes = number_after(read_text(root + "/proc/meminfo"), "MemAvailable:", -1);
+    return kilobytes < 0 ? kUnknown : 1024 * kilobytes;
+}
+
+// What the group and those around it leave. `folder` is where their hierarchy is mounted, `group` the path in it.
+int64_t left_by_groups(const std::string& folder, std::string group, const char* limit_file, const char* usage_file,
+                       const char* cache)
+{
+    int64_t left = kUnknown;
+    for (;;) {
+        const std::string at = folder + group;
+        const int64_t limit = number_after(read_text(at + "/" + limit_file), "", kUnknown);
+        const int64_t used = number_after(read_text(at + "/" + usage_file), "", 0);
+        const int64_t files = number_after(read_text(at + "/memory.stat"), cache, 0);
+        if (limit != kUnknown)
+            left = std::min(left, std::max<int64_t>(0, limit - used + files));
+        if (group.empty() || group == "/")
+            return left;
+        group.erase(group.rfind('/'));
+    }
+}
+
+int64_t left_by_groups(const std::string& root)
+{
+    int64_t left = kUnknown;
+    const std::string groups = root + "/sys/fs/cgroup";
+    for (const std::string& line : splits(read_text(root + "/proc/self/cgroup"), "\n")) {
+        const std::vector<std::string> parts = splits(line, ":", 3); // number:controllers:path
+        if (parts.size() < 3 || !starts_with(parts[2], "/"))
+            continue;
+        const std::vector<std::string> controllers = splits(parts[1], ",");
+        if (parts[1].empty())
+            left = std::min(left, left_by_groups(groups, parts[2], "memory.max", "memory.current", "file "));
+        else if (std::find(controllers.begin(), controllers.end(), "memory") != controllers.end())
+            left = std::min(left,
+                            left_by_groups(groups + "/memory", parts[2], "memory.limit_in_bytes",
+                                           "memory.usage_in_bytes", "total_cache "));
+    }
+    return left;
+}
+
+int64_t left_by_limit(int resource, int64_t used)
+{
+    rlimit limit;
+    if (::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return kUnknown;
+    return std::max<int64_t>(0, int64_t(std::min<rlim_t>(limit.rlim_cur, kUnknown)) - used);
+}
+
+int64_t left_by_limits(const std::string& root)
+{
+    const std::string status = read_text(root + "/proc/self/status");
+    return std::min(left_by_limit(RLIMIT_AS, 1024 * number_after(status, "VmSize:", 0)),
+                    left_by_limit(RLIMIT_DATA, 1024 * number_after(status, "VmData:", 0)));
+}
+
+int64_t plus_swap(int64_t left, int64_t swap)
+{
+    return left == kUnknown ? left : left + swap;
+}
+
+} // namespace
+
+int64_t available_memory(const std::string& root)
+{
+    const int64_t shared = std::min(left_by_machine(root), left_by_groups(root));
+    return std::min(plus_swap(shared, free_swap(root)), left_by_limits(root));
+}
+
+std::string memory_fault(const OIIO::ImageSpec& spec)
+{
+    const double bytes = double(spec.width) * spec.height * std::max(1, spec.depth) * spec.nchannels * sizeof(float);
+    const int64_t available = available_memory();
+    if (bytes <= double(available))
+        return "";
+    return OIIO::Strutil::fmt::format("{}x{} pixels of {} channels take {} of memory, and there are {}", spec.width,
+                                      spec.height, spec.nchannels, memformat(int64_t(std::min(bytes, 1e18))),
+                                      memformat(available));
+}
+
+} // namespace vmlight

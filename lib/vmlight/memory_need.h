@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What memory there is, for what says beforehand how much it needs. The system grants more than it has, and ends the
+/// process that makes use of it.
+#pragma once
+
+#include <vmlight/export.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstdint>
+#include <string>
+
+namespace vmlight {
+
+/// Bytes that this process could get at most: what the machine, each control group (of either version) that the process
+/// is in, and its own limits (RLIMIT_AS, RLIMIT_DATA) leave, whichever is least. Files that the system keeps in memory,
+/// and swap, count as free. The largest number where nothing tells.
+///
+/// @param root     of /proc and /sys
+VMLIGHT_API int64_t available_memory(const std::string& root = "");
+
+/// Why no image of `spec` can be made in memory as float, or "". What else its making takes is not counted: what is
+/// refused would never have fitted.
+VMLIGHT_API std::string memory_fault(const OIIO::ImageSpec& spec);
+
+} // namespace vmlight

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of hard files and machines share: runs with a limit, and what each may end in.
+
+Run as: files_test.py [CASE ...] or machine_test.py, with VMLIGHT_BIN, VMLIGHT_SOURCE, and oiiotool on the path;
+VMLIGHT_HARD_LIMIT (seconds, 10 unless given) is what a run may take."""
+import os
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+
+from case import BIN, QUAD, SKY, SPOT, Case  # noqa: E402
+from hard_case import write_row  # noqa: E402
+
+LIMIT = float(os.environ.get("VMLIGHT_HARD_LIMIT", "10"))
+SMALL = ["--resolution", "16", "--samples", "4", "--quiet"]
+__all__ = ["BIN", "LIMIT", "QUAD", "SKY", "SMALL", "SPOT", "HardCase"]
+
+
+class HardCase(Case):
+    def row(self, case, naive, ours, peers=""):
+        write_row(self, case, naive, ours, peers)
+
+    def run_tool(self, *words, **options):
+        """Ends within the limit, or fails. `options` are those of subprocess.run()."""
+        words = [os.path.join(BIN, words[0]), *words[1:]]
+        settings = dict(capture_output=True, text=True, errors="replace", cwd=self.folder, env=self.environment)
+        return subprocess.run(words, timeout=LIMIT, **{**settings, **options})
+
+    def told(self, result, code, text=""):
+        """It ended with `code` and one line, which holds `text`."""
+        self.assertEqual(result.returncode, code, (result.args, result.stdout, result.stderr))
+        lines = [line for line in result.stderr.splitlines() if not line.startswith("libpng ")]  # its own
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertRegex(lines[0], "^make[a-z]+ ERROR: ")
+        self.assertIn(text, lines[0])
+
+    def assert_finite(self, image):
+        stats = self.oiiotool("-a", image, "--printstats")
+        counts = re.findall(r"(?:Nan|Inf)Count: (.*)", stats)
+        self.assertTrue(counts, stats)
+        for line in counts:
+            self.assertFalse(set(line.split()) - {"0"}, stats)
+
+    def names(self):
+        return sorted(os.listdir(self.folder))
