@@ -13,7 +13,6 @@ using OIIO::string_view;
 using OIIO::Strutil::fmt::format;
 
 constexpr size_t kMostDots = 100;
-constexpr size_t kLongestReason = 500;
 
 // Bytes of the character at the start of `text`, or 0 if they are no UTF-8.
 size_t read_character(string_view text, uint32_t& code)
@@ -85,24 +84,21 @@ std::string append_ascii(std::string& dst, string_view line)
 
 } // namespace
 
-std::string one_line(string_view text)
-{
-    std::string line;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        line += byte < 0x20 || byte == 0x7f ? format("\\x{:02x}", byte) : std::string(1, c);
-    }
-    return line;
-}
-
-std::string reason_line(string_view reason)
-{
-    return one_line(reason.substr(0, kLongestReason)) + (reason.size() > kLongestReason ? "..." : "");
-}
-
 std::string at_line(const std::string& path, uint64_t line)
 {
     return line ? format("\"{}\" line {}", path, line) : format("\"{}\"", path);
+}
+
+bool is_utf8(string_view text)
+{
+    uint32_t code = 0;
+    while (!text.empty()) {
+        const size_t count = read_character(text, code);
+        if (count == 0)
+            return false;
+        text.remove_prefix(count);
+    }
+    return true;
 }
 
 bool to_ascii(std::string& dst, string_view text, const std::string& path, std::string& error)
