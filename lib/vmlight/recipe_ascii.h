@@ -16,9 +16,6 @@ namespace vmlight {
 /// `"hero.lightmap" line 3`, or the path alone if `line` is 0.
 std::string at_line(const std::string& path, uint64_t line);
 
-/// Whether a recipe can hold `text`.
-bool is_utf8(OIIO::string_view text);
-
 /// Append `text`, the bytes of the file `path`, to `dst` as TOML of ASCII alone, line for line. False, with the place
 /// and reason in `error`, if it is not UTF-8, has control characters, a character outside quotes that is not ASCII,
 /// more than 100 dots outside quotes on a line, or a text of several lines. Not checked: that it is TOML.

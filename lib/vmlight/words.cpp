@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/words.h>
 
+#include <vmlight/utf8.h>
+
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
@@ -8,9 +10,16 @@ namespace vmlight {
 std::string one_line(OIIO::string_view text)
 {
     std::string line;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        line += byte < 0x20 || byte == 0x7f ? OIIO::Strutil::fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    size_t count = 0;
+    for (; !text.empty(); text.remove_prefix(count)) {
+        uint32_t code = 0;
+        count = read_character(text, code);
+        if (count == 0 || code < 0x20 || code == 0x7f) {
+            line += OIIO::Strutil::fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+            count = 1;
+        } else {
+            line.append(text.data(), count);
+        }
     }
     return line;
 }
