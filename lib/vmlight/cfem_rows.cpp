@@ -23,8 +23,8 @@ bool EnvironmentRows::open()
     if (!m_error.empty())
         return false;
     std::array<int, 3> index;
-    if (!find_color_channels(spec, index, m_error)) {
-        m_error = "environment: " + m_error;
+    if (!check_window(spec, m_error) || !find_color_channels(spec, index, m_error)) {
+        m_error = one_line("environment: " + m_error);
         return false;
     }
     // The display window is the sphere: a cropped map is black outside its pixels.
@@ -59,7 +59,7 @@ bool EnvironmentRows::read(int row, float* rgb)
                                               : "NaN, infinite or negative";
         Faults all = m_not_finite;
         all.merge(m_negative);
-        m_error = all.text("environment", wrong, m_env.spec().channelnames) + "; --sanitize mends "
+        m_error = one_line(all.text("environment", wrong, m_env.spec().channelnames)) + "; --sanitize mends "
             + plural(all.count(), "it", "them");
         return false;
     }

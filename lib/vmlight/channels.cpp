@@ -3,6 +3,8 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
+
 namespace vmlight {
 
 using OIIO::Strutil::fmt::format;
@@ -70,6 +72,17 @@ bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index,
         return true;
     }
     error = format("no channels R, G, B among {}", OIIO::Strutil::join(spec.channelnames, ", "));
+    return false;
+}
+
+bool check_window(const OIIO::ImageSpec& spec, std::string& error)
+{
+    constexpr int kLongestSide = 1 << 16;
+    const auto [least, most] = std::minmax(spec.full_width, spec.full_height);
+    if (least >= 1 && most <= kLongestSide)
+        return true;
+    error = format("a display window of {}x{} pixels; sides of 1 to {} are allowed", spec.full_width, spec.full_height,
+                   kLongestSide);
     return false;
 }
 

@@ -98,12 +98,12 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
 {
     if (!check_input(image, "albedo", error))
         return false;
-    if (!find_color_channels(image.spec(), m_index, error)) {
+    if (!check_window(image.spec(), error) || !find_color_channels(image.spec(), m_index, error)) {
         error = named(image, error);
         return false;
     }
     m_image = m_original = &image;
-    const ROI own = image.roi();
+    const ROI own = image.roi_full(), stored = image.roi();
     m_dx = own.xbegin - roi.xbegin;
     m_dy = own.ybegin - roi.ybegin;
     if (own.width() == roi.width() && own.height() == roi.height())
@@ -112,8 +112,8 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
     // Looked at first: a filter would spread a NaN, and average a negative value away.
     Faults faults;
     std::vector<float> row;
-    for (int y = own.ybegin; y < own.yend; ++y)
-        if (!read(ROI(own.xbegin, own.xend, y, y + 1, own.zbegin, own.zend), row, faults, error))
+    for (int y = stored.ybegin; y < stored.yend; ++y)
+        if (!read(ROI(stored.xbegin, stored.xend, y, y + 1, stored.zbegin, stored.zend), row, faults, error))
             return false;
     if (faults.any()) {
         error = fault_text(faults);

@@ -52,8 +52,9 @@ private:
 class AlbedoReader
 {
 public:
-    /// Resizes the albedo to `roi` by a triangle filter, which never rings, if its size differs. False, with the
-    /// reason in `error`, if it is no colour, or was resized and has a negative value or one that is not finite.
+    /// The albedo's display window is the texture, black where the file stores nothing. Resizes it to `roi` by a
+    /// triangle filter, which never rings, if its size differs. False, with the reason in `error`, if check_window()
+    /// refuses it, it is no colour, or was resized and has a negative value or one that is not finite.
     bool open(const OIIO::ImageBuf& image, OIIO::ROI roi, int nthreads, std::string& error);
 
     /// Multiply `rgb`, the pixels of `roi`. Adds what is negative or not finite to `faults`, and says in `error` if

@@ -24,7 +24,7 @@ struct Mesh
     std::string name;
     /// The file as it was asked for, or "": for messages.
     std::string path;
-    /// Double, because meshes far from the origin lose their shape in float; assimp itself delivers float.
+    /// Double, because meshes far from the origin lose their shape in float; see read_mesh().
     std::vector<Imath::V3d> positions;
     std::vector<Imath::V3f> normals;
     /// v up: v = 0 is the bottom of the texture, whatever the file's own rule.
@@ -58,10 +58,13 @@ struct MeshParams
 ///
 /// Polygons are triangulated, points and lines dropped, vertices that agree bit for bit merged. Normals are of unit
 /// length; a zero or non-finite one is made as a smooth one. Triangles without area stay (they still occlude nothing).
+/// Coordinates are rounded to float, as assimp delivers them, but for an OBJ, or a PLY of `double` coordinates, whose
+/// greatest coordinate is more than 16 times its greatest side: those keep every bit of the file's doubles.
 ///
 /// @param error    set to what is wrong, with the path in quotes, if the result is false
 /// @param opens    called with the path of each file before it is opened, the buffers of a glTF among them
-/// @returns false if the file cannot be read, has no triangle, or has a NaN or infinite vertex (the first is named).
+/// @returns false if the file cannot be read, ends early, has no triangle, a NaN or infinite vertex (the first is
+///          named), a face of a vertex that it has not, or, in an OBJ, texture coordinates that are not finite.
 ///          A mesh without the asked-for texture coordinates is read: whether they are needed is the caller's matter.
 VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                            const std::function<void(const std::string& path)>& opens = {});

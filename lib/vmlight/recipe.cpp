@@ -3,6 +3,7 @@
 
 #include <vmlight/recipe_ascii.h>
 #include <vmlight/recipe_value.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>

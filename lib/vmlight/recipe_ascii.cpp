@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/recipe_ascii.h>
 
+#include <vmlight/utf8.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -13,26 +15,6 @@ using OIIO::string_view;
 using OIIO::Strutil::fmt::format;
 
 constexpr size_t kMostDots = 100;
-constexpr size_t kLongestReason = 500;
-
-// Bytes of the character at the start of `text`, or 0 if they are no UTF-8.
-size_t read_character(string_view text, uint32_t& code)
-{
-    const auto lead = static_cast<unsigned char>(text[0]);
-    const size_t count = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    constexpr std::array<uint32_t, 5> kLeast { 0, 0, 0x80, 0x800, 0x10000 };
-    if (count > text.size() || (count > 1 && lead < 0xc2) || lead > 0xf4)
-        return 0;
-    code = count == 1 ? lead : lead & (0xffu >> (count + 1));
-    for (size_t i = 1; i < count; ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        if ((byte & 0xc0) != 0x80)
-            return 0;
-        code = code << 6 | (byte & 0x3f);
-    }
-    const bool good = code >= kLeast[count] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
-    return good ? count : 0;
-}
 
 // Append `line` to `dst`, and return "" or what is wrong with it.
 std::string append_ascii(std::string& dst, string_view line)
@@ -84,21 +66,6 @@ std::string append_ascii(std::string& dst, string_view line)
 }
 
 } // namespace
-
-std::string one_line(string_view text)
-{
-    std::string line;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        line += byte < 0x20 || byte == 0x7f ? format("\\x{:02x}", byte) : std::string(1, c);
-    }
-    return line;
-}
-
-std::string reason_line(string_view reason)
-{
-    return one_line(reason.substr(0, kLongestReason)) + (reason.size() > kLongestReason ? "..." : "");
-}
 
 std::string at_line(const std::string& path, uint64_t line)
 {

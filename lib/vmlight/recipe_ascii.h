@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A recipe's text made safe for its parser, and the messages that quote it.
+/// A recipe's text made safe for its parser.
 /// toml++ 3.3 has undefined behaviour where a character that is not ASCII stands outside quotes, and what it takes for
 /// quotes depends on what is wrong before them. So it is given ASCII alone: in quotes, \u says the rest. It also makes
 /// a table of each part of a dotted key, one in the other, which it takes down by recursion: hence the limit on dots.
@@ -13,10 +13,6 @@
 
 namespace vmlight {
 
-/// `text` on one line, with \x for control characters: texts of a file come back in messages, which are one line.
-std::string one_line(OIIO::string_view text);
-/// The same of a reason with the file's own words in it, which may be many: cut after 500.
-std::string reason_line(OIIO::string_view reason);
 /// `"hero.lightmap" line 3`, or the path alone if `line` is 0.
 std::string at_line(const std::string& path, uint64_t line);
 

@@ -2,6 +2,7 @@
 #include <vmlight/stage_input.h>
 
 #include <vmlight/parallel.h>
+#include <vmlight/words.h>
 
 #include <algorithm>
 #include <exception>
@@ -22,7 +23,7 @@ template <class Work> bool StageInput::guarded(Work&& work)
     } catch (const std::bad_alloc&) {
         errorfmt("out of memory");
     } catch (const std::exception& fault) {
-        errorfmt("{}", fault.what());
+        errorfmt("{}", one_line(fault.what()));
     } catch (...) {
         errorfmt("unknown fault");
     }
@@ -61,13 +62,13 @@ bool StageInput::open(const std::string& name, ImageSpec& spec)
 {
     return guarded([&] {
         if (!valid_file(name)) {
-            errorfmt("\"{}\": not a .{} recipe", name, m_stage);
+            errorfmt("\"{}\": not a .{} recipe", one_line(name), m_stage);
             return false;
         }
         std::string error;
         PixelSourcePointer source = open_source(name, error);
         if (!source) {
-            errorfmt("{}", error);
+            errorfmt("{}", one_line(error));
             return false;
         }
         spec = m_spec = source->spec();
@@ -185,7 +186,7 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
         };
         parallel_items(int64_t(across) * down, threads(), read);
         if (!error.empty())
-            errorfmt("{}", error); // here: messages belong to the thread that asked
+            errorfmt("{}", one_line(error)); // here: messages belong to the thread that asked
         return error.empty();
     });
 }

@@ -6,6 +6,8 @@
 #include <vmlight/output_file.h>
 #include <vmlight/progress_line.h>
 #include <vmlight/udim.h>
+#include <vmlight/utf8.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/argparse.h>
 #include <OpenImageIO/filesystem.h>
@@ -71,7 +73,7 @@ struct StageMain::State
     void message(const char* kind, const std::string& text) const
     {
         end_progress_line();
-        std::fprintf(stderr, "%s %s: %s\n", name.c_str(), kind, text.c_str());
+        std::fprintf(stderr, "%s %s: %s\n", name.c_str(), kind, one_line(text).c_str());
     }
     std::vector<std::string> flags() const
     {
@@ -96,6 +98,7 @@ struct StageMain::State
     {
         return kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
     }
+    std::string unsaid() const;
     Exit settle(int argc, const char** argv, bool& helped, std::string& error);
 };
 
@@ -178,6 +181,18 @@ bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped
     return error.empty();
 }
 
+// What a recipe cannot hold.
+std::string StageMain::State::unsaid() const
+{
+    std::vector<std::string> texts = operands;
+    for (const auto& [option, text] : given)
+        texts.push_back(text);
+    for (const std::string& text : texts)
+        if (!is_utf8(text))
+            return format("\"{}\": a recipe is UTF-8, which this is not", text);
+    return door.unsaid ? door.unsaid() : "";
+}
+
 // The recipe or the operands first, then the flags, which override them.
 Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::string& error)
 {
@@ -201,8 +216,8 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
     for (const auto& [option, text] : given)
         if (!option->take(text, error))
             return Exit::Usage;
-    if (prints_recipe && door.unsaid)
-        error = door.unsaid();
+    if (prints_recipe)
+        error = unsaid();
     if (!prints_recipe)
         error = output.empty() ? format("-o {} is missing", metavar()) : output_name_fault();
     if (error.empty() && door.fault() != fault_of_file)

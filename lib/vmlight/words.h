@@ -2,6 +2,8 @@
 /// Words of messages.
 #pragma once
 
+#include <OpenImageIO/string_view.h>
+
 #include <cstdint>
 #include <string>
 
@@ -18,5 +20,11 @@ inline std::string counted(int64_t count, const char* one, const char* many)
 {
     return std::to_string(count) + " " + plural(count, one, many);
 }
+
+/// `text` on one line of UTF-8, with \x for control characters and for bytes that are none: names and texts of files
+/// and users come back in messages.
+std::string one_line(OIIO::string_view text);
+/// The same of a reason with a file's own words in it, which may be many: cut after 500 bytes.
+std::string reason_line(OIIO::string_view reason);
 
 } // namespace vmlight

@@ -72,6 +72,9 @@ class Recipes(Case):
         self.refused(2, "a recipe holds neither --frames nor --rotate-y", "makelightmap", *self.light_words,
                      "--frames", "1-4", "--print-recipe")
         self.refused(2, "exposure: 99 is not in", "makelightmap", "vm.exr", SKY, "--exposure=99", "--print-recipe")
+        self.refused(2, r'"caf\xe9.obj": a recipe is UTF-8, which this is not', "makevismap", b"caf\xe9.obj",
+                     "--print-recipe")
+        self.refused(1, r'"a\x0ab.obj": no such file', "makevismap", "a\nb.obj", "-o", "x.exr")
 
     def test_a_faulty_recipe_is_refused_with_its_line(self):
         self.file("bad.lightmap", 'vismap = "vm.exr"\nrotat = [0, 90, 0]\n')

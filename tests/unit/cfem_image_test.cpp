@@ -104,6 +104,14 @@ TEST(Cfem, WrongImagesAndParametersAreRefused)
     OIIO::ImageBuf vismap = image(Map(4, 2));
     vismap.specmod().attribute("vmlight:stage", "vismap");
     EXPECT_NE(refusal(vismap).find("a visibility map, not light"), std::string::npos);
+    for (int side : { 0, 65537 }) {
+        OIIO::ImageBuf cropped = image(Map(4, 2));
+        cropped.specmod().full_height = side;
+        EXPECT_EQ(refusal(cropped),
+                  OIIO::Strutil::fmt::format("environment: a display window of 4x{} pixels; sides of 1 "
+                                             "to 65536 are allowed",
+                                             side));
+    }
     EXPECT_NE(refusal(image(Map(4, 2)), exact(0, 2)).find("resolution: "), std::string::npos);
     EXPECT_NE(refusal(image(Map(4, 2)), harmonics(65, 4, 2)).find("order: 65"), std::string::npos);
     CfemParams unknown;

@@ -74,6 +74,30 @@ TEST(LightmapInput, AlbedoMultiplies)
         ASSERT_EQ(pixels(dim)[i], pixels(plain)[i] * 0.25f);
 }
 
+// A crop of 30x20 out of 60x40, and of 30x20 beside its stored pixels.
+TEST(LightmapInput, AlbedosDisplayWindowIsTheTexture)
+{
+    const ImageBuf plain = lit(kVismap, kCfem);
+    ImageSpec spec(30, 20, 1, OIIO::TypeFloat);
+    spec.full_width = 60;
+    spec.full_height = 40;
+    ImageBuf quarter(spec);
+    OIIO::ImageBufAlgo::fill(quarter, { 1.0f });
+    const ImageBuf cropped = lit(kVismap, kCfem, {}, &quarter);
+    for (int y : { 0, 8, 11, 19 }) // not at the filter's edge
+        for (int x : { 0, 13, 16, 29 })
+            EXPECT_NEAR(color(cropped, x, y).x, x < 15 && y < 10 ? color(plain, x, y).x : 0, 1e-6);
+
+    spec.full_width = 30;
+    spec.full_height = 20;
+    spec.x = 10;
+    ImageBuf right(spec);
+    OIIO::ImageBufAlgo::fill(right, { 1.0f });
+    const ImageBuf moved = lit(kVismap, kCfem, {}, &right);
+    for (int x = 0; x < 30; ++x)
+        ASSERT_EQ(color(moved, x, 7).x, x < 10 ? 0 : color(plain, x, 7).x);
+}
+
 TEST(LightmapInput, AlbedoOfAnotherSizeIsResizedWithoutRinging)
 {
     const ImageBuf white = cfem(4, 2, [](V3d) { return V3f(1); });

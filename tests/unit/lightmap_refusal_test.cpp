@@ -97,6 +97,22 @@ TEST(LightmapRefusal, WhatIsNotAStagesImageIsRefused)
     EXPECT_EQ(refusal(kVismap, ImageBuf(volume)), "not a cosine-filtered environment: a volume image");
 }
 
+TEST(LightmapRefusal, NamesOfSeveralLinesAreToldOnOne)
+{
+    ImageBuf vm = kVismap;
+    vm.specmod().channelnames[1] = "a\nb\xff";
+    EXPECT_EQ(refusal(vm, kCfem),
+              "not a visibility map: no channel \"direction.x\" among visibility, a\\x0ab\\xff, "
+              "direction.y, direction.z");
+}
+
+TEST(LightmapRefusal, AnAlbedoOfNoSizeIsRefused)
+{
+    ImageBuf albedo = random_cfem(30, 20);
+    albedo.specmod().full_width = 0;
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &albedo), "a display window of 0x20 pixels; sides of 1 to 65536 are allowed");
+}
+
 TEST(LightmapRefusal, ParametersAreChecked)
 {
     LightmapParams params;

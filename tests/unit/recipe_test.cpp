@@ -198,6 +198,8 @@ TEST(Recipe, RefusesWhatItsParserCannotTake)
     EXPECT_EQ(refusal("\nen\xEF\xBB\x82"), "\"hero.lightmap\" line 2" + outside);
     EXPECT_EQ(refusal("vismap =0\"caf\xC3\xA9\"").rfind("\"hero.lightmap\" line 1: not TOML: ", 0), 0u);
     EXPECT_EQ(refusal("vismap = \"a\\\\\"\xC3\xA9\""), "\"hero.lightmap\" line 1" + outside);
+    for (const char* text : { "[=", "rotate = [ }", "rotate = [ 0, }" }) // asserted against, or assumed never to come
+        EXPECT_EQ(refusal(text).rfind("\"hero.lightmap\" line 1: not TOML: ", 0), 0u) << text;
     for (const char* text : { "vismap = \"\"\"a\"\"\"", "vismap = '''a'''" })
         EXPECT_EQ(refusal(text), "\"hero.lightmap\" line 1: three quotes in a row: a recipe's texts are of one line");
 }
