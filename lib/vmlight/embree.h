@@ -15,14 +15,21 @@
 namespace vmlight::embree {
 
 #if RTC_VERSION_MAJOR >= 4
+/// Needed by a scene whose queries bring a filter.
+constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
 /// What a query carries besides its rays; rays share nothing, so the traversal is told not to expect coherence.
 class Query
 {
 public:
-    Query()
+    /// @param filter   is asked about each meeting that would block a ray; nullptr lets all block
+    explicit Query(RTCFilterFunctionN filter = nullptr)
     {
         rtcInitOccludedArguments(&m_arguments);
         m_arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+        if (filter)
+            m_arguments.flags = RTCRayQueryFlags(m_arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+        m_arguments.filter = filter;
     }
     void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &rays, &m_arguments); }
 
@@ -30,13 +37,16 @@ private:
     RTCOccludedArguments m_arguments;
 };
 #else
+constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
 class Query
 {
 public:
-    Query()
+    explicit Query(RTCFilterFunctionN filter = nullptr)
     {
         rtcInitIntersectContext(&m_context);
         m_context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        m_context.filter = filter;
     }
     void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &m_context, &rays); }
 

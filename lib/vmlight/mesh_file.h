@@ -29,7 +29,7 @@ struct MeshFile
 MeshFile inspect_mesh_file(const std::string& path);
 
 /// Of a file whose greatest coordinate is more than this many times its greatest side, float would round the shape by
-/// more than 1e-6 of its size, which is about how near to each other surfaces can be told apart (offset_origin()).
+/// more than 1e-6 of its size, which is about how near to each other surfaces can be told apart (surface.h).
 constexpr double kFarFromOrigin = 16;
 
 /// Do these vertices lie so far away? False if one is not finite, or if all are one.

@@ -4,12 +4,13 @@
 #include <vmlight/embree.h>
 #include <vmlight/parallel.h>
 
-#include <OpenImageIO/fmath.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <limits>
 
 namespace vmlight {
@@ -37,10 +38,41 @@ SceneFrame SceneFrame::around(const Mesh& mesh)
     return frame;
 }
 
+namespace {
+
+// What Embree has of a mesh.
+struct Buffers
+{
+    const V3f* vertices;
+    const std::array<uint32_t, 3>* triangles;
+};
+
+// Of each meeting that Embree's floats report: does it lie ahead of the ray's origin? In double, from the same floats.
+void keep_what_lies_ahead(const RTCFilterFunctionNArguments* arguments)
+{
+    const Buffers& buffers = *static_cast<const Buffers*>(arguments->geometryUserPtr);
+    RTCRayN* ray = arguments->ray;
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (!arguments->valid[i])
+            continue;
+        const auto& corners = buffers.triangles[RTCHitN_primID(arguments->hit, n, i)];
+        const V3d a(buffers.vertices[corners[0]]), b(buffers.vertices[corners[1]]), c(buffers.vertices[corners[2]]);
+        const V3d origin(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
+        const V3d direction(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
+        const V3d normal = (b - a).cross(c - a);
+        if (!((a - origin).dot(normal) / direction.dot(normal) > 0))
+            arguments->valid[i] = 0;
+    }
+}
+
+} // namespace
+
 struct Occluder::Scene
 {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::deque<Buffers> buffers; // stays where it is as it grows
 
     ~Scene()
     {
@@ -67,6 +99,8 @@ bool Occluder::Scene::attach(const Mesh& mesh, const SceneFrame& frame)
         for (size_t v = 0; v < mesh.positions.size(); ++v)
             static_cast<V3f*>(vertices)[v] = frame.to_scene(mesh.positions[v]);
         std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(uint32_t));
+        buffers.push_back({ static_cast<V3f*>(vertices), static_cast<std::array<uint32_t, 3>*>(indices) });
+        rtcSetGeometryUserData(geometry, &buffers.back());
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }
@@ -86,7 +120,7 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
     bool good = scene->device != nullptr;
     if (good) {
         scene->scene = rtcNewScene(scene->device);
-        rtcSetSceneFlags(scene->scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene->scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | embree::kFilteredByQuery));
         for (const Mesh* mesh : meshes)
             good = good && scene->attach(*mesh, frame);
         rtcCommitScene(scene->scene);
@@ -100,10 +134,10 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
     return true;
 }
 
-void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length) const
+void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool is_near) const
 {
     const embree::FlushDenormals flush;
-    embree::Query query;
+    embree::Query query(is_near ? keep_what_lies_ahead : nullptr);
     RTCRay8 rays;
     for (int lane = 0; lane < kPacketSize; ++lane) {
         rays.org_x[lane] = origin.x;
@@ -134,22 +168,6 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length) const
             open |= uint8_t(rays.tfar[lane] >= 0) << lane; // Embree sets tfar to -infinity where a ray is blocked
         fan.lanes[packet] = live & open;
     }
-}
-
-V3f offset_origin(const V3f& p, const V3f& n)
-{
-    constexpr float kNearOrigin = 1.0f / 32, kAbsolute = 1.0f / 65536, kUlps = 256;
-    V3f result;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(p[axis]) < kNearOrigin) {
-            result[axis] = p[axis] + kAbsolute * n[axis];
-            continue;
-        }
-        const int32_t ulps = int32_t(kUlps * n[axis]);
-        const int32_t bits = OIIO::bitcast<int32_t>(p[axis]) + (p[axis] < 0 ? -ulps : ulps);
-        result[axis] = OIIO::bitcast<float>(bits);
-    }
-    return result;
 }
 
 } // namespace vmlight

@@ -41,21 +41,15 @@ public:
                            std::string& error);
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`. Rays start
-    /// at `origin` itself: see offset_origin(). Not checked: that build() succeeded.
-    VMLIGHT_API void clear_blocked(RayFan& fan, const Imath::V3f& origin, float length) const;
+    /// at `origin` itself, which must be off the surface: see SurfacePoint. Not checked: that build() succeeded.
+    /// @param is_near  of `origin`: which side of a triangle it is on is worked out in double, since Embree's floats
+    /// may
+    ///                 err. What they miss is missed
+    VMLIGHT_API void clear_blocked(RayFan& fan, const Imath::V3f& origin, float length, bool is_near = false) const;
 
 private:
     struct Scene;
     std::unique_ptr<Scene> m_scene;
 };
-
-/// A point of a surface, pushed off it along its geometric normal just far enough that rays from it cannot meet the
-/// surface by rounding: 256 ulps a component, and 2^-16 of the scene's unit for components below 1/32. Right only in a
-/// SceneFrame: elsewhere it leaks or hits falsely (measured over scales of 1e-6 to 1e6 and offsets of up to 1e7).
-/// Source: C. Waechter, N. Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, ch. 6.
-VMLIGHT_API Imath::V3f offset_origin(const Imath::V3f& p, const Imath::V3f& geometric_normal);
-
-/// How far offset_origin() may move a point of the baked mesh: 256 ulps of 1, with room to spare.
-constexpr float kOffsetLength = 1.0f / 16384;
 
 } // namespace vmlight

@@ -25,7 +25,8 @@ SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
     SurfacePoint point;
     point.geometric_normal = V3f(m_normal);
     point.normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
-    point.origin = offset_origin(V3f(position), point.geometric_normal);
+    point.origin = V3f(position + m_normal * kOffset);
+    point.near_origin = V3f(position + m_normal * kNearOffset);
     return point;
 }
 
@@ -41,16 +42,15 @@ void Surface::take(uint32_t triangle)
         m_corner_normal[k] = std::isfinite(normal.length2()) ? normal : V3d(0);
         shading += m_corner_normal[k];
     }
-    V3d area_normal = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]);
-    if (!(area_normal.length() > 0))
-        area_normal = triangle_area_normal(m_mesh, corners);
-    const double area = area_normal.length();
+    const double area = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]).length();
+    // Of the mesh itself: the floats of a sliver may lean anywhere.
+    const V3d area_normal = triangle_area_normal(m_mesh, corners);
     // Which side is outside is the normals' word, not the winding's: files disagree on winding far more often.
     m_normal = area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
     for (int k = 0; k < 3; ++k) {
         const double edge = (m_corner[(k + 1) % 3] - m_corner[(k + 2) % 3]).length();
         const double height = edge > 0 ? area / edge : 0;
-        m_least_weight[k] = height > 0 ? std::min(0.25, kOffsetLength / height) : 0.25;
+        m_least_weight[k] = height > 0 ? std::min(0.25, kEdgeOffset / height) : 0.25;
     }
 }
 

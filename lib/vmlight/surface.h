@@ -11,10 +11,20 @@
 
 namespace vmlight {
 
+/// How far off the surface rays start, in units of a SceneFrame, in which the baked mesh fills [-1, 1] whatever its own
+/// units: 256 times the rounding of its coordinates, so that no ray meets the surface it comes from.
+constexpr double kOffset = 1.0 / (1 << 16);
+/// The same where something lies as near as that: 8 times the rounding, half of the least gap through which surfaces
+/// are told apart. Embree's floats may put it on the wrong side of a sliver: Occluder::clear_blocked() must be told.
+constexpr double kNearOffset = 1.0 / (1 << 21);
+/// How far from the edges of a triangle they start.
+constexpr double kEdgeOffset = 1.0 / (1 << 14);
+
 /// A point to bake, in scene space.
 struct SurfacePoint
 {
-    Imath::V3f origin; ///< where rays start: off the surface, see offset_origin()
+    Imath::V3f origin; ///< where rays start: kOffset off the surface
+    Imath::V3f near_origin; ///< where they start if anything is within twice that: kNearOffset off it
     Imath::V3f normal; ///< the interpolated normal, of unit length
     Imath::V3f geometric_normal; ///< the triangle's, on the side of its corner normals
 };
@@ -31,7 +41,7 @@ public:
 
     /// The point with these weights of the triangle's second and third corners.
     /// The normal is the interpolated one, or the triangle's where those of the corners cancel or lean under it.
-    /// The position is kept off the triangle's edges by kOffsetLength (a quarter of a small triangle's height): rays
+    /// The position is kept off the triangle's edges by kEdgeOffset (a quarter of a small triangle's height): rays
     /// from an edge could slip behind a neighbour that meets it at a sharp angle.
     /// Not checked: that the triangle has an area.
     VMLIGHT_API SurfacePoint at(uint32_t triangle, float weight1, float weight2);
