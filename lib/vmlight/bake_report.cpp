@@ -37,6 +37,22 @@ void report_outside(const MakeOptions& options, const UvReport& uv, const Vismap
                     uv.beyond, counted(uv.triangles, "triangle", "triangles"), plural(uv.beyond, "reaches", "reach")));
 }
 
+// What is not baked although its triangles are in the tile, and what is baked from too far away.
+void report_lost(const MakeOptions& options, const VismapReport& report)
+{
+    const UvReport& uv = report.uv;
+    if (uv.lost_islands > 0 && options.warn)
+        options.warn(
+            format("{} of {} in uv ({}) {} no texel: {} thinner than one, without area or too far out, and not baked",
+                   uv.lost_islands, counted(uv.islands, "island", "islands"),
+                   counted(uv.lost_triangles, "triangle", "triangles"), plural(uv.lost_islands, "covers", "cover"),
+                   plural(uv.lost_islands, "it is", "they are")));
+    if (report.tiny > 0 && options.warn && !options.again)
+        options.warn(format("{} of {} {} smaller than 4e-6 of the mesh: what lies as near to {} as that is not seen",
+                            report.tiny, counted(uv.triangles, "triangle", "triangles"),
+                            plural(report.tiny, "is", "are"), plural(report.tiny, "it", "them")));
+}
+
 std::string error_line(const VismapReport& report)
 {
     const std::string texels = counted(report.error_texels, "texel", "texels");
@@ -84,6 +100,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         warn(format("{} of {} {}", uv.without_uv, counted(uv.triangles, "triangle", "triangles"),
                     plural(uv.without_uv, "has no uv: it casts, and is not baked",
                            "have no uv: they cast, and are not baked")));
+    report_lost(options, report);
     if (report.covered == 0)
         warn("no texel centre is covered: the map is empty");
     else if (report.dark > report.covered / 2)

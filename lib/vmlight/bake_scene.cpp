@@ -1,9 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/bake_scene.h>
 
+#include <vmlight/surface.h>
+
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
+
 namespace vmlight {
+namespace {
+
+// Embree leaves out, without a word, what is farther away than 1.8e18.
+constexpr double kFarthestCaster = 1e18;
+
+bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
+{
+    for (const auto& triangle : mesh.triangles)
+        for (uint32_t vertex : triangle) {
+            const double reach = ((mesh.positions[vertex] - frame.centre) * frame.scale).length();
+            if (reach <= kFarthestCaster)
+                continue;
+            error
+                = OIIO::Strutil::fmt::format("\"{}\": vertex {} is {:.2g} times as far away as the baked mesh is "
+                                             "large; at most {:g} can be traced",
+                                             mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
+            return false;
+        }
+    return true;
+}
+
+int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
+{
+    int64_t count = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Imath::V3d &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
+        const double longest = std::max({ (q - p).length(), (r - q).length(), (p - r).length() });
+        count += longest > 0 && longest * frame.scale < kTinyTriangle;
+    }
+    return count;
+}
+
+} // namespace
 
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
                       std::string& error)
@@ -21,7 +58,14 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     std::vector<const Mesh*> casters { mesh.get() };
     for (const Mesh& occluder : occluders)
         casters.push_back(&occluder);
+    for (const Mesh* caster : casters)
+        if (!check_mesh(*caster, error))
+            return false;
     m_frame = SceneFrame::around(*mesh);
+    for (const Mesh* caster : casters)
+        if (!check_reach(*caster, m_frame, error))
+            return false;
+    m_tiny = count_tiny(*mesh, m_frame);
     if (!m_occluder.build(casters, m_frame, nthreads, error))
         return false;
     m_mesh_hash = vmlight::mesh_hash(*mesh);

@@ -20,7 +20,8 @@ class BakeScene
 {
 public:
     /// @param mesh     kept; `occluders` are not
-    /// @returns false, with the reason in `error`, if the mesh has no triangle or no uvs, or memory runs out
+    /// @returns false, with the reason in `error`, if the mesh has no triangle or no uvs, one of the meshes fails
+    ///          check_mesh() or reaches farther than the ray tracer does, or memory runs out
     VMLIGHT_API bool build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
                            std::string& error);
 
@@ -33,6 +34,8 @@ public:
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
     /// Triangles of the mesh and of all occluders.
     int64_t triangles() const { return m_triangles; }
+    /// Triangles of the mesh that are smaller than kTinyTriangle.
+    int64_t tiny() const { return m_tiny; }
     /// Memory held, about.
     size_t bytes() const;
 
@@ -44,7 +47,7 @@ private:
     SceneFrame m_frame;
     Occluder m_occluder;
     std::string m_mesh_hash, m_occluder_hashes;
-    int64_t m_triangles = 0;
+    int64_t m_triangles = 0, m_tiny = 0;
 };
 
 /// A pointer to `mesh`, which must outlive what takes it.

@@ -149,6 +149,7 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
     reading.append(*scene, *scene->mRootNode, to_y_up);
     if (!reading.error.empty() || dst.triangles.empty()) {
         error = format("\"{}\": {}", path, reading.error.empty() ? "no triangle in it" : reading.error);
+        dst = Mesh();
         return false;
     }
 

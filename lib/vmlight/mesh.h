@@ -69,6 +69,10 @@ struct MeshParams
 VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                            const std::function<void(const std::string& path)>& opens = {});
 
+/// Is the mesh one that can be baked or cast? False, with the reason in `error`, if a triangle has a vertex that is not
+/// there or not finite (the first is named), or if there are not as many normals, or uvs, if any, as positions.
+VMLIGHT_API bool check_mesh(const Mesh& mesh, std::string& error);
+
 /// Give `mesh` one normal a triangle. Splits vertices as needed.
 VMLIGHT_API void make_flat_normals(Mesh& mesh);
 

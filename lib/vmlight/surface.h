@@ -19,6 +19,8 @@ constexpr double kOffset = 1.0 / (1 << 16);
 constexpr double kNearOffset = 1.0 / (1 << 21);
 /// How far from the edges of a triangle they start.
 constexpr double kEdgeOffset = 1.0 / (1 << 14);
+/// Triangles with no side as long as this are points to what is traced from them.
+constexpr double kTinyTriangle = 8 * kNearOffset;
 
 /// A point to bake, in scene space.
 struct SurfacePoint

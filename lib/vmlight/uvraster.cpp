@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uvraster.h>
 
+#include <vmlight/uvraster_edges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,7 +10,6 @@
 namespace vmlight {
 namespace {
 
-constexpr int64_t kSubtexels = 256;
 // Beyond two million texels the products of the edge tests would leave 64 bits.
 constexpr double kFarthest = double(1 << 21) * kSubtexels;
 
@@ -29,22 +30,33 @@ bool reaches_beyond(const Mesh& mesh, size_t triangle)
 
 } // namespace
 
-// Rounded texture coordinates, y down. False if they are missing, not finite, or too far away.
-bool UvRaster::corners(size_t triangle, std::array<Corner, 3>& dst) const
+// A corner's texture coordinates in parts of a texel, y down.
+Imath::V2d UvRaster::place_of(size_t triangle, int corner) const
+{
+    const Imath::V2f& uv = m_mesh.uvs[m_mesh.triangles[triangle][corner]];
+    // Whole numbers come off a double that was a float without rounding.
+    const double u = double(uv.x) - m_corner.x, v = double(uv.y) - m_corner.y;
+    return { u * m_width * kSubtexels, (1.0 - v) * m_height * kSubtexels };
+}
+
+Imath::V2d UvRaster::size() const
+{
+    return Imath::V2d(m_width, m_height) * double(kSubtexels);
+}
+
+// Rounded texture coordinates. False if they are missing, not finite, or too far away.
+bool UvRaster::corners(size_t triangle, std::array<UvCorner, 3>& dst) const
 {
     for (int k = 0; k < 3; ++k) {
-        const Imath::V2f& uv = m_mesh.uvs[m_mesh.triangles[triangle][k]];
-        // Whole numbers come off a double that was a float without rounding.
-        const double u = double(uv.x) - m_corner.x, v = double(uv.y) - m_corner.y;
-        const double x = u * m_width * kSubtexels, y = (1.0 - v) * m_height * kSubtexels;
-        if (!(std::abs(x) <= kFarthest && std::abs(y) <= kFarthest))
+        const Imath::V2d place = place_of(triangle, k);
+        if (!(std::abs(place.x) <= kFarthest && std::abs(place.y) <= kFarthest))
             return false;
-        dst[k] = { std::llround(x), std::llround(y) };
+        dst[k] = { std::llround(place.x), std::llround(place.y) };
     }
     return true;
 }
 
-template <class Visit> void UvRaster::each_tile(const std::array<Corner, 3>& c, Visit&& visit) const
+template <class Visit> void UvRaster::each_tile(const std::array<UvCorner, 3>& c, Visit&& visit) const
 {
     const auto span = [](int64_t a, int64_t b, int64_t d, int texels) {
         // Texels whose centre, at 256 i + 128, lies between the least and the greatest corner.
@@ -62,26 +74,78 @@ template <class Visit> void UvRaster::each_tile(const std::array<Corner, 3>& c, 
             visit(size_t(ty * tiles_across() + tx));
 }
 
-void UvRaster::count_outside(size_t triangle, const std::array<Corner, 3>& c)
+// Of a triangle, rounded as corners() does, wherever it is. Not finite if a corner is not.
+struct UvRaster::Bounds
 {
-    const int64_t w = m_width * kSubtexels, h = m_height * kSubtexels;
-    const auto x = std::minmax({ c[0].x, c[1].x, c[2].x }), y = std::minmax({ c[0].y, c[1].y, c[2].y });
-    const bool outside = x.first < 0 || x.second > w || y.first < 0 || y.second > h;
+    Imath::V2d low, high;
+
+    bool is_finite() const { return std::isfinite(low.x + low.y + high.x + high.y); }
+    bool reaches_out(const Imath::V2d& size) const
+    {
+        return low.x < 0 || low.y < 0 || high.x > size.x || high.y > size.y;
+    }
+    bool is_elsewhere(const Imath::V2d& size) const
+    {
+        return reaches_out(size) && (high.x <= 0 || high.y <= 0 || low.x >= size.x || low.y >= size.y);
+    }
+};
+
+UvRaster::Bounds UvRaster::bounds_of(size_t triangle) const
+{
+    std::array<double, 3> x, y;
+    for (int k = 0; k < 3; ++k) {
+        const Imath::V2d place = place_of(triangle, k);
+        x[k] = std::round(place.x), y[k] = std::round(place.y);
+        if (!std::isfinite(place.x + place.y))
+            return { place, place };
+    }
+    return { { std::min({ x[0], x[1], x[2] }), std::min({ y[0], y[1], y[2] }) },
+             { std::max({ x[0], x[1], x[2] }), std::max({ y[0], y[1], y[2] }) } };
+}
+
+void UvRaster::count_outside(size_t triangle)
+{
+    const Bounds bounds = bounds_of(triangle);
+    const bool finite = bounds.is_finite(), outside = finite && bounds.reaches_out(size());
+    m_report.without_uv += !finite;
     m_report.outside += outside;
-    m_report.elsewhere += outside && (x.second <= 0 || x.first >= w || y.second <= 0 || y.first >= h);
+    m_report.elsewhere += finite && bounds.is_elsewhere(size());
     m_report.beyond += outside && reaches_beyond(m_mesh, triangle);
 }
 
-// What corners() has none of.
-void UvRaster::count_far(size_t triangle)
+bool UvRaster::is_here(size_t triangle) const
 {
-    const auto& corners = m_mesh.triangles[triangle];
-    const bool finite = std::all_of(corners.begin(), corners.end(), [&](uint32_t vertex) {
-        return std::isfinite(m_mesh.uvs[vertex].x) && std::isfinite(m_mesh.uvs[vertex].y);
-    });
-    ++(finite ? m_report.outside : m_report.without_uv);
-    m_report.elsewhere += finite;
-    m_report.beyond += finite && reaches_beyond(m_mesh, triangle);
+    const Bounds bounds = bounds_of(triangle);
+    return bounds.is_finite() && !bounds.is_elsewhere(size())
+        && triangle_area_normal(m_mesh, m_mesh.triangles[triangle]).length() > 0;
+}
+
+bool UvRaster::covers_any(size_t triangle) const
+{
+    std::array<UvCorner, 3> c;
+    if (!corners(triangle, c) || twice_area(c) == 0)
+        return false;
+    const UvEdges edges(c);
+    const auto bounds = std::minmax({ c[0].y, c[1].y, c[2].y });
+    const int64_t y0 = std::max<int64_t>(0, floor_divide(bounds.first - kSubtexels / 2, kSubtexels));
+    const int64_t y1 = std::min<int64_t>(m_height, floor_divide(bounds.second, kSubtexels) + 1);
+    for (int64_t y = y0; y < y1; ++y) {
+        // Of this row, the texels on the inner side of all three edges.
+        const std::array<int64_t, 3> e = edges.at(0, y);
+        int64_t first = 0, last = m_width - 1;
+        for (int k = 0; k < 3; ++k) {
+            const int64_t lacking = edges.least[k] - e[k], step = edges.step_x[k];
+            if (step > 0)
+                first = std::max(first, -floor_divide(-lacking, step));
+            else if (step < 0)
+                last = std::min(last, floor_divide(-lacking, -step));
+            else if (lacking > 0)
+                last = -1;
+        }
+        if (first <= last)
+            return true;
+    }
+    return false;
 }
 
 UvRaster::UvRaster(const Mesh& mesh, int width, int height, int udim)
@@ -92,16 +156,13 @@ UvRaster::UvRaster(const Mesh& mesh, int width, int height, int udim)
 {
     m_first.assign(size_t(tiles_across()) * tiles_down() + 2, 0);
     std::vector<uint32_t> kept;
-    std::array<Corner, 3> c;
+    std::array<UvCorner, 3> c;
     m_report.triangles = int64_t(mesh.triangles.size());
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!corners(t, c)) {
-            count_far(t);
+        count_outside(t);
+        if (!corners(t, c))
             continue;
-        }
-        count_outside(t, c);
-        // y points down here, so that a positive area means clockwise in (u, v).
-        const int64_t area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+        const int64_t area = twice_area(c);
         const double area_3d = triangle_area_normal(mesh, mesh.triangles[t]).length();
         m_report.mirrored += area > 0;
         m_report.degenerate_uv += area == 0;
@@ -132,32 +193,19 @@ void UvRaster::cover(int tile, TileCover& dst) const
 
     for (size_t i = m_first[tile]; i < m_first[tile + 1]; ++i) {
         const uint32_t t = m_binned[i];
-        std::array<Corner, 3> c;
+        std::array<UvCorner, 3> c;
         corners(t, c);
-        const int64_t area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
-        const bool turned = area < 0;
-        if (turned)
-            std::swap(c[1], c[2]);
-
-        // Edge k runs from corner k+1 to corner k+2: its function is twice the area that weighs corner k, positive
-        // inside. A centre on the edge belongs to the triangle if the edge is a left one (it runs up) or a top one.
-        std::array<int64_t, 3> step_x, step_y, row;
-        std::array<int64_t, 3> least;
+        const UvEdges edges(c);
+        const bool turned = edges.turned;
         const auto bounds = std::minmax({ c[0].y, c[1].y, c[2].y });
         const auto bounds_x = std::minmax({ c[0].x, c[1].x, c[2].x });
         const int64_t y0 = std::max(tile_y, floor_divide(bounds.first - kSubtexels / 2, kSubtexels));
         const int64_t y1 = std::min(end_y, floor_divide(bounds.second, kSubtexels) + 1);
         const int64_t x0 = std::max(tile_x, floor_divide(bounds_x.first - kSubtexels / 2, kSubtexels));
         const int64_t x1 = std::min(end_x, floor_divide(bounds_x.second, kSubtexels) + 1);
-        for (int k = 0; k < 3; ++k) {
-            const Corner &a = c[(k + 1) % 3], &b = c[(k + 2) % 3];
-            const int64_t dx = b.x - a.x, dy = b.y - a.y;
-            step_x[k] = -dy * kSubtexels;
-            step_y[k] = dx * kSubtexels;
-            row[k] = dx * (y0 * kSubtexels + kSubtexels / 2 - a.y) - dy * (x0 * kSubtexels + kSubtexels / 2 - a.x);
-            least[k] = dy < 0 || (dy == 0 && dx > 0) ? 0 : 1;
-        }
-        const double per_area = 1.0 / double(std::abs(area));
+        std::array<int64_t, 3> row = edges.at(x0, y0);
+        const auto &least = edges.least, &step_x = edges.step_x, &step_y = edges.step_y;
+        const double per_area = 1.0 / double(std::abs(twice_area(c)));
         for (int64_t y = y0; y < y1; ++y) {
             std::array<int64_t, 3> e = row;
             for (int64_t x = x0; x < x1; ++x) {

@@ -12,6 +12,8 @@
 
 namespace vmlight {
 
+struct UvCorner;
+
 /// Side of the square tiles that the texture is cut into.
 constexpr int kTileSize = 64;
 
@@ -26,6 +28,10 @@ struct UvReport
     int64_t degenerate_uv = 0; ///< no area in the texture (at 1/256 of a texel): covers nothing
     int64_t degenerate_3d = 0; ///< no area in space: no normal, covers nothing
     int64_t mirrored = 0; ///< clockwise in the texture
+    // By count_islands() only: it takes longer than the rest.
+    int64_t islands = 0; ///< parts that hang together by their texture coordinates, with area in space and in the tile
+    int64_t lost_islands = 0; ///< of these, covering no texel: thinner than one, without area, or too far-reaching
+    int64_t lost_triangles = 0; ///< the triangles of those
 };
 
 /// The texels of one tile: which triangle owns each, and where in it.
@@ -55,18 +61,22 @@ public:
     VMLIGHT_API int tiles_down() const { return (m_height + kTileSize - 1) / kTileSize; }
     const UvReport& report() const { return m_report; }
 
+    /// Has the triangle an area in space and a part in this UDIM tile?
+    bool is_here(size_t triangle) const;
+    /// Does the triangle cover a texel, if it alone is drawn? At most height divisions.
+    bool covers_any(size_t triangle) const;
+
     /// Cover tile number `tile` (row by row). Independent of other tiles; any thread.
     VMLIGHT_API void cover(int tile, TileCover& dst) const;
 
 private:
-    struct Corner
-    {
-        int64_t x, y;
-    };
-    bool corners(size_t triangle, std::array<Corner, 3>& dst) const;
-    void count_outside(size_t triangle, const std::array<Corner, 3>& corners);
-    void count_far(size_t triangle);
-    template <class Visit> void each_tile(const std::array<Corner, 3>& corners, Visit&& visit) const;
+    struct Bounds;
+    Imath::V2d place_of(size_t triangle, int corner) const;
+    Imath::V2d size() const;
+    Bounds bounds_of(size_t triangle) const;
+    bool corners(size_t triangle, std::array<UvCorner, 3>& dst) const;
+    void count_outside(size_t triangle);
+    template <class Visit> void each_tile(const std::array<UvCorner, 3>& corners, Visit&& visit) const;
 
     const Mesh& m_mesh;
     int m_width, m_height;

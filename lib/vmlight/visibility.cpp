@@ -48,6 +48,12 @@ Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
         m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
         all = sum_directions(m_fan, point.normal);
     }
+    if (all.rays == 0) {
+        // A few rays of the measure `uniform`, all so close to the horizon that they round to below it.
+        m_fan.x[0] = point.normal.x, m_fan.y[0] = point.normal.y, m_fan.z[0] = point.normal.z;
+        m_fan.lanes[0] = 1;
+        all = sum_directions(m_fan, point.normal);
+    }
     m_rays += all.rays;
     basis = m_basis.count() > 0 ? basis : nullptr;
     if (basis || m_wants_error)

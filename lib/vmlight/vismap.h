@@ -97,6 +97,7 @@ struct VismapReport
     int64_t texels = 0; ///< of the whole map
     int64_t covered = 0; ///< of them covered by a triangle
     int64_t overlapping = 0; ///< of them covered by more than one
+    int64_t tiny = 0; ///< triangles smaller than 4e-6 of the mesh: what is that near to them is not told apart
     int64_t dark = 0; ///< of those covered, with visibility below 0.01: most, if normals point inwards
     int samples = 0; ///< rays a texel
     /// An estimate of the root mean square, over all covered texels, of V's distance from its limit for infinitely many
@@ -126,7 +127,8 @@ struct VismapReport
 /// @param occluders meshes in the same space that cast and are not baked
 /// @param report   nullptr, or set to counts and times
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
-/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no uvs, the target
+/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no uvs, a mesh
+///          fails check_mesh() or reaches 1e18 times as far as `mesh`, the target
 ///          error is out of reach, the channel `error` is asked for with 1 ray, or memory runs out; `dst` then has no
 ///          pixels. Overlap, mirroring and texels outside the tile are counted, not refused.
 /// Error (root mean square) of V, and of B as a vector, at n rays: at most 0.47 n^-0.75 by `fibonacci`, 0.6 n^-0.75 by

@@ -6,6 +6,7 @@
 #include <vmlight/parallel.h>
 #include <vmlight/sampling.h>
 #include <vmlight/surface.h>
+#include <vmlight/uvraster_islands.h>
 #include <vmlight/visibility.h>
 
 #include <algorithm>
@@ -170,6 +171,11 @@ int VismapBaker::tiles_down() const
 const UvReport& VismapBaker::uv_report() const
 {
     return m_scene->raster.report();
+}
+
+void VismapBaker::count_islands(UvReport& report) const
+{
+    vmlight::count_islands(report, m_scene->shared->mesh(), m_scene->raster);
 }
 
 const VismapParams& VismapBaker::params() const

@@ -75,6 +75,8 @@ public:
     VMLIGHT_API int tiles_across() const;
     VMLIGHT_API int tiles_down() const;
     VMLIGHT_API const UvReport& uv_report() const;
+    /// Fill in what uv_report() leaves out.
+    VMLIGHT_API void count_islands(UvReport& report) const;
     /// With the samples that it bakes with; and what they come to.
     VMLIGHT_API const VismapParams& params() const;
     VMLIGHT_API const VismapError& error() const;

@@ -62,3 +62,87 @@ TEST(Geometry, AFileAtTenMillion)
         expect_kept("a.ply", [&](const Mesh& mesh) { return ply_of(mesh, format); });
     row.ours("the file's doubles are kept, bit for bit: V is 1 outside, 0 inside");
 }
+
+TEST(Geometry, BallsOfAllSizes)
+{
+    HardCase row("Balls scaled by 1e-30 to 1e30, or moved by up to 1e7 (in memory, where positions are double)",
+                 "aobaker, Godot, Arnold: bias in the scene's units");
+    row.naive("with tnear = 1e-4: half of the rays blocked at 1e6, all leak at 1e-6; an offset in ulps leaks all at "
+              "1e-6 and at 1e7 (measured)");
+    // Positions are double: what survives of a unit ball at 1e7 in double (2e-9) is more than float keeps of it at 0.
+    const std::pair<double, double> table[] = { { 1, 0 },   { 1e-6, 0 },   { 1e6, 0 },   { 1, 1e3 }, { 1, 1e5 },
+                                                { 1, 1e7 }, { 1e-3, 1e3 }, { 1e-30, 0 }, { 1e30, 0 } };
+    for (const auto& [scale, offset] : table) {
+        SCOPED_TRACE(testing::Message() << "scale " << scale << ", offset " << offset);
+        EXPECT_EQ(texels_that_see_less_than_all(placed(sphere(V3d(0), 1, 16), scale, V3d(offset)), 64, 64), 0);
+        EXPECT_EQ(texels_that_see(placed(sphere(V3d(0), 1, 16, true), scale, V3d(offset)), 64, 64), 0);
+    }
+    row.ours("V = 1 outside, 0 inside, exactly");
+}
+
+TEST(Geometry, UnitsDoNotMatter)
+{
+    HardCase row("A bowl under a lid, scaled by 2^-20, 2^20, 2^-100, then by what floats round",
+                 "Arnold: depends on scene scale");
+    row.naive("rays start at a distance in the mesh's units");
+    // A bowl under a lid: every texel is partly blocked. Powers of two round nothing, so that maps are bit-equal.
+    Mesh scene = sphere(V3d(0), 1, 16, true);
+    scene.triangles.resize(scene.triangles.size() / 2);
+    append(scene, floor_facing_z(0.4, V3d(0.1, 0.2, -0.3)));
+    const VismapParams params = map_params(48, 48, 64);
+    const BakedMap reference(scene, {}, params);
+    for (double scale : { 0x1p-20, 0x1p20, 0x1p-100 })
+        EXPECT_TRUE(BakedMap(placed(scene, scale), {}, params) == reference) << scale;
+    // Other scales and places round the vertices otherwise, by 6e-8 of the mesh: the same but for rays within that of
+    // an edge, one in thousands.
+    for (const auto& [scale, offset] :
+         { std::pair(1e-6, 0.0), { 1e6, 0.0 }, { 1.0, 2e4 }, { 1e-3, 20.0 }, { 0.3, 0.0 } }) {
+        const BakedMap map(placed(scene, scale, V3d(offset, -offset, offset)), {}, params);
+        double worst = 0, changed = 0;
+        map.each_covered([&](const Texel& t, int x, int y) {
+            const Texel& r = reference.at(x, y);
+            const double change = std::abs(t.visibility - r.visibility);
+            worst = std::max(worst, change);
+            changed += change > 0;
+            EXPECT_LT((t.direction - r.direction).length(), 2.5 / 64);
+        });
+        EXPECT_LE(worst, 2.0 / 64) << scale << ", " << offset; // two rays of 64
+        EXPECT_LT(changed, 0.002 * map.report.covered) << scale << ", " << offset;
+    }
+    row.ours("maps are equal bit for bit; where scaling rounds, within two rays of 64");
+}
+
+TEST(Geometry, AMillionthAndAMillionInOneMesh)
+{
+    HardCase row("Squares of 1e-6, 1 and 1e6 in one mesh");
+    row.naive("floats hold no more than 1e-7 of its size: small triangles are points");
+    // A unit square a millionth of which, and a piece a million times as large, are squares of their own.
+    Mesh mesh;
+    for (double size : { 1e-6, 1.0, 1e6 }) {
+        const float v = size < 1 ? 0.0f : size > 1 ? 0.6f : 0.3f;
+        const V3d low(size < 1 ? 5 : 0, size < 1 ? 5 : 0, 2 * size);
+        add_quad(mesh, low, low + V3d(size, 0, 0), low + V3d(size, size, 0), low + V3d(0, size, 0), V2f(0, v),
+                 V2f(1, v + 0.3f));
+    }
+    const BakedMap map(mesh, {}, map_params(32, 32, 64));
+    map.each([](const Texel& t, int, int) { EXPECT_TRUE(is_finite(t) && t.visibility >= 0 && t.visibility <= 1); });
+    map.each_covered([](const Texel& t, int, int y) { EXPECT_TRUE(y >= 13 || sees_all(t)) << y; }); // what is on top
+    EXPECT_EQ(map.report.tiny, 4);
+    row.ours("finite; what is on top sees all; triangles below 4e-6 of the mesh are counted, and warned of");
+}
+
+TEST(Geometry, AnOccluderAtTheEndOfFloat)
+{
+    HardCase row("Walls 1e17 and 1e20 times as large as what they stand on");
+    row.naive("Embree leaves out what reaches beyond 1.8e18, without a word: V = 1");
+    const Mesh floor = floor_facing_z(1);
+    std::string error;
+    OIIO::ImageBuf image;
+    const Mesh wall = rectangle(V3d(0, -1e17, 0), V3d(0, 2e17, 0), V3d(0, 0, 1e17));
+    const BakedMap half(floor, { wall }, map_params(8, 8, 1024));
+    half.each([](const Texel& t, int, int) { EXPECT_NEAR(t.visibility, 0.5, 0.02); });
+    EXPECT_FALSE(make_vismap(image, floor, { placed(wall, 1e3) }, map_params(8, 8, 64)));
+    EXPECT_EQ(image.geterror(),
+              "\"quad\": vertex 0 is 1e+20 times as far away as the baked mesh is large; at most 1e+18 can be traced");
+    row.ours("V = 1/2 beside the first; the second is refused with its vertex");
+}

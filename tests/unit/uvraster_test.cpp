@@ -110,57 +110,6 @@ TEST(UvRaster, ATexelOnALeftOrTopEdgeIsInAndOnARightOrBottomOneIsNot)
             EXPECT_EQ(cover.at(x, y) != TileCover::kNone, x >= 1 && x < 4 && y >= 1 && y < 4) << x << "," << y;
 }
 
-TEST(UvRaster, TwoTrianglesThatShareASideCoverEachTexelOnce)
-{
-    // All quadrilaterals with corners on whole and half texels of a small grid, cut along a diagonal: the two
-    // triangles, in every winding, must together cover what each covers alone, and nothing twice.
-    std::mt19937 random(3);
-    int tested = 0;
-    for (int run = 0; run < 65536 + 12000; ++run) {
-        double p[4][2];
-        for (auto& q : p)
-            for (double& c : q)
-                c = double(random() % 11) / 2;
-        for (int k = 0; k < 4 && run < 65536; ++k) {
-            p[k][0] = (run >> (4 * k) & 3) / 2.0;
-            p[k][1] = (run >> (4 * k + 2) & 3) / 2.0;
-        }
-        const auto area = [&](int i, int j, int k) {
-            return (p[j][0] - p[i][0]) * (p[k][1] - p[i][1]) - (p[k][0] - p[i][0]) * (p[j][1] - p[i][1]);
-        };
-        // On opposite sides of the diagonal 0-2, so that they do not overlap.
-        if (area(0, 2, 1) * area(0, 2, 3) >= 0)
-            continue;
-        Flat both(5, 5), first(5, 5), second(5, 5);
-        for (Flat* flat : { &both, &first, &second })
-            for (const auto& q : p)
-                flat->vertex(q[0], q[1]);
-        std::array<uint32_t, 3> one { 0, 1, 2 }, other { 0, 2, 3 };
-        if (random() & 1)
-            std::swap(one[0], one[1]);
-        if (random() & 1)
-            std::swap(other[0], other[2]);
-        both.triangle(one[0], one[1], one[2]), both.triangle(other[0], other[1], other[2]);
-        first.triangle(one[0], one[1], one[2]), second.triangle(other[0], other[1], other[2]);
-        const Cover all(both), a(first), b(second);
-        ASSERT_EQ(all.overlapping, 0) << "run " << run;
-        ASSERT_EQ(all.covered, a.covered + b.covered) << "run " << run;
-        // No gap: a centre on the inside of the diagonal belongs to one of them.
-        for (int y = 0; y < 5; ++y)
-            for (int x = 0; x < 5; ++x) {
-                const double cx = x + 0.5, cy = y + 0.5;
-                const double side = (p[2][0] - p[0][0]) * (cy - p[0][1]) - (p[2][1] - p[0][1]) * (cx - p[0][0]);
-                const double along = (p[2][0] - p[0][0]) * (cx - p[0][0]) + (p[2][1] - p[0][1]) * (cy - p[0][1]);
-                const double length = std::pow(p[2][0] - p[0][0], 2) + std::pow(p[2][1] - p[0][1], 2);
-                if (side == 0 && along > 0 && along < length) {
-                    ASSERT_NE(all.at(x, y), TileCover::kNone) << "run " << run;
-                    ++tested;
-                }
-            }
-    }
-    EXPECT_GT(tested, 1500);
-}
-
 TEST(UvRaster, AFanAroundATexelCentreCoversItOnce)
 {
     for (int spokes : { 3, 4, 5, 7, 8, 16, 61 })

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A triangle of the UV raster by its three edges, in whole numbers. Not installed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace vmlight {
+
+/// Texture coordinates are rounded to one of this many parts of a texel.
+constexpr int64_t kSubtexels = 256;
+
+struct UvCorner
+{
+    int64_t x, y; ///< in parts of a texel, y down
+};
+
+/// Twice the area, positive if clockwise in (u, v): y points down.
+inline int64_t twice_area(const std::array<UvCorner, 3>& c)
+{
+    return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+}
+
+/// Edge k runs from corner k+1 to corner k+2 of the triangle, turned to positive area: its function is twice the area
+/// that weighs corner k, positive inside. A centre on the edge belongs to the triangle if the edge is a left one (it
+/// runs up) or a top one: if the function is `least` or more.
+struct UvEdges
+{
+    explicit UvEdges(std::array<UvCorner, 3> corners)
+        : turned(twice_area(corners) < 0)
+    {
+        if (turned)
+            std::swap(corners[1], corners[2]);
+        for (int k = 0; k < 3; ++k) {
+            const UvCorner &a = corners[(k + 1) % 3], &b = corners[(k + 2) % 3];
+            const int64_t dx = b.x - a.x, dy = b.y - a.y;
+            step_x[k] = -dy * kSubtexels;
+            step_y[k] = dx * kSubtexels;
+            first[k] = dx * (kSubtexels / 2 - a.y) - dy * (kSubtexels / 2 - a.x);
+            least[k] = dy < 0 || (dy == 0 && dx > 0) ? 0 : 1;
+        }
+    }
+    /// The functions at the centre of texel (x, y); they grow by step_x, step_y from one to the next.
+    std::array<int64_t, 3> at(int64_t x, int64_t y) const
+    {
+        std::array<int64_t, 3> e;
+        for (int k = 0; k < 3; ++k)
+            e[k] = first[k] + step_x[k] * x + step_y[k] * y;
+        return e;
+    }
+
+    bool turned;
+    std::array<int64_t, 3> step_x, step_y, first, least;
+};
+
+} // namespace vmlight

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mesh files whose numbers or counts are not what they promise.
+#include "hard_case.h"
+#include "mesh_files.h"
+#include "scenes.h"
+#include "temporary_folder.h"
+
+using namespace vmlight;
+using namespace vmlight::scenes;
+
+namespace {
+
+// What is said, less the path; "" if the file is read.
+std::string refusal(const TemporaryFolder& folder, const char* name, const std::string& bytes)
+{
+    const std::string path = folder.write(name, bytes);
+    Mesh mesh;
+    std::string error;
+    if (read_mesh(mesh, path, {}, error))
+        return "";
+    EXPECT_EQ(error.find("\"" + path + "\": "), 0u) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_TRUE(mesh.triangles.empty());
+    return error.substr(std::min(error.size(), path.size() + 4));
+}
+
+const char* const kPly = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                         "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n"
+                         "0 0 0\n1 0 0\n0 1 0\n{}\n";
+
+std::string ply(int faces, const std::string& lines)
+{
+    return OIIO::Strutil::fmt::format(kPly, faces, lines);
+}
+
+} // namespace
+
+TEST(Geometry, PlyFacesOfVerticesThatAreNot)
+{
+    HardCase row("A PLY whose faces have vertices that it has not: 3, -1, 2000000000 of 3");
+    row.naive("assimp 5.2 reads past the end: a crash, or a mesh of whatever lies there");
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 2")), "");
+    EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 3")), "its PLY face 0 has vertex 3, of 3");
+    EXPECT_EQ(refusal(folder, "a.ply", ply(2, "3 0 1 2\n3 0 -1 2")), "its PLY face 1 has vertex -1, of 3");
+    EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 2000000000")), "its PLY face 0 has vertex 2000000000, of 3");
+    for (const char* format : { "binary_little_endian", "binary_big_endian" }) {
+        Mesh mesh = floor_facing_z(1);
+        EXPECT_EQ(refusal(folder, "a.ply", ply_of(mesh, format)), "");
+        mesh.triangles[1][2] = 77777;
+        EXPECT_EQ(refusal(folder, "a.ply", ply_of(mesh, format)), "its PLY face 1 has vertex 77777, of 4");
+    }
+    row.ours("refused, with the face and the vertex");
+}
+
+TEST(Geometry, PlyThatEndsEarly)
+{
+    HardCase row("A PLY with fewer faces, corners or bytes than its header promises, cut at every byte");
+    row.naive("assimp 5.2 repeats the last face, or crashes");
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal(folder, "a.ply", ply(2, "3 0 1 2")), "its PLY ends before face 1 of 2");
+    EXPECT_EQ(refusal(folder, "a.ply", ply(1, "255 0 1 2")), "its PLY ends within face 0 of 1");
+    const std::string whole = ply_of(floor_facing_z(1), "binary_little_endian");
+    const size_t body = whole.find("end_header\n") + 11;
+    for (size_t bytes = body; bytes < whole.size(); bytes += 7)
+        EXPECT_EQ(refusal(folder, "a.ply", whole.substr(0, bytes)).find("its PLY ends within "), 0u) << bytes;
+    EXPECT_EQ(refusal(folder, "a.ply", whole.substr(0, body - 1)).find("its PLY"), 0u);
+    row.ours("refused, with what is missing");
+}
+
+TEST(Geometry, VerticesBeyondFloat)
+{
+    HardCase row("A vertex at NaN, infinity or 1e39, in an OBJ and a PLY");
+    EXPECT_TRUE(std::isinf(float(1e39 * std::ldexp(1.0, 0))));
+    row.naive("bounds of NaN or infinity: an empty map, or a black one");
+    const TemporaryFolder folder;
+    for (const auto& [text, told] : { std::pair("nan", "nan"), { "inf", "inf" }, { "1e39", "inf" } }) {
+        const std::string says = OIIO::Strutil::fmt::format(" is not finite: (0, {}, 0)", told);
+        EXPECT_EQ(refusal(folder, "a.obj",
+                          OIIO::Strutil::fmt::format("o thing\nv 0 0 0\nv 1 0 0\nv 0 {} 0\nf 1 2 3\n", text)),
+                  "vertex 2 of \"thing\"" + says);
+        std::string bytes = ply(1, "3 0 1 2");
+        bytes.replace(bytes.find("0 1 0\n3"), 5, std::string("0 ") + text + " 0");
+        EXPECT_EQ(refusal(folder, "a.ply", bytes), "vertex 2 of \"\"" + says);
+    }
+    row.ours("refused, the first named");
+}
+
+TEST(Geometry, IndicesOfAnObj)
+{
+    HardCase row("Faces of an OBJ that count from 0, past the end, or from behind");
+    row.naive("vertex -1, vertex 99 of 3: reads elsewhere");
+    const TemporaryFolder folder;
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    EXPECT_EQ(refusal(folder, "a.obj", vertices + "f -3 -2 -1\n"), "");
+    for (const char* face : { "f 0 1 2\n", "f 1 2 99\n", "f -9 1 2\n", "f 1 2 99999999999999999999\n" })
+        EXPECT_EQ(refusal(folder, "a.obj", vertices + face).find("not a mesh that can be read: "), 0u) << face;
+    row.ours("counted from behind; else refused");
+}
