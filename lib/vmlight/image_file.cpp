@@ -61,6 +61,12 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 
 } // namespace
 
+bool may_be_image(const std::string& name)
+{
+    return OIIO::Filesystem::is_regular(name)
+        || (name.find('?') != std::string::npos && !OIIO::Filesystem::exists(name));
+}
+
 std::string header_fault(const OIIO::ImageSpec& spec)
 {
     constexpr int kLongestSide = 1 << 20;
@@ -72,7 +78,7 @@ std::string header_fault(const OIIO::ImageSpec& spec)
 
 bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage)
 {
-    if (!OIIO::Filesystem::is_regular(path) && path.find('?') == std::string::npos) {
+    if (!may_be_image(path)) {
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }

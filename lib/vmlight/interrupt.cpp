@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace vmlight {
@@ -38,6 +39,16 @@ void catch_interrupts(const std::string& name, int exit_code)
     for (int number : { SIGINT, SIGTERM, SIGHUP })
         if (std::signal(number, interrupt) == SIG_IGN)
             std::signal(number, SIG_IGN);
+}
+
+void settle_streams()
+{
+    for (int number : { SIGPIPE, SIGXFSZ })
+        std::signal(number, SIG_IGN);
+    // Each gets the lowest number that is free.
+    int stream;
+    while ((stream = ::open("/dev/null", O_RDWR)) >= 0 && stream <= STDERR_FILENO) { }
+    ::close(stream);
 }
 
 bool interrupted()

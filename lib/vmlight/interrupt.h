@@ -14,6 +14,11 @@ void catch_interrupts(const std::string& name, int exit_code);
 
 bool interrupted();
 
+/// Have a write that fails say so, to the file or pipe whose it is, and end no process: SIGPIPE and SIGXFSZ are ignored
+/// from now on, and what of stdin, stdout and stderr is closed leads to /dev/null, or the next file that is opened
+/// would be taken for it.
+void settle_streams();
+
 /// While one of these lives, a file is being written that an interrupt must not leave behind.
 class WhileWriting
 {

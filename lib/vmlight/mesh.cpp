@@ -156,9 +156,12 @@ public:
     {
         if (m_opens)
             m_opens(path);
+        if (!OIIO::Filesystem::is_regular(path))
+            return nullptr; // a pipe among the files that a mesh names would hold its reader up
         return m_files.Open(path, mode);
     }
-    bool Exists(const char* path) const override { return m_files.Exists(path); }
+    // Assimp's own opens it to see.
+    bool Exists(const char* path) const override { return OIIO::Filesystem::is_regular(path); }
     char getOsSeparator() const override { return m_files.getOsSeparator(); }
     void Close(Assimp::IOStream* file) override { m_files.Close(file); }
 
