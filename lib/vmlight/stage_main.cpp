@@ -304,6 +304,8 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
             if (interrupted()) // which waited for the look at the folder
                 error = "interrupted";
             exit = error.empty() && work(error) ? Exit::Done : Exit::Failed;
+            if (exit == Exit::Done)
+                ignore_interrupts();
         }
     } catch (const std::system_error& exception) {
         // A thread could not be started: the pool it was for is half made, and its destructor would crash.

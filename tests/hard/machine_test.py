@@ -43,8 +43,8 @@ class Machine(HardCase):
             process.communicate(timeout=LIMIT)
             killed += process.returncode != 0
             self.assertIn(process.returncode, (0, 1, -signal.SIGINT, -signal.SIGKILL))
-            self.assertTrue(self.read("x.exr") == (new if process.returncode == 0 else old)
-                            or (process.returncode < 0 and self.read("x.exr") == new), "half a file")
+            # Between the last byte and the exit code a signal may come too.
+            self.assertIn(self.read("x.exr"), [new] if process.returncode == 0 else [old, new], "half a file")
             self.assertEqual(self.names(), sorted(names), "debris")
         self.assertGreater(killed, 0)
         self.row("A run is killed (`kill -9`, Ctrl-C) at 100 moments, from its start to its end",
