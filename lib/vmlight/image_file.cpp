@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -82,6 +83,10 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
+    // An ImageBuf takes the header from OIIO's cache, which may know that of a file since replaced, and then reads the
+    // new pixels beyond its memory.
+    const auto cache = OIIO::ImageCache::create(true);
+    cache->invalidate(OIIO::ustring(path));
     dst.reset(path, subimage);
     // Without a file its spec is empty, and read() tells.
     std::string fault = header_fault(dst.spec());
