@@ -7,6 +7,7 @@
 #include <vmlight/params.h>
 
 #include <OpenImageIO/color.h>
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagebufalgo_util.h>
 #include <OpenImageIO/strutil.h>
@@ -45,6 +46,11 @@ bool is_whole_number(OIIO::TypeDesc stored)
 bool decide_by_config(Decision& decision, const OIIO::ImageSpec& spec, const std::string& path,
                       const std::string& config_name, const ColorSettings& settings, std::string& error)
 {
+    // A pipe would hold its reader up; names such as ocio://default are no files.
+    if (OIIO::Filesystem::exists(config_name) && !OIIO::Filesystem::is_regular(config_name)) {
+        error = format("the OCIO config \"{}\" is not a file", config_name);
+        return false;
+    }
     ColorConfig config(config_name);
     if (config.has_error()) {
         error = format("cannot read the OCIO config \"{}\": {}", config_name, oiio::reason(config));

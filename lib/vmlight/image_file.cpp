@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -61,6 +62,12 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 
 } // namespace
 
+bool may_be_image(const std::string& name)
+{
+    return OIIO::Filesystem::is_regular(name)
+        || (name.find('?') != std::string::npos && !OIIO::Filesystem::exists(name));
+}
+
 std::string header_fault(const OIIO::ImageSpec& spec)
 {
     constexpr int kLongestSide = 1 << 20;
@@ -72,10 +79,14 @@ std::string header_fault(const OIIO::ImageSpec& spec)
 
 bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage)
 {
-    if (!OIIO::Filesystem::is_regular(path) && path.find('?') == std::string::npos) {
+    if (!may_be_image(path)) {
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
+    // An ImageBuf takes the header from OIIO's cache, which may know that of a file since replaced, and then reads the
+    // new pixels beyond its memory.
+    const auto cache = OIIO::ImageCache::create(true);
+    cache->invalidate(OIIO::ustring(path));
     dst.reset(path, subimage);
     // Without a file its spec is empty, and read() tells.
     std::string fault = header_fault(dst.spec());

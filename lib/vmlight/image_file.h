@@ -11,6 +11,10 @@
 
 namespace vmlight {
 
+/// Whether there can be an image of this name: it is a file's, or has a '?', and another plugin may make it without
+/// one. A pipe would hold its reader up.
+bool may_be_image(const std::string& name);
+
 /// Why what a header says of its image cannot be meant, or "": no side of its pixels, or of the display window around
 /// them, is longer than 2^20. What goes through a damaged one pixel by pixel would not come to an end.
 std::string header_fault(const OIIO::ImageSpec& spec);

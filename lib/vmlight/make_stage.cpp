@@ -355,6 +355,8 @@ std::string image_stage(const std::string& name)
     const std::string stage = recipe_stage(name);
     if (!stage.empty())
         return stage;
+    if (!may_be_image(name))
+        return "";
     const auto in = OIIO::ImageInput::open(name);
     if (!in)
         OIIO::geterror(); // the reader of the pixels will tell

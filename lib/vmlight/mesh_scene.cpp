@@ -4,6 +4,7 @@
 #include <vmlight/mesh_file.h>
 #include <vmlight/mesh_scene_fault.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include <assimp/DefaultIOSystem.h>
@@ -86,9 +87,12 @@ public:
             m_opens(path);
         if (!m_stand_in.empty() && path == m_path)
             return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(m_stand_in.data()), m_stand_in.size());
+        if (!OIIO::Filesystem::is_regular(path))
+            return nullptr; // a pipe among the files that a mesh names would hold its reader up
         return m_files.Open(path, mode);
     }
-    bool Exists(const char* path) const override { return m_files.Exists(path); }
+    // Assimp's own opens it to see.
+    bool Exists(const char* path) const override { return OIIO::Filesystem::is_regular(path); }
     char getOsSeparator() const override { return m_files.getOsSeparator(); }
     void Close(Assimp::IOStream* file) override { m_files.Close(file); }
 

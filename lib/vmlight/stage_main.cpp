@@ -15,6 +15,8 @@
 #include <OpenImageIO/sysutil.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <system_error>
 
 namespace vmlight {
 namespace {
@@ -290,6 +292,7 @@ void StageMain::check(std::function<std::string()> fault)
 
 int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)
 {
+    settle_streams();
     OIIO::Filesystem::convert_native_arguments(argc, argv);
     // Debian builds OIIO 3 to tell its inner doings on stderr: only for who asks.
     if (OIIO::Sysutil::getenv("OPENIMAGEIO_DEBUG").empty())
@@ -316,7 +319,14 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
             if (interrupted()) // which waited for the look at the folder
                 error = "interrupted";
             exit = error.empty() && work(error) ? Exit::Done : Exit::Failed;
+            if (exit == Exit::Done)
+                ignore_interrupts();
         }
+    } catch (const std::system_error& exception) {
+        // A thread could not be started: the pool it was for is half made, and its destructor would crash.
+        state.message("ERROR", exception.what());
+        std::fflush(stdout);
+        std::_Exit(int(Exit::Failed));
     } catch (const std::bad_alloc&) {
         error = "out of memory";
     } catch (const std::exception& exception) {

@@ -129,6 +129,26 @@ TEST(ImageFile, SeveralImagesStandInOneFileOrNone)
     EXPECT_TRUE(folder.bytes("b.exr") == folder.bytes("c.exr"));
 }
 
+TEST(ImageFile, AFileThatWasReplacedIsReadAsItIsNow)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    for (const int side : { 4, 300, 7 }) {
+        ASSERT_TRUE(write(vismap_like(side, side), folder / "a.exr", error)) << error;
+        OIIO::ImageBuf back;
+        ASSERT_TRUE(read_image(back, folder / "a.exr", error)) << error;
+        EXPECT_EQ(back.spec().width, side);
+    }
+}
+
+TEST(ImageFile, AHeaderWithASideBeyondAllImagesIsRefused)
+{
+    OIIO::ImageSpec spec(1 << 20, 1, 1);
+    EXPECT_EQ(header_fault(spec), "");
+    spec.full_height = (1 << 20) + 1;
+    EXPECT_EQ(header_fault(spec), "its header says 1048576x1048577 pixels, of at most 1048576 a side");
+}
+
 TEST(ImageFile, AnInterruptedOutputLeavesTheOldFileAsItWas)
 {
     const TemporaryFolder folder;
