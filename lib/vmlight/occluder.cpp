@@ -66,6 +66,16 @@ void keep_what_lies_ahead(const RTCFilterFunctionNArguments* arguments)
     }
 }
 
+// All but its origin, direction and length.
+void prepare_lane(RTCRay8& rays, int lane)
+{
+    rays.tnear[lane] = 0;
+    rays.time[lane] = 0;
+    rays.mask[lane] = ~0u;
+    rays.id[lane] = 0;
+    rays.flags[lane] = 0;
+}
+
 } // namespace
 
 struct Occluder::Scene
@@ -143,11 +153,7 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
         rays.org_x[lane] = origin.x;
         rays.org_y[lane] = origin.y;
         rays.org_z[lane] = origin.z;
-        rays.tnear[lane] = 0;
-        rays.time[lane] = 0;
-        rays.mask[lane] = ~0u;
-        rays.id[lane] = 0;
-        rays.flags[lane] = 0;
+        prepare_lane(rays, lane);
     }
     for (int packet = 0; packet < fan.packets; ++packet) {
         const uint8_t live = fan.lanes[packet];
@@ -168,6 +174,27 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
             open |= uint8_t(rays.tfar[lane] >= 0) << lane; // Embree sets tfar to -infinity where a ray is blocked
         fan.lanes[packet] = live & open;
     }
+}
+
+uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length) const
+{
+    const embree::FlushDenormals flush;
+    embree::Query query(keep_what_lies_ahead);
+    RTCRay8 rays;
+    alignas(32) int valid[kPacketSize];
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+        const V3f &origin = origins[lane], &direction = directions[lane];
+        rays.org_x[lane] = origin.x, rays.org_y[lane] = origin.y, rays.org_z[lane] = origin.z;
+        rays.dir_x[lane] = direction.x, rays.dir_y[lane] = direction.y, rays.dir_z[lane] = direction.z;
+        rays.tfar[lane] = length;
+        prepare_lane(rays, lane);
+        valid[lane] = lane < count ? -1 : 0;
+    }
+    query.occluded8(valid, m_scene->scene, rays);
+    uint8_t blocked = 0;
+    for (int lane = 0; lane < count; ++lane)
+        blocked |= uint8_t(!(rays.tfar[lane] >= 0)) << lane;
+    return blocked;
 }
 
 } // namespace vmlight

@@ -43,9 +43,13 @@ public:
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`. Rays start
     /// at `origin` itself, which must be off the surface: see SurfacePoint. Not checked: that build() succeeded.
     /// @param is_near  of `origin`: which side of a triangle it is on is worked out in double, since Embree's floats
-    /// may
-    ///                 err. What they miss is missed
+    ///                 may err. What they miss is missed
     VMLIGHT_API void clear_blocked(RayFan& fan, const Imath::V3f& origin, float length, bool is_near = false) const;
+
+    /// Which of the first `count` of kPacketSize rays a triangle blocks within `length`: bit k for ray k. As with
+    /// `is_near`.
+    VMLIGHT_API uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count,
+                                     float length) const;
 
 private:
     struct Scene;

@@ -103,7 +103,7 @@ public:
                 const EnvironmentSample bright = m_light.sample(u, v);
                 take(2 * i + 1, point, rotate(m_to_object, bright.direction), bright);
             }
-            m_occluder.clear_blocked(m_fan, point.origin, m_length);
+            m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
             for (int i = 0; i < count; ++i)
                 moments.add(seen(2 * i) + seen(2 * i + 1));
         }
@@ -196,8 +196,9 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
             if (worker.cover.triangle[size_t(i)] == TileCover::kNone)
                 continue;
             const int x = left + i % kTileSize, y = top + i / kTileSize;
-            const SurfacePoint point = worker.surface.at(
-                worker.cover.triangle[size_t(i)], worker.cover.weight1[size_t(i)], worker.cover.weight2[size_t(i)]);
+            SurfacePoint point = worker.surface.at(worker.cover.triangle[size_t(i)], worker.cover.weight1[size_t(i)],
+                                                   worker.cover.weight2[size_t(i)]);
+            settle_origins(&point, 1, scene.occluder());
             const Moments moments = worker.tracer.trace(point, Random(x, y, params.seed), params.samples);
             const double above = 0.5 * (1 + double(point.normal.dot(point.geometric_normal)));
             float* texel = pixels + (size_t(y) * size_t(width) + size_t(x)) * kChannels;

@@ -9,6 +9,21 @@ namespace vmlight {
 using Imath::V3d;
 using Imath::V3f;
 
+void settle_origins(SurfacePoint* points, int count, const Occluder& occluder)
+{
+    std::array<V3f, kPacketSize> origins, directions;
+    for (int i = 0; i < kPacketSize; ++i) { // lanes that are not asked about hold numbers too
+        origins[size_t(i)] = points[std::min(i, count - 1)].near_origin;
+        directions[size_t(i)] = points[std::min(i, count - 1)].geometric_normal;
+    }
+    const uint8_t close = occluder.find_blocked(origins.data(), directions.data(), count, float(2 * kOffset));
+    for (int i = 0; i < count; ++i)
+        if (close >> i & 1) {
+            points[i].origin = points[i].near_origin;
+            points[i].is_near = true;
+        }
+}
+
 SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
 {
     if (triangle != m_triangle)

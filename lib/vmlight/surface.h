@@ -25,11 +25,16 @@ constexpr double kTinyTriangle = 8 * kNearOffset;
 /// A point to bake, in scene space.
 struct SurfacePoint
 {
-    Imath::V3f origin; ///< where rays start: kOffset off the surface
-    Imath::V3f near_origin; ///< where they start if anything is within twice that: kNearOffset off it
+    Imath::V3f origin; ///< where rays start: kOffset off the surface, until settle_origins() says otherwise
+    Imath::V3f near_origin; ///< kNearOffset off it
     Imath::V3f normal; ///< the interpolated normal, of unit length
     Imath::V3f geometric_normal; ///< the triangle's, on the side of its corner normals
+    bool is_near = false; ///< of `origin`: for Occluder::clear_blocked()
 };
+
+/// Have rays start nearer to those of `count` points, at most kPacketSize, above which something lies within twice
+/// kOffset. One ray each, all asked about at once; each point's answer is its own.
+VMLIGHT_API void settle_origins(SurfacePoint* points, int count, const Occluder& occluder);
 
 /// A mesh in a scene frame. Keeps what it worked out for the last triangle: one to a thread.
 class Surface

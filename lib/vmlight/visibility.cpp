@@ -28,15 +28,6 @@ double lane_scatter(const std::vector<uint8_t>& asked, const std::vector<uint8_t
     return lanes > 1 ? std::sqrt(squares * lanes / (lanes - 1)) / rays : 0;
 }
 
-bool Eye::is_close(const SurfacePoint& point)
-{
-    const Imath::V3f& n = point.geometric_normal;
-    m_probe.x[0] = n.x, m_probe.y[0] = n.y, m_probe.z[0] = n.z;
-    m_probe.lanes[0] = 1;
-    m_occluder.clear_blocked(m_probe, point.near_origin, float(2 * kOffset), true);
-    return !m_probe.lanes[0];
-}
-
 Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
 {
     const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
@@ -58,8 +49,7 @@ Visibility Eye::see(SurfacePoint point, int x, int y, float* basis)
     basis = m_basis.count() > 0 ? basis : nullptr;
     if (basis || m_wants_error)
         m_asked = m_fan.lanes;
-    const bool close = is_close(point);
-    m_occluder.clear_blocked(m_fan, close ? point.near_origin : point.origin, m_length, close);
+    m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
     const DirectionSums seen = sum_directions(m_fan, point.normal);
 
     Visibility result;

@@ -43,27 +43,24 @@ public:
                                            : std::numeric_limits<float>::infinity())
         , m_wants_error(params.has("error"))
         , m_fan(pattern.count())
-        , m_probe(1)
         , m_basis(params)
     {
     }
 
-    /// What `point`, the centre of texel (x, y), sees. `basis` is set to the numbers of basis_channels().
+    /// What `point`, the centre of texel (x, y), sees: see settle_origins(). `basis` is set to the numbers of
+    /// basis_channels().
     Visibility see(SurfacePoint point, int x, int y, float* basis = nullptr);
 
     /// Traced so far.
     int64_t rays() const { return m_rays; }
 
 private:
-    /// Does anything lie so close to the surface that rays must start nearer to it?
-    bool is_close(const SurfacePoint& point);
-
     const Occluder& m_occluder;
     const SamplePattern& m_pattern;
     const VismapParams& m_params;
     float m_length;
     bool m_wants_error;
-    RayFan m_fan, m_probe;
+    RayFan m_fan;
     VisibilityBasis m_basis;
     std::vector<uint8_t> m_asked; // the lanes before they are asked about
     int64_t m_rays = 0;

@@ -68,10 +68,12 @@ bool VismapPilot::pick(const UvRaster& raster)
         for (int i = 0; i < kTileSize * kTileSize; ++i) {
             if (cover.triangle[size_t(i)] == TileCover::kNone)
                 continue;
-            for (; rank != ranks.end() && *rank == at; ++rank)
-                m_texels[size_t(rank - ranks.begin())]
-                    = { surface->at(cover.triangle[size_t(i)], cover.weight1[size_t(i)], cover.weight2[size_t(i)]),
-                        tile_x + i % kTileSize, tile_y + i / kTileSize };
+            for (; rank != ranks.end() && *rank == at; ++rank) {
+                Texel& texel = m_texels[size_t(rank - ranks.begin())];
+                texel = { surface->at(cover.triangle[size_t(i)], cover.weight1[size_t(i)], cover.weight2[size_t(i)]),
+                          tile_x + i % kTileSize, tile_y + i / kTileSize };
+                settle_origins(&texel.point, 1, m_scene.occluder());
+            }
             ++at;
         }
     };
