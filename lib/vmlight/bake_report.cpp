@@ -53,6 +53,16 @@ void report_lost(const MakeOptions& options, const VismapReport& report)
                             plural(report.tiny, "is", "are"), plural(report.tiny, "it", "them")));
 }
 
+// Warned of from where rounding is as large as the least gap through which surfaces are told apart.
+void report_rounding(const MakeOptions& options, const VismapReport& report)
+{
+    if (report.rounding > 1e-6 && options.warn && !options.again)
+        options.warn(
+            format("the mesh lies so far from the origin that floats, which its coordinates are, round them to "
+                   "{:.1g} of its size",
+                   report.rounding));
+}
+
 std::string error_line(const VismapReport& report)
 {
     const std::string texels = counted(report.error_texels, "texel", "texels");
@@ -101,6 +111,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
                     plural(uv.without_uv, "has no uv: it casts, and is not baked",
                            "have no uv: they cast, and are not baked")));
     report_lost(options, report);
+    report_rounding(options, report);
     if (report.covered == 0)
         warn("no texel centre is covered: the map is empty");
     else if (report.dark > report.covered / 2)

@@ -6,6 +6,8 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace vmlight {
 namespace {
@@ -40,6 +42,21 @@ int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
     return count;
 }
 
+// What rounding to float leaves of the mesh's shape. 0 if its coordinates are more than floats.
+double rounding_of(const Mesh& mesh, const SceneFrame& frame)
+{
+    double reach = 0;
+    for (const auto& triangle : mesh.triangles)
+        for (uint32_t vertex : triangle)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double x = mesh.positions[vertex][axis];
+                if (x != double(float(x)))
+                    return 0;
+                reach = std::max(reach, std::abs(x));
+            }
+    return reach * frame.scale * std::numeric_limits<float>::epsilon() / 4;
+}
+
 } // namespace
 
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
@@ -66,6 +83,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
         if (!check_reach(*caster, m_frame, error))
             return false;
     m_tiny = count_tiny(*mesh, m_frame);
+    m_rounding = rounding_of(*mesh, m_frame);
     if (!m_occluder.build(casters, m_frame, nthreads, error))
         return false;
     m_mesh_hash = vmlight::mesh_hash(*mesh);

@@ -36,6 +36,8 @@ public:
     int64_t triangles() const { return m_triangles; }
     /// Triangles of the mesh that are smaller than kTinyTriangle.
     int64_t tiny() const { return m_tiny; }
+    /// As VismapReport::rounding.
+    double rounding() const { return m_rounding; }
     /// Memory held, about.
     size_t bytes() const;
 
@@ -48,6 +50,7 @@ private:
     Occluder m_occluder;
     std::string m_mesh_hash, m_occluder_hashes;
     int64_t m_triangles = 0, m_tiny = 0;
+    double m_rounding = 0;
 };
 
 /// A pointer to `mesh`, which must outlive what takes it.

@@ -59,6 +59,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
         return fail(dst, OIIO::Strutil::fmt::format("no memory for {} x {} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
     counts.tiny = scene->tiny();
+    counts.rounding = scene->rounding();
     if (report)
         baker.count_islands(counts.uv);
     counts.build_seconds = timer.lap() - baker.error().pilot_seconds;

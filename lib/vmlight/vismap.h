@@ -98,6 +98,9 @@ struct VismapReport
     int64_t covered = 0; ///< of them covered by a triangle
     int64_t overlapping = 0; ///< of them covered by more than one
     int64_t tiny = 0; ///< triangles smaller than 4e-6 of the mesh: what is that near to them is not told apart
+    /// By how much, in parts of the mesh's size (within a factor of 2), its farthest coordinate may be off if its
+    /// coordinates are those of a file of floats: 3e-8 around the origin, more far from it. 0 if some are no floats.
+    double rounding = 0;
     int64_t dark = 0; ///< of those covered, with visibility below 0.01: most, if normals point inwards
     int samples = 0; ///< rays a texel
     /// An estimate of the root mean square, over all covered texels, of V's distance from its limit for infinitely many

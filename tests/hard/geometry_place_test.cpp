@@ -6,6 +6,8 @@
 #include "scenes.h"
 #include "temporary_folder.h"
 
+#include <vmlight/make_stage.h>
+
 using namespace vmlight;
 using namespace vmlight::scenes;
 
@@ -145,4 +147,32 @@ TEST(Geometry, AnOccluderAtTheEndOfFloat)
     EXPECT_EQ(image.geterror(),
               "\"quad\": vertex 0 is 1e+20 times as far away as the baked mesh is large; at most 1e+18 can be traced");
     row.ours("V = 1/2 beside the first; the second is refused with its vertex");
+}
+
+TEST(Geometry, FloatsFarFromTheOrigin)
+{
+    HardCase row("A ball at 1e5 in a file of floats, which is all that some formats have");
+    row.naive("steps of 1/128 of its size, in silence");
+    const Mesh ball = through_float(placed(sphere(V3d(0), 1, 16), 1, V3d(1e5, 0, 0)));
+    EXPECT_NEAR(BakedMap(ball, {}, map_params(32, 32, 1)).report.rounding, 3e-3, 1e-4);
+    EXPECT_LT(BakedMap(through_float(sphere(V3d(0), 1, 16)), {}, map_params(32, 32, 1)).report.rounding, 6e-8);
+    EXPECT_EQ(BakedMap(placed(ball, 1, V3d(1e-9)), {}, map_params(32, 32, 1)).report.rounding, 0);
+
+    const TemporaryFolder folder;
+    std::string ply = ply_of(ball, "ascii"); // with float coordinates
+    for (size_t at = ply.find("double"); at != std::string::npos; at = ply.find("double"))
+        ply.replace(at, 6, "float");
+    VismapRecipe recipe;
+    recipe.mesh = folder.write("a.ply", ply);
+    recipe.vismap_params = map_params(32, 32, 1);
+    std::vector<std::string> lines;
+    MakeOptions options;
+    options.warn = [&](const std::string& line) { lines.push_back(line); };
+    OIIO::ImageBuf image;
+    EXPECT_TRUE(make_image(image, recipe, options)) << image.geterror();
+    ASSERT_FALSE(lines.empty());
+    EXPECT_EQ(lines.back(),
+              "the mesh lies so far from the origin that floats, which its coordinates are, round them to "
+              "0.003 of its size");
+    row.ours("baked, with a warning that tells the size of the steps");
 }

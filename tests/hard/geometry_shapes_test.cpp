@@ -151,3 +151,16 @@ TEST(Geometry, MeshesThatAreNone)
     EXPECT_EQ(refusal([](Mesh& m) { m.uvs.pop_back(); }), "\"floor\": 3 texture coordinates for 4 vertices");
     row.ours("refused, the first fault named; occluders too");
 }
+
+TEST(Geometry, TenMillionTriangles)
+{
+    HardCase row("A ball of ten million triangles (a million under sanitizers)");
+    row.naive("an index in a float channel is off by one from the 16777217th corner on");
+    EXPECT_EQ(float((1 << 24) + 1), float(1 << 24));
+    const Mesh mesh = sphere(V3d(0), 1, VMLIGHT_HARD_RINGS);
+    const BakedMap map(mesh, {}, map_params(256, 256, 4));
+    EXPECT_EQ(count_covered_unless(map, sees_all), 0);
+    EXPECT_GT(map.report.covered, 256 * 256 - 256 * 2);
+    EXPECT_EQ(map.report.uv.islands, 1);
+    row.ours("V = 1; 160 bytes of memory a triangle");
+}
