@@ -30,7 +30,7 @@ inline aiMesh* part_of(Bytes& bytes)
     auto part = std::make_unique<aiMesh>();
     const uint8_t has = bytes.byte(), count = bytes.byte();
     part->mName = bytes.text(8);
-    part->mNumVertices = 1 + (count - 1) % 16;
+    part->mNumVertices = 1 + (count + 15) % 16;
     part->mVertices = vectors_of(bytes, part->mNumVertices).release();
     if (has & 1)
         part->mNormals = vectors_of(bytes, part->mNumVertices).release();
