@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh.h>
 
-#include <vmlight/mesh_scene.h>
+#include <vmlight/mesh_of_scene.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/hash.h>
@@ -25,6 +26,13 @@ using OIIO::Strutil::fmt::format;
 bool is_finite(const V3d& v)
 {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Where areas and their squares still fit a double. No float is farther off.
+bool is_near_enough(const V3d& v)
+{
+    constexpr double kFarthest = 1e70;
+    return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
 }
 
 // Assimp's matrices multiply column vectors; Imath's multiply rows: transposed here, composed in double.
@@ -69,10 +77,11 @@ void Reading::append(const aiScene& scene, unsigned number, const Imath::M44d& t
         const V3d own = exact.empty() ? to_double(part.mVertices[i]) : exact[number][i];
         V3d position;
         to_object.multVecMatrix(own, position);
-        if (!is_finite(position) && error.empty()) {
-            const V3d& told = is_finite(own) ? position : own;
-            error = format("vertex {} of \"{}\" is not finite{}: ({}, {}, {})", i, part.mName.C_Str(),
-                           is_finite(own) ? " where its node puts it" : "", told.x, told.y, told.z);
+        if (!is_near_enough(position) && error.empty()) {
+            const V3d& told = is_near_enough(own) ? position : own;
+            error = format("vertex {} of \"{}\" is {}{}: ({}, {}, {})", i, part.mName.C_Str(),
+                           is_finite(told) ? "farther than 1e70 from the origin" : "not finite",
+                           is_near_enough(own) ? " where its node puts it" : "", told.x, told.y, told.z);
         }
         mesh.positions.push_back(position);
 
@@ -122,6 +131,30 @@ bool is_z_up(const aiScene& scene, const std::string& up)
 
 } // namespace
 
+bool mesh_of_scene(Mesh& dst, const aiScene& scene, const ExactPositions& exact, const MeshParams& params,
+                   std::string& error)
+{
+    Imath::M44d to_y_up;
+    if (is_z_up(scene, params.up))
+        to_y_up = Imath::M44d(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1); // (x, y, z) -> (x, z, -y)
+    Reading reading(dst, params.uv_set, exact);
+    reading.append(scene, *scene.mRootNode, to_y_up);
+    if (!reading.error.empty() || dst.triangles.empty()) {
+        error = reading.error.empty() ? "no triangle in it" : reason_line(reading.error);
+        return false;
+    }
+
+    if (!reading.has_uvs)
+        dst.uvs.clear();
+    if (params.normals == "flat")
+        make_flat_normals(dst);
+    else if (params.normals == "smooth")
+        make_smooth_normals(dst, params.crease_angle);
+    else
+        fill_missing_normals(dst, params.crease_angle);
+    return true;
+}
+
 bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                const std::function<void(const std::string& path)>& opens)
 {
@@ -141,27 +174,11 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
         error = format("\"{}\": {}", path, error);
         return false;
     }
-
-    Imath::M44d to_y_up;
-    if (is_z_up(*scene, params.up))
-        to_y_up = Imath::M44d(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1); // (x, y, z) -> (x, z, -y)
-    Reading reading(dst, params.uv_set, exact);
-    reading.append(*scene, *scene->mRootNode, to_y_up);
-    if (!reading.error.empty() || dst.triangles.empty()) {
-        error = format("\"{}\": {}", path, reading.error.empty() ? "no triangle in it" : reading.error);
-        dst = Mesh();
-        return false;
-    }
-
-    if (!reading.has_uvs)
-        dst.uvs.clear();
-    if (params.normals == "flat")
-        make_flat_normals(dst);
-    else if (params.normals == "smooth")
-        make_smooth_normals(dst, params.crease_angle);
-    else
-        fill_missing_normals(dst, params.crease_angle);
-    return true;
+    if (mesh_of_scene(dst, *scene, exact, params, error))
+        return true;
+    error = format("\"{}\": {}", path, error);
+    dst = Mesh();
+    return false;
 }
 
 std::string mesh_hash(const Mesh& mesh)

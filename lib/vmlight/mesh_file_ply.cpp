@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh_file_ply.h>
 
+#include <vmlight/words.h>
+
 #include <OpenImageIO/fmath.h>
 #include <OpenImageIO/strutil.h>
 
@@ -231,6 +233,7 @@ MeshFile inspect_ply(const std::string& bytes)
                 file.positions.push_back(place);
         }
     }
+    file.fault = reason_line(file.fault); // it quotes the header's words
     if (!file.fault.empty() || !lie_far_from_origin(file.positions))
         file.positions.clear();
     return file;

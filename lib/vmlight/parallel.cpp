@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/parallel.h>
 
+#include <vmlight/handed_over.h>
+
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/thread.h>
 
@@ -109,13 +111,16 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
     // pieces differ in cost; here each worker takes the next item when it is free.
     const int workers = int(std::min<int64_t>(worker_count(nthreads), std::max<int64_t>(1, items)));
     const auto crew = std::make_shared<Crew>();
-    for (int worker = 1; worker < workers; ++worker)
+    for (int worker = 1; worker < workers; ++worker) {
+        const HandingOver handing_over;
         OIIO::default_thread_pool()->push([crew, worker, &run](int) {
+            take_over();
             if (crew->enter()) {
                 run(worker);
                 crew->leave();
             }
         });
+    }
     run(0);
     crew->close();
     if (failure)

@@ -392,6 +392,13 @@ TEST_F(MeshFiles, AVertexThatIsNotFiniteIsNamed)
               "vertex 1 of \"thing\" is not finite: (inf, 0, 0)");
 }
 
+// Where squares of areas leave the range of double.
+TEST_F(MeshFiles, AVertexBeyondAllReasonIsNamed)
+{
+    EXPECT_EQ(refusal(folder.write("a.obj", "o thing\nv 9.99e69 0 0\nv 1.001e70 0 0\nv 9.99e69 1e67 0\nf 1 2 3\n")),
+              "vertex 1 of \"thing\" is farther than 1e70 from the origin: (1.001e+70, 0, 0)");
+}
+
 TEST_F(MeshFiles, ARefusedFileLeavesNoMesh)
 {
     Mesh mesh = read("a.obj", kQuadObj);
