@@ -6,11 +6,10 @@ import random
 import shutil
 import socket
 import struct
-import subprocess
 import sys
 import unittest
 
-from hard_files import BIN, LIMIT, QUAD, SMALL, HardCase
+from hard_files import QUAD, SMALL, HardCase
 
 # The quad of QUAD, in other formats.
 CORNERS = [(-1, -1, 0, 0, 0), (1, -1, 0, 1, 0), (1, 1, 0, 1, 1), (-1, 1, 0, 0, 1)]
@@ -69,16 +68,6 @@ class Files(HardCase):
         self.oiiotool("sky.exr", "-o", "sky.hdr")
         self.done("makevismap", "quad.obj", "-o", "vm.exr", *SMALL)
         self.done("makecfem", "sky.exr", "-o", "cfem.exr", "--resolution", "8", "--quiet")
-
-    def reader(self, name):
-        """oiiotool, that reads a recipe. It ends by its own will: returns its code and what it said."""
-        environment = dict(self.environment, LD_PRELOAD=os.environ.get("VMLIGHT_PRELOAD", ""),
-                           OIIO_LIBRARY_PATH=os.path.join(BIN, "../plugins"),
-                           ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0")
-        result = subprocess.run(["oiiotool", name, "-d", "float", "-o", "read.exr"], capture_output=True, text=True,
-                                errors="replace", cwd=self.folder, env=environment, timeout=LIMIT)
-        self.assertIn(result.returncode, (0, 1), (name, result.stderr))
-        return result.returncode, result.stdout + result.stderr
 
     def damages(self, data, seed, cuts=6, flips=8):
         """Cut at places from the start to the end, and with a bit turned over at others."""
