@@ -69,8 +69,9 @@ class Files(HardCase):
         self.done("makevismap", "quad.obj", "-o", "vm.exr", *SMALL)
         self.done("makecfem", "sky.exr", "-o", "cfem.exr", "--resolution", "8", "--quiet")
 
-    def damages(self, data, seed, cuts=6, flips=8):
-        """Cut at places from the start to the end, and with a bit turned over at others."""
+    def damages(self, data, seed, cuts=4, flips=4):
+        """Cut at places from the start to the end, and with a bit turned over at others: a few, as whole processes; many
+        are tried in files_test.cpp."""
         places = random.Random(seed)
         for k in range(cuts):
             yield f"cut at {len(data) * k // cuts}", data[:len(data) * k // cuts]
@@ -94,7 +95,7 @@ class Files(HardCase):
                 else:
                     self.told(result, 1)
                     self.assertFalse(os.path.exists(self.path("x.exr")))
-                if recipe and number % 3 == 0:
+                if recipe and number % 2 == 0:
                     code, _ = self.reader(recipe)
                     if code == 0:
                         self.assert_finite("read.exr")
@@ -115,7 +116,7 @@ class Files(HardCase):
             os.remove(self.path("x.exr"))
             self.survive(name, data, ["makevismap", mesh, *bake], "m.vismap" if name == "m.glb" else None)
         self.row("OBJ, PLY, glTF and GLB, cut short or with one bit turned over",
-                 "assimp 5.2 ends the process at 43 of 140 damaged PLYs", "finite pixels, or exit code 1 and one line")
+                 "assimp 5.2 ends the process at 39 of 140 damaged binary PLYs", "finite pixels, or exit code 1 and one line")
 
     def test_damaged_images(self):
         self.file("d.lightmap", 'vismap = "vm.exr"\ncfem = "cfem.exr"\n')
