@@ -6,11 +6,10 @@ import random
 import shutil
 import socket
 import struct
-import subprocess
 import sys
 import unittest
 
-from hard_files import BIN, LIMIT, QUAD, SMALL, HardCase
+from hard_files import QUAD, SMALL, HardCase
 
 # The quad of QUAD, in other formats.
 CORNERS = [(-1, -1, 0, 0, 0), (1, -1, 0, 1, 0), (1, 1, 0, 1, 1), (-1, 1, 0, 0, 1)]
@@ -70,18 +69,9 @@ class Files(HardCase):
         self.done("makevismap", "quad.obj", "-o", "vm.exr", *SMALL)
         self.done("makecfem", "sky.exr", "-o", "cfem.exr", "--resolution", "8", "--quiet")
 
-    def reader(self, name):
-        """oiiotool, that reads a recipe. It ends by its own will: returns its code and what it said."""
-        environment = dict(self.environment, LD_PRELOAD=os.environ.get("VMLIGHT_PRELOAD", ""),
-                           OIIO_LIBRARY_PATH=os.path.join(BIN, "../plugins"),
-                           ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0")
-        result = subprocess.run(["oiiotool", name, "-d", "float", "-o", "read.exr"], capture_output=True, text=True,
-                                errors="replace", cwd=self.folder, env=environment, timeout=LIMIT)
-        self.assertIn(result.returncode, (0, 1), (name, result.stderr))
-        return result.returncode, result.stdout + result.stderr
-
-    def damages(self, data, seed, cuts=6, flips=8):
-        """Cut at places from the start to the end, and with a bit turned over at others."""
+    def damages(self, data, seed, cuts=4, flips=4):
+        """Cut at places from the start to the end, and with a bit turned over at others: a few, as whole processes; many
+        are tried in files_test.cpp."""
         places = random.Random(seed)
         for k in range(cuts):
             yield f"cut at {len(data) * k // cuts}", data[:len(data) * k // cuts]
@@ -105,7 +95,7 @@ class Files(HardCase):
                 else:
                     self.told(result, 1)
                     self.assertFalse(os.path.exists(self.path("x.exr")))
-                if recipe and number % 3 == 0:
+                if recipe and number % 2 == 0:
                     code, _ = self.reader(recipe)
                     if code == 0:
                         self.assert_finite("read.exr")
@@ -126,7 +116,7 @@ class Files(HardCase):
             os.remove(self.path("x.exr"))
             self.survive(name, data, ["makevismap", mesh, *bake], "m.vismap" if name == "m.glb" else None)
         self.row("OBJ, PLY, glTF and GLB, cut short or with one bit turned over",
-                 "assimp 5.2 ends the process at 43 of 140 damaged PLYs", "finite pixels, or exit code 1 and one line")
+                 "assimp 5.2 ends the process at 39 of 140 damaged binary PLYs", "finite pixels, or exit code 1 and one line")
 
     def test_damaged_images(self):
         self.file("d.lightmap", 'vismap = "vm.exr"\ncfem = "cfem.exr"\n')

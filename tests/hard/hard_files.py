@@ -37,6 +37,16 @@ class HardCase(Case):
         self.assertRegex(lines[0], "^make[a-z]+ ERROR: ")
         self.assertIn(text, lines[0])
 
+    def reader(self, name):
+        """oiiotool, that reads a recipe. It ends by its own will: returns its code and what it said."""
+        environment = dict(self.environment, LD_PRELOAD=os.environ.get("VMLIGHT_PRELOAD", ""),
+                           OIIO_LIBRARY_PATH=os.path.join(BIN, "../plugins"),
+                           ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0")
+        result = subprocess.run(["oiiotool", name, "-d", "float", "-o", "read.exr"], capture_output=True, text=True,
+                                errors="replace", cwd=self.folder, env=environment, timeout=LIMIT)
+        self.assertIn(result.returncode, (0, 1), (name, result.stderr))
+        return result.returncode, result.stdout + result.stderr
+
     def assert_finite(self, image):
         stats = self.oiiotool("-a", image, "--printstats")
         counts = re.findall(r"(?:Nan|Inf)Count: (.*)", stats)
