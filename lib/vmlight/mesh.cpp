@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh.h>
 
+#include <vmlight/deep_stack.h>
 #include <vmlight/mesh_of_scene.h>
 #include <vmlight/words.h>
 
@@ -165,16 +166,16 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
-    Assimp::Importer importer;
-    // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
-    // relative distance, which collapses small meshes: both are done here, on equal bits.
-    ExactPositions exact;
-    const aiScene* scene = read_scene(importer, path, exact, opens, error);
-    if (!scene) {
-        error = format("\"{}\": {}", path, error);
-        return false;
-    }
-    if (mesh_of_scene(dst, *scene, exact, params, error))
+    bool good = false;
+    on_deep_stack([&] { // assimp goes down the tree of a scene by recursion
+        Assimp::Importer importer;
+        // Assimp's own merging of vertices and smoothing of normals compare positions within an absolute or a coarse
+        // relative distance, which collapses small meshes: both are done here, on equal bits.
+        ExactPositions exact;
+        const aiScene* scene = read_scene(importer, path, exact, opens, error);
+        good = scene && mesh_of_scene(dst, *scene, exact, params, error);
+    });
+    if (good)
         return true;
     error = format("\"{}\": {}", path, error);
     dst = Mesh();

@@ -97,3 +97,27 @@ TEST(Geometry, IndicesOfAnObj)
         EXPECT_EQ(refusal(folder, "a.obj", vertices + face).find("not a mesh that can be read: "), 0u) << face;
     row.ours("counted from behind; else refused");
 }
+
+TEST(Geometry, ATreeOfAHundredThousandNodes)
+{
+    HardCase row("A glTF whose one triangle hangs from 100000 nodes, one in the other");
+    row.naive("assimp goes down by recursion: a crash at 10000 nodes");
+    const TemporaryFolder folder;
+    const float numbers[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+    folder.write("deep.bin", std::string(reinterpret_cast<const char*>(numbers), sizeof(numbers)));
+    const int count = 100000;
+    std::string nodes;
+    for (int i = 1; i < count; ++i)
+        nodes += OIIO::Strutil::fmt::format("{{\"children\":[{}]}},", i);
+    const std::string path = folder.write(
+        "deep.gltf",
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + R"({"mesh":0}],)"
+            + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":"deep.bin"}],)"
+            + R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,)"
+            + R"("count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]})");
+    Mesh mesh;
+    std::string error;
+    ASSERT_TRUE(read_mesh(mesh, path, {}, error)) << error;
+    EXPECT_EQ(mesh.triangles.size(), 1u);
+    row.ours("its triangle");
+}
