@@ -58,7 +58,8 @@ struct CfemParams
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, `env` has no colour, says that
 ///          it is a cube map or that its pixels are stored flipped or turned, or a pixel is NaN, infinite or negative
-///          (how many, where the first is, and the flag that mends them); `dst` then has no pixels. Not checked: that `env` is scene-linear, or a lat-long map at all.
+///          (how many, where the first is, and the flag that mends them); `dst` then has no pixels. Not checked: that
+///          `env` is scene-linear, or a lat-long map at all.
 VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params = {}, int nthreads = 0,
                            const Progress& progress = {});
 

@@ -78,11 +78,20 @@ bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index,
 bool check_window(const OIIO::ImageSpec& spec, std::string& error)
 {
     constexpr int kLongestSide = 1 << 16;
+    constexpr double kLarge = 1 << 27, kEmptiest = 256; // pixels; for one that is stored
     const auto [least, most] = std::minmax(spec.full_width, spec.full_height);
-    if (least >= 1 && most <= kLongestSide)
+    const double shown = double(spec.full_width) * spec.full_height, stored = double(spec.width) * spec.height;
+    const int orientation = spec.get_int_attribute("Orientation", 1);
+    if (least < 1 || most > kLongestSide)
+        error = format("a display window of {}x{} pixels; sides of 1 to {} are allowed", spec.full_width,
+                       spec.full_height, kLongestSide);
+    else if (shown > kLarge && shown > kEmptiest * stored)
+        error = format("a display window of {}x{} pixels, nearly all of it empty: {}x{} are stored", spec.full_width,
+                       spec.full_height, spec.width, spec.height);
+    else if (orientation != 1)
+        error = format("stored flipped or turned (Orientation {}); oiiotool --reorient sets it upright", orientation);
+    else
         return true;
-    error = format("a display window of {}x{} pixels; sides of 1 to {} are allowed", spec.full_width, spec.full_height,
-                   kLongestSide);
     return false;
 }
 

@@ -53,8 +53,9 @@ VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<in
 VMLIGHT_API bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error);
 
 /// False, with the reason in `error`, if the image's display window, which stands for the whole sphere or texture
-/// however few pixels are stored of it, has no pixels or a side of more than 65536: a few pixels in a window of
-/// billions would be filtered for hours.
+/// however few pixels are stored of it, has no pixels, a side of more than 65536, or more than 2^27 pixels of which not
+/// one in 256 is stored: a few pixels in a window of billions would be filtered for hours. Or if the file says that its
+/// pixels are stored flipped or turned.
 VMLIGHT_API bool check_window(const OIIO::ImageSpec& spec, std::string& error);
 
 } // namespace vmlight

@@ -39,11 +39,7 @@ std::string Environment::fault() const
         return "environment is a deep image or a volume, not a lat-long map";
     if (OIIO::Strutil::istarts_with(own.get_string_attribute("textureformat"), "CubeFace"))
         return "environment is a cube map, not a lat-long map";
-    const int orientation = own.get_int_attribute("Orientation", 1);
-    return orientation == 1
-        ? ""
-        : format("environment is stored flipped or turned (Orientation {}); oiiotool --reorient sets it upright",
-                 orientation);
+    return "";
 }
 
 bool Environment::read(OIIO::ROI row, float* pixels, std::string& error) const

@@ -116,9 +116,10 @@ const aiScene* read_scene(Assimp::Importer& importer, const std::string& path, E
     const MeshFile file = inspect_mesh_file(path);
     if (!file.fault.empty())
         return fail(file.fault);
-    importer.SetIOHandler(new ToldFiles(opens, path, file.numbered)); // the importer deletes it
+    ToldFiles files(opens, path, file.numbered);
+    importer.SetIOHandler(&files);
     const bool read = importer.ReadFile(path, 0);
-    importer.SetIOHandler(nullptr); // what it refers to ends here
+    importer.SetIOHandler(nullptr); // gives it back
     if (!read)
         return fail_to_read();
     aiScene& scene = const_cast<aiScene&>(*importer.GetScene());

@@ -19,9 +19,11 @@ namespace {
 V3f naive_lookup(const OIIO::ImageBuf& cfem, const V3f& b)
 {
     const V3f n = b / std::sqrt(b.dot(b)); // not Imath's, which guards
+    if (!std::isfinite(n.x))
+        return V3f(NAN);
     const Imath::V2d at = latlong::position(V3d(n));
     const int x = int(at.x * cfem.spec().width), y = int(at.y * cfem.spec().height);
-    return std::isfinite(n.x) ? color(cfem, x, std::min(y, cfem.spec().height - 1)) : V3f(NAN);
+    return color(cfem, x, std::min(y, cfem.spec().height - 1));
 }
 
 } // namespace
