@@ -20,8 +20,9 @@ namespace {
 using Imath::V3d;
 using OIIO::Strutil::fmt::format;
 
-// Assimp 5.4 drops polygons of five and more corners whose ears have areas of less than 1e-6: they are cut in meshes
-// that are blown up to 2^30, by powers of two, so that not a bit is lost.
+// Assimp 5.4 drops polygons of five and more corners whose ears have areas of less than 1e-6, and areas beyond float
+// are infinite: polygons are cut in meshes of 2^30, brought there by powers of two, so that not a bit is lost but below
+// 2^-149 of what is there.
 std::vector<int> exponents_of_parts(const aiScene& scene)
 {
     std::vector<int> exponents;
@@ -31,7 +32,7 @@ std::vector<int> exponents_of_parts(const aiScene& scene)
         for (unsigned i = 0; i < part.mNumVertices; ++i)
             for (int k = 0; k < 3; ++k)
                 reach = std::max(reach, std::abs(part.mVertices[i][k]));
-        exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), 0, 126) : 0);
+        exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), -97, 126) : 0);
     }
     return exponents;
 }
