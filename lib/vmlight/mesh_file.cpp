@@ -106,9 +106,10 @@ MeshFile inspect_obj(const std::string& text)
         return file.fault.empty();
     });
     if (readable && file.fault.empty() && lie_far_from_origin(file.positions))
-        file.numbered = with_numbered_vertices(text);
+        file.stand_in = with_numbered_vertices(text);
     else
         file.positions.clear();
+    file.is_numbered = !file.stand_in.empty();
     return file;
 }
 

@@ -59,7 +59,7 @@ bool restore_positions(aiScene& scene, const MeshFile& file, ExactPositions& exa
         exact.emplace_back();
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             aiVector3D& v = part.mVertices[i];
-            const size_t number = file.numbered.empty() ? i : size_t(v.x) + (size_t(v.y) << 16);
+            const size_t number = file.is_numbered ? size_t(v.x) + (size_t(v.y) << 16) : i;
             if (number >= file.positions.size())
                 return false;
             exact.back().push_back(file.positions[number]);
@@ -117,7 +117,7 @@ const aiScene* read_scene(Assimp::Importer& importer, const std::string& path, E
     const MeshFile file = inspect_mesh_file(path);
     if (!file.fault.empty())
         return fail(file.fault);
-    importer.SetIOHandler(new ToldFiles(opens, path, file.numbered)); // the importer deletes it
+    importer.SetIOHandler(new ToldFiles(opens, path, file.stand_in)); // the importer deletes it
     const bool read = importer.ReadFile(path, 0);
     importer.SetIOHandler(nullptr); // what it refers to ends here
     if (!read)

@@ -104,19 +104,22 @@ TEST(Geometry, ConcavePolygonsAnySize)
     EXPECT_TRUE(std::isinf(float(1e20) * float(1e20)));
     row.naive("areas in float are infinite, or 0: cut as if it were convex");
     const TemporaryFolder folder;
-    for (const double size : { 1e-30, 1e-10, 1.0, 1e10, 1e18, 1e19, 1e20, 1e30, 1e37 }) {
-        std::string text; // from a corner that does not see the whole of it
-        for (const auto& [x, y] : { std::pair(2, 0), { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 }, { 0, 0 } })
-            text += OIIO::Strutil::fmt::format("v {:.9g} {:.9g} 0\n", x * size, y * size);
-        Mesh mesh;
-        std::string error;
-        ASSERT_TRUE(read_mesh(mesh, folder.write("l.obj", text + "f 1 2 3 4 5 6\n"), {}, error)) << error;
-        double area = 0;
-        for (const auto& t : mesh.triangles)
-            area += triangle_area_normal(mesh, t).length() / 2 / (size * size);
-        EXPECT_EQ(mesh.triangles.size(), 4u) << size;
-        EXPECT_NEAR(area, 3, 1e-5) << size;
-    }
+    for (const double size : { 1e-30, 1e-10, 1.0, 1e10, 1e18, 1e19, 1e20, 1e30, 1e37 })
+        for (int first = 0; first < 6; ++first) {
+            std::string text, face = "f";
+            for (const auto& [x, y] : { std::pair(0, 0), { 4, 0 }, { 4, 1 }, { 1, 1 }, { 1, 4 }, { 0, 4 } })
+                text += OIIO::Strutil::fmt::format("v {:.9g} {:.9g} 0\n", x * size, y * size);
+            for (int corner = 0; corner < 6; ++corner)
+                face += OIIO::Strutil::fmt::format(" {}", (first + corner) % 6 + 1);
+            Mesh mesh;
+            std::string error;
+            ASSERT_TRUE(read_mesh(mesh, folder.write("l.obj", text + face + "\n"), {}, error)) << error;
+            double area = 0;
+            for (const auto& t : mesh.triangles)
+                area += triangle_area_normal(mesh, t).length() / 2 / (size * size);
+            EXPECT_EQ(mesh.triangles.size(), 4u) << size;
+            EXPECT_NEAR(area, 7, 1e-5) << size << ", from corner " << first;
+        }
     row.ours("four triangles, of its area");
 }
 
