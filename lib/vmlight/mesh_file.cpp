@@ -2,6 +2,7 @@
 #include <vmlight/mesh_file.h>
 
 #include <vmlight/mesh_file_ply.h>
+#include <vmlight/words.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -86,8 +87,8 @@ std::string texture_coordinate_fault(const std::string& text, size_t begin, size
     numbers_of_line(text.c_str() + begin + 2, numbers);
     if (std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
         return "";
-    return format("line {} has texture coordinates that are not finite: \"{}\"", line,
-                  OIIO::Strutil::strip(text.substr(begin, end - begin)));
+    return reason_line(format("line {} has texture coordinates that are not finite: \"{}\"", line,
+                              OIIO::Strutil::strip(text.substr(begin, end - begin))));
 }
 
 MeshFile inspect_obj(const std::string& text)

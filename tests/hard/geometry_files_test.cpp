@@ -68,6 +68,38 @@ TEST(Geometry, PlyThatEndsEarly)
     row.ours("refused, with what is missing");
 }
 
+TEST(Geometry, PlyOfMoreThanVerticesAndFaces)
+{
+    HardCase row("A PLY with a camera before its vertices and edges behind them, and with blank lines");
+    row.naive("assimp 5.2 takes the camera for a vertex, waits for ever, or shifts the faces by the blank lines");
+    const TemporaryFolder folder;
+    for (const char* format : { "ascii", "binary_little_endian", "binary_big_endian" }) {
+        const bool is_ascii = format == std::string("ascii");
+        const std::string plain = ply_of(floor_facing_z(1), format);
+        const size_t vertices = plain.find("element vertex"), faces = plain.find("element face"),
+                     body = plain.find("end_header");
+        const std::string header = plain.substr(0, vertices)
+            + "element cam 1\nproperty list uchar uchar ids\nproperty uchar far\n"
+            + plain.substr(vertices, faces - vertices) + plain.substr(faces, body - faces)
+            + "element edge 1\nproperty uchar vertex1\nproperty uchar vertex2\nend_header\n";
+        std::string rows = plain.substr(body + 11);
+        rows = is_ascii ? "3 7 8 9 5\n" + rows + "0 1\n" : "\3\7\10\11\5" + rows + std::string("\0\1", 2);
+        Mesh expected, mesh;
+        std::string error;
+        ASSERT_TRUE(read_mesh(expected, folder.write("plain.ply", plain), {}, error)) << error;
+        ASSERT_TRUE(read_mesh(mesh, folder.write("more.ply", header + rows), {}, error)) << error;
+        EXPECT_EQ(mesh_hash(mesh), mesh_hash(expected)) << format;
+        if (is_ascii) {
+            const std::string blank = OIIO::Strutil::replace(header + rows, "\n", "\n \n\n", true);
+            ASSERT_TRUE(read_mesh(mesh, folder.write("blank.ply", blank), {}, error)) << error;
+            EXPECT_EQ(mesh_hash(mesh), mesh_hash(expected)) << format;
+        }
+        mesh.positions[0].x += 1;
+        EXPECT_NE(mesh_hash(mesh), mesh_hash(expected)) << "a hash that sees nothing";
+    }
+    row.ours("bit for bit the mesh of the file without them");
+}
+
 TEST(Geometry, VerticesBeyondFloat)
 {
     HardCase row("A vertex at NaN, infinity or 1e39, in an OBJ and a PLY");
