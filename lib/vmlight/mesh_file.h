@@ -21,7 +21,8 @@ struct MeshFile
     std::vector<Imath::V3d> positions;
 
     /// What the importer is to read instead of the file, or "": a PLY of vertices, faces and strips alone, without
-    /// blank lines, because assimp 5.2 loses its place at others; an OBJ whose vertices tell their numbers.
+    /// blank lines, because assimp 5.2 loses its place at others; an OBJ whose vertices tell their numbers,
+    /// or without what it does not understand (a byte order mark, indents, backslashes in comments).
     std::string stand_in;
 
     /// Is vertex number n of the stand-in at (n % 2^16, n / 2^16, 0), so that the importer tells which vertex it made

@@ -47,24 +47,35 @@ void scale_parts(aiScene& scene, const std::vector<int>& exponents, int sign)
     }
 }
 
-// Give the scene the file's own vertices, about their middle where they are floats, and set `exact` to them in double.
+// A vertex that a face uses: others may lie anywhere.
+V3d corner_of(const aiMesh& part, const std::vector<V3d>& positions)
+{
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+        if (part.mFaces[f].mNumIndices > 0)
+            return positions[part.mFaces[f].mIndices[0]];
+    return V3d(0);
+}
+
+// Give the scene the file's own vertices, about one of them where they are floats, and set `exact` to them in double.
 // False if the importer made other vertices than the file has.
 bool restore_positions(aiScene& scene, const MeshFile& file, ExactPositions& exact)
 {
     if (file.positions.empty())
         return true;
-    const V3d& centre = file.positions.front();
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         aiMesh& part = *scene.mMeshes[m];
         exact.emplace_back();
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
-            aiVector3D& v = part.mVertices[i];
+            const aiVector3D& v = part.mVertices[i];
             const size_t number = file.is_numbered ? size_t(v.x) + (size_t(v.y) << 16) : i;
             if (number >= file.positions.size())
                 return false;
             exact.back().push_back(file.positions[number]);
-            const V3d about = file.positions[number] - centre;
-            v = aiVector3D(ai_real(about.x), ai_real(about.y), ai_real(about.z));
+        }
+        const V3d centre = corner_of(part, exact.back());
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const V3d about = exact.back()[i] - centre;
+            part.mVertices[i] = aiVector3D(ai_real(about.x), ai_real(about.y), ai_real(about.z));
         }
     }
     return true;
