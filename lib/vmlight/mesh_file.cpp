@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh_file.h>
 
+#include <vmlight/mesh_file_gltf.h>
 #include <vmlight/mesh_file_obj.h>
 #include <vmlight/mesh_file_ply.h>
 
@@ -39,13 +40,19 @@ bool lie_far_from_origin(const std::vector<V3d>& positions)
 MeshFile inspect_mesh_file(const std::string& path)
 {
     using namespace OIIO;
-    const bool is_obj = Strutil::iequals(Filesystem::extension(path), ".obj");
+    const std::string extension = Strutil::lower(Filesystem::extension(path));
+    const bool is_obj = extension == ".obj", is_gltf = extension == ".gltf" || extension == ".glb";
     std::string bytes(3, '\0');
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    if (!is_obj && bytes != "ply")
+    if (!is_obj && !is_gltf && bytes != "ply")
         return {};
     bytes.resize(Filesystem::file_size(path));
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
+    if (is_gltf) {
+        MeshFile file;
+        file.fault = gltf_fault(bytes);
+        return file;
+    }
     return is_obj ? inspect_obj(bytes) : inspect_ply(bytes);
 }
 

@@ -178,3 +178,23 @@ TEST(Geometry, ATreeOfAHundredThousandNodes)
     EXPECT_EQ(mesh.triangles.size(), 1u);
     row.ours("its triangle");
 }
+
+TEST(Geometry, NodesUnderTwoOthers)
+{
+    HardCase row("A glTF of 40 nodes, each of which names the next twice; or of nodes in a ring");
+    EXPECT_GT(std::ldexp(1.0, 40), 1e12);
+    row.naive("assimp copies what is named twice: all memory");
+    const TemporaryFolder folder;
+    std::string twice;
+    for (int i = 1; i < 40; ++i)
+        twice += OIIO::Strutil::fmt::format("{{\"children\":[{0},{0}]}},", i);
+    const auto gltf = [](const std::string& nodes) {
+        return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + "]}";
+    };
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(twice + "{}")), "its node 1 is under two others: 0 and 0");
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[2]},{"children":[2]},{})")),
+              "its node 2 is under two others: 0 and 1");
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "its node 0 is under itself");
+    EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "its JSON has brackets more than 1000 deep");
+    row.ours("refused, with the node");
+}
