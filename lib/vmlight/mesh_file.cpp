@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh_file.h>
 
+#include <vmlight/mesh_file_collada.h>
 #include <vmlight/mesh_file_gltf.h>
 #include <vmlight/mesh_file_obj.h>
 #include <vmlight/mesh_file_ply.h>
@@ -42,15 +43,16 @@ MeshFile inspect_mesh_file(const std::string& path)
     using namespace OIIO;
     const std::string extension = Strutil::lower(Filesystem::extension(path));
     const bool is_obj = extension == ".obj", is_gltf = extension == ".gltf" || extension == ".glb";
+    const bool is_collada = extension == ".dae";
     std::string bytes(3, '\0');
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    if (!is_obj && !is_gltf && bytes != "ply")
+    if (!is_obj && !is_gltf && !is_collada && bytes != "ply")
         return {};
     bytes.resize(Filesystem::file_size(path));
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    if (is_gltf) {
+    if (is_gltf || is_collada) {
         MeshFile file;
-        file.fault = gltf_fault(bytes);
+        file.fault = is_gltf ? gltf_fault(bytes) : collada_fault(bytes);
         return file;
     }
     return is_obj ? inspect_obj(bytes) : inspect_ply(bytes);

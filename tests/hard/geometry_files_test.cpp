@@ -196,5 +196,7 @@ TEST(Geometry, NodesUnderTwoOthers)
               "its node 2 is under two others: 0 and 1");
     EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "its node 0 is under itself");
     EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "its JSON has brackets more than 1000 deep");
+    EXPECT_EQ(refusal(folder, "a.dae", "<COLLADA>" + OIIO::Strutil::repeat("<node>", 500000)),
+              "its elements are more than 100000 deep");
     row.ours("refused, with the node");
 }
