@@ -45,6 +45,8 @@ int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
 // What rounding to float leaves of the mesh's shape. 0 if its coordinates are more than floats.
 double rounding_of(const Mesh& mesh, const SceneFrame& frame)
 {
+    if (mesh.has_exact_positions)
+        return 0;
     double reach = 0;
     for (const auto& triangle : mesh.triangles)
         for (uint32_t vertex : triangle)

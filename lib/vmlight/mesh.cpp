@@ -140,6 +140,7 @@ bool mesh_of_scene(Mesh& dst, const aiScene& scene, const ExactPositions& exact,
         to_y_up = Imath::M44d(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1); // (x, y, z) -> (x, z, -y)
     Reading reading(dst, params.uv_set, exact);
     reading.append(scene, *scene.mRootNode, to_y_up);
+    dst.has_exact_positions = !exact.empty();
     if (!reading.error.empty() || dst.triangles.empty()) {
         error = reading.error.empty() ? "no triangle in it" : reason_line(reading.error);
         return false;

@@ -26,6 +26,8 @@ struct Mesh
     std::string path;
     /// Double, because meshes far from the origin lose their shape in float; see read_mesh().
     std::vector<Imath::V3d> positions;
+    /// Are the positions as the file has them, and not through float?
+    bool has_exact_positions = false;
     std::vector<Imath::V3f> normals;
     /// v up: v = 0 is the bottom of the texture, whatever the file's own rule.
     std::vector<Imath::V2f> uvs;
@@ -59,7 +61,8 @@ struct MeshParams
 /// Polygons are triangulated, points and lines dropped, vertices that agree bit for bit merged. Normals are of unit
 /// length; a zero or non-finite one is made as a smooth one. Triangles without area stay (they still occlude nothing).
 /// Coordinates are rounded to float, as assimp delivers them, but for an OBJ, or a PLY of `double` coordinates, whose
-/// greatest coordinate is more than 16 times its greatest side: those keep every bit of the file's doubles.
+/// greatest coordinate is more than 16 times its greatest side: those keep every bit of the file's doubles. Of an OBJ
+/// the vertices that faces use are counted, of a PLY all.
 ///
 /// @param error    set to what is wrong, with the path in quotes, if the result is false
 /// @param opens    called with the path of each file before it is opened, the buffers of a glTF among them

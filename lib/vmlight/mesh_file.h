@@ -20,9 +20,14 @@ struct MeshFile
     /// so far from the origin that the importer's floats would lose its shape; else empty.
     std::vector<Imath::V3d> positions;
 
-    /// What the importer is to read instead of an OBJ that has `positions`: the same, but with vertex number n at
-    /// (n % 2^16, n / 2^16, 0), so that it tells which vertex it made of which.
-    std::string numbered;
+    /// What the importer is to read instead of the file, or "": a PLY of vertices, faces and strips alone, without
+    /// blank lines, because assimp 5.2 loses its place at others; an OBJ whose vertices tell their numbers,
+    /// or without what it does not understand (a byte order mark, indents, backslashes in comments).
+    std::string stand_in;
+
+    /// Is vertex number n of the stand-in at (n % 2^16, n / 2^16, 0), so that the importer tells which vertex it made
+    /// of which? So is that of an OBJ that has `positions`.
+    bool is_numbered = false;
 };
 
 /// Read the file once. One that cannot be read has neither fault nor positions.

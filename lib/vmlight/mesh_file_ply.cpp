@@ -47,10 +47,42 @@ struct Element
     std::vector<Property> properties;
 };
 
+// Parts of the file, in its order.
+class Parts
+{
+public:
+    void add(size_t begin, size_t end)
+    {
+        if (!m_parts.empty() && m_parts.back().second == begin)
+            m_parts.back().second = end;
+        else if (begin < end)
+            m_parts.emplace_back(begin, end);
+    }
+    // "" if they are the file, less what follows them.
+    std::string text(const std::string& bytes) const
+    {
+        std::string text;
+        if (m_parts.size() > 1 || (m_parts.size() == 1 && m_parts[0].first > 0))
+            for (const auto& [begin, end] : m_parts)
+                text.append(bytes, begin, end - begin);
+        return text;
+    }
+
+private:
+    std::vector<std::pair<size_t, size_t>> m_parts;
+};
+
+// What triangles are made of. Of all else assimp 5.2 reads some as if it were vertices, and loses its place after some.
+bool is_wanted(const Element& element)
+{
+    return element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+}
+
 struct Header
 {
     std::string format, fault;
     std::vector<Element> elements;
+    Parts wanted;
     size_t body = 0;
 };
 
@@ -84,12 +116,15 @@ Header read_header(const std::string& bytes)
     for (size_t begin = 0; begin < bytes.size();) {
         const size_t end = std::min(bytes.find('\n', begin), bytes.size());
         const Words words = OIIO::Strutil::splits(bytes.substr(begin, end - begin));
-        header.body = begin = end + 1;
-        if (!words.empty() && words[0] == "end_header")
+        header.body = std::min(end + 1, bytes.size());
+        const bool is_end = !words.empty() && words[0] == "end_header";
+        if (!is_end)
+            header.fault = add_line(header, words, bytes.size());
+        if (is_end || (!words.empty() && (header.elements.empty() || is_wanted(header.elements.back()))))
+            header.wanted.add(begin, header.body);
+        if (is_end || !header.fault.empty())
             return header;
-        header.fault = add_line(header, words, bytes.size());
-        if (!header.fault.empty())
-            return header;
+        begin = end + 1;
     }
     header.fault = "its PLY header has no end";
     return header;
@@ -102,18 +137,27 @@ public:
     Body(const std::string& bytes, const Header& header)
         : m_bytes(bytes)
         , m_at(std::min(header.body, bytes.size()))
+        , m_line_begin(m_at)
         , m_line_end(m_at)
         , m_ascii(header.format == "ascii")
         , m_swapped(!m_ascii && (header.format == "binary_big_endian") == OIIO::littleendian())
     {
     }
 
+    // Add what has been read of the element to `parts`: its line, of an ascii one.
+    void add_to(Parts& parts, size_t begin) const
+    {
+        parts.add(m_ascii ? m_line_begin : begin, m_ascii ? m_line_end : m_at);
+    }
+
+    size_t at() const { return m_at; }
+
     bool next_element()
     {
         if (!m_ascii)
             return true;
         do { // blank lines are passed over
-            m_at = m_line_end;
+            m_at = m_line_begin = m_line_end;
             if (m_at >= m_bytes.size())
                 return false;
             m_line_end = std::min(m_bytes.find('\n', m_at), m_bytes.size() - 1) + 1;
@@ -166,7 +210,7 @@ private:
     }
 
     const std::string& m_bytes;
-    size_t m_at, m_line_end;
+    size_t m_at, m_line_begin, m_line_end;
     bool m_ascii, m_swapped;
 };
 
@@ -207,8 +251,9 @@ bool has_double_coordinates(const Element& element)
 
 MeshFile inspect_ply(const std::string& bytes)
 {
-    const Header header = read_header(bytes);
-    MeshFile file { header.fault, {}, {} };
+    Header header = read_header(bytes);
+    MeshFile file;
+    file.fault = header.fault;
     double vertices = 0;
     for (const Element& element : header.elements)
         vertices = element.name == "vertex" ? double(element.count) : vertices;
@@ -220,6 +265,7 @@ MeshFile inspect_ply(const std::string& bytes)
                 file.fault = format("its PLY ends before {} {} of {}", element.name, row, element.count);
                 break;
             }
+            const size_t begin = body.at();
             Imath::V3d place(0);
             for (const Property& property : element.properties) {
                 double value = 0;
@@ -231,8 +277,12 @@ MeshFile inspect_ply(const std::string& bytes)
             }
             if (keeps)
                 file.positions.push_back(place);
+            if (is_wanted(element))
+                body.add_to(header.wanted, begin);
         }
     }
+    if (file.fault.empty())
+        file.stand_in = header.wanted.text(bytes);
     file.fault = reason_line(file.fault); // it quotes the header's words
     if (!file.fault.empty() || !lie_far_from_origin(file.positions))
         file.positions.clear();

@@ -20,8 +20,9 @@ namespace {
 using Imath::V3d;
 using OIIO::Strutil::fmt::format;
 
-// Assimp 5.4 drops polygons of five and more corners whose ears have areas of less than 1e-6: they are cut in meshes
-// that are blown up to 2^30, by powers of two, so that not a bit is lost.
+// Assimp 5.4 drops polygons of five and more corners whose ears have areas of less than 1e-6, and areas beyond float
+// are infinite: polygons are cut in meshes of 2^30, brought there by powers of two, so that not a bit is lost but below
+// 2^-149 of what is there.
 std::vector<int> exponents_of_parts(const aiScene& scene)
 {
     std::vector<int> exponents;
@@ -31,7 +32,7 @@ std::vector<int> exponents_of_parts(const aiScene& scene)
         for (unsigned i = 0; i < part.mNumVertices; ++i)
             for (int k = 0; k < 3; ++k)
                 reach = std::max(reach, std::abs(part.mVertices[i][k]));
-        exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), 0, 126) : 0);
+        exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), -97, 126) : 0);
     }
     return exponents;
 }
@@ -46,24 +47,35 @@ void scale_parts(aiScene& scene, const std::vector<int>& exponents, int sign)
     }
 }
 
-// Give the scene the file's own vertices, about their middle where they are floats, and set `exact` to them in double.
+// A vertex that a face uses: others may lie anywhere.
+V3d corner_of(const aiMesh& part, const std::vector<V3d>& positions)
+{
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+        if (part.mFaces[f].mNumIndices > 0)
+            return positions[part.mFaces[f].mIndices[0]];
+    return V3d(0);
+}
+
+// Give the scene the file's own vertices, about one of them where they are floats, and set `exact` to them in double.
 // False if the importer made other vertices than the file has.
 bool restore_positions(aiScene& scene, const MeshFile& file, ExactPositions& exact)
 {
     if (file.positions.empty())
         return true;
-    const V3d& centre = file.positions.front();
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         aiMesh& part = *scene.mMeshes[m];
         exact.emplace_back();
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
-            aiVector3D& v = part.mVertices[i];
-            const size_t number = file.numbered.empty() ? i : size_t(v.x) + (size_t(v.y) << 16);
+            const aiVector3D& v = part.mVertices[i];
+            const size_t number = file.is_numbered ? size_t(v.x) + (size_t(v.y) << 16) : i;
             if (number >= file.positions.size())
                 return false;
             exact.back().push_back(file.positions[number]);
-            const V3d about = file.positions[number] - centre;
-            v = aiVector3D(ai_real(about.x), ai_real(about.y), ai_real(about.z));
+        }
+        const V3d centre = corner_of(part, exact.back());
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const V3d about = exact.back()[i] - centre;
+            part.mVertices[i] = aiVector3D(ai_real(about.x), ai_real(about.y), ai_real(about.z));
         }
     }
     return true;
@@ -116,7 +128,7 @@ const aiScene* read_scene(Assimp::Importer& importer, const std::string& path, E
     const MeshFile file = inspect_mesh_file(path);
     if (!file.fault.empty())
         return fail(file.fault);
-    ToldFiles files(opens, path, file.numbered);
+    ToldFiles files(opens, path, file.stand_in);
     importer.SetIOHandler(&files);
     const bool read = importer.ReadFile(path, 0);
     importer.SetIOHandler(nullptr); // gives it back

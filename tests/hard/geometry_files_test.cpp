@@ -68,6 +68,38 @@ TEST(Geometry, PlyThatEndsEarly)
     row.ours("refused, with what is missing");
 }
 
+TEST(Geometry, PlyOfMoreThanVerticesAndFaces)
+{
+    HardCase row("A PLY with a camera before its vertices and edges behind them, and with blank lines");
+    row.naive("assimp 5.2 takes the camera for a vertex, waits for ever, or shifts the faces by the blank lines");
+    const TemporaryFolder folder;
+    for (const char* format : { "ascii", "binary_little_endian", "binary_big_endian" }) {
+        const bool is_ascii = format == std::string("ascii");
+        const std::string plain = ply_of(floor_facing_z(1), format);
+        const size_t vertices = plain.find("element vertex"), faces = plain.find("element face"),
+                     body = plain.find("end_header");
+        const std::string header = plain.substr(0, vertices)
+            + "element cam 1\nproperty list uchar uchar ids\nproperty uchar far\n"
+            + plain.substr(vertices, faces - vertices) + plain.substr(faces, body - faces)
+            + "element edge 1\nproperty uchar vertex1\nproperty uchar vertex2\nend_header\n";
+        std::string rows = plain.substr(body + 11);
+        rows = is_ascii ? "3 7 8 9 5\n" + rows + "0 1\n" : "\3\7\10\11\5" + rows + std::string("\0\1", 2);
+        Mesh expected, mesh;
+        std::string error;
+        ASSERT_TRUE(read_mesh(expected, folder.write("plain.ply", plain), {}, error)) << error;
+        ASSERT_TRUE(read_mesh(mesh, folder.write("more.ply", header + rows), {}, error)) << error;
+        EXPECT_EQ(mesh_hash(mesh), mesh_hash(expected)) << format;
+        if (is_ascii) {
+            const std::string blank = OIIO::Strutil::replace(header + rows, "\n", "\n \n\n", true);
+            ASSERT_TRUE(read_mesh(mesh, folder.write("blank.ply", blank), {}, error)) << error;
+            EXPECT_EQ(mesh_hash(mesh), mesh_hash(expected)) << format;
+        }
+        mesh.positions[0].x += 1;
+        EXPECT_NE(mesh_hash(mesh), mesh_hash(expected)) << "a hash that sees nothing";
+    }
+    row.ours("bit for bit the mesh of the file without them");
+}
+
 TEST(Geometry, VerticesBeyondFloat)
 {
     HardCase row("A vertex at NaN, infinity or 1e39, in an OBJ and a PLY");
@@ -98,6 +130,31 @@ TEST(Geometry, IndicesOfAnObj)
     row.ours("counted from behind; else refused");
 }
 
+TEST(Geometry, ConcavePolygonsAnySize)
+{
+    HardCase row("An L of six corners, one polygon, of sides from 1e-30 to 1e30");
+    EXPECT_TRUE(std::isinf(float(1e20) * float(1e20)));
+    row.naive("areas in float are infinite, or 0: cut as if it were convex");
+    const TemporaryFolder folder;
+    for (const double size : { 1e-30, 1e-10, 1.0, 1e10, 1e18, 1e19, 1e20, 1e30, 1e37 })
+        for (int first = 0; first < 6; ++first) {
+            std::string text, face = "f";
+            for (const auto& [x, y] : { std::pair(0, 0), { 4, 0 }, { 4, 1 }, { 1, 1 }, { 1, 4 }, { 0, 4 } })
+                text += OIIO::Strutil::fmt::format("v {:.9g} {:.9g} 0\n", x * size, y * size);
+            for (int corner = 0; corner < 6; ++corner)
+                face += OIIO::Strutil::fmt::format(" {}", (first + corner) % 6 + 1);
+            Mesh mesh;
+            std::string error;
+            ASSERT_TRUE(read_mesh(mesh, folder.write("l.obj", text + face + "\n"), {}, error)) << error;
+            double area = 0;
+            for (const auto& t : mesh.triangles)
+                area += triangle_area_normal(mesh, t).length() / 2 / (size * size);
+            EXPECT_EQ(mesh.triangles.size(), 4u) << size;
+            EXPECT_NEAR(area, 7, 1e-5) << size << ", from corner " << first;
+        }
+    row.ours("four triangles, of its area");
+}
+
 TEST(Geometry, ATreeOfAHundredThousandNodes)
 {
     HardCase row("A glTF whose one triangle hangs from 100000 nodes, one in the other");
@@ -120,4 +177,26 @@ TEST(Geometry, ATreeOfAHundredThousandNodes)
     ASSERT_TRUE(read_mesh(mesh, path, {}, error)) << error;
     EXPECT_EQ(mesh.triangles.size(), 1u);
     row.ours("its triangle");
+}
+
+TEST(Geometry, NodesUnderTwoOthers)
+{
+    HardCase row("A glTF of 40 nodes, each of which names the next twice; or of nodes in a ring");
+    EXPECT_GT(std::ldexp(1.0, 40), 1e12);
+    row.naive("assimp copies what is named twice: all memory");
+    const TemporaryFolder folder;
+    std::string twice;
+    for (int i = 1; i < 40; ++i)
+        twice += OIIO::Strutil::fmt::format("{{\"children\":[{0},{0}]}},", i);
+    const auto gltf = [](const std::string& nodes) {
+        return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + "]}";
+    };
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(twice + "{}")), "its node 1 is under two others: 0 and 0");
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[2]},{"children":[2]},{})")),
+              "its node 2 is under two others: 0 and 1");
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "its node 0 is under itself");
+    EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "its JSON has brackets more than 1000 deep");
+    EXPECT_EQ(refusal(folder, "a.dae", "<COLLADA>" + OIIO::Strutil::repeat("<node>", 500000)),
+              "its elements are more than 100000 deep");
+    row.ours("refused, with the node");
 }

@@ -4,6 +4,8 @@
 
 #include <vmlight/mesh.h>
 
+#include <OpenImageIO/strutil.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -397,6 +399,40 @@ TEST_F(MeshFiles, AVertexBeyondAllReasonIsNamed)
 {
     EXPECT_EQ(refusal(folder.write("a.obj", "o thing\nv 9.99e69 0 0\nv 1.001e70 0 0\nv 9.99e69 1e67 0\nf 1 2 3\n")),
               "vertex 1 of \"thing\" is farther than 1e70 from the origin: (1.001e+70, 0, 0)");
+}
+
+TEST_F(MeshFiles, ObjOfOtherExporters)
+{
+    const Mesh quad = read("a.obj", kQuadObj);
+    const std::string text = kQuadObj;
+    const auto with = [&](const char* what, const char* instead) {
+        return mesh_hash(read("b.obj", OIIO::Strutil::replace(text, what, instead, true)));
+    };
+    EXPECT_EQ(with("v 0 0 0", "\xef\xbb\xbfv 0 0 0"), mesh_hash(quad));
+    EXPECT_EQ(with("v 2 0 0", "\t  v 2 0 0"), mesh_hash(quad));
+    EXPECT_EQ(with("v 2 0 0", "# C:\\x\\\nv 2 0 0"), mesh_hash(quad));
+    EXPECT_EQ(with("v 2 0 0", "v 2 \\\n 0 0"), mesh_hash(quad));
+    EXPECT_EQ(with("vt 0.1 0.2", "vt 0.1 0.2 # nan"), mesh_hash(quad));
+    EXPECT_EQ(with("vt 0.1 0.2", "vt 0.1 0.2 nan"), mesh_hash(quad));
+    EXPECT_EQ(with(" 3 0\n", " 3 0 1 0.5 0 1\n"), mesh_hash(quad));
+    EXPECT_EQ(with("\n", "\r"), mesh_hash(quad));
+    EXPECT_NE(with("v 2 0 0", "v 2.5 0 0"), mesh_hash(quad));
+}
+
+TEST_F(MeshFiles, AStrayVertexLosesNoDoubles)
+{
+    const std::string far = "v 1e6 0 0\nv 1000000.1 0 0\nv 1000000.1 0.1 0\n";
+    const Mesh mesh = read("a.obj", "v 0 0 0\n" + far + "f 2 3 -1\n");
+    EXPECT_TRUE(mesh.has_exact_positions);
+    EXPECT_EQ(mesh.positions[1].x, 1000000.1);
+    EXPECT_TRUE(read("a.obj", "v 1e6 0 0\nv 1000001 0 0\nv 1000001 1 0\nf 1 2 3\n").has_exact_positions);
+    EXPECT_FALSE(read("a.obj", "v 0 0 0\n" + far + "f 1 3 4\n").has_exact_positions);
+}
+
+TEST_F(MeshFiles, ALongLineIsToldInShort)
+{
+    const std::string tail(100000, 'x');
+    EXPECT_LT(refusal(folder.write("a.obj", "v 0 0 0\nvt nan " + tail + "\n")).size(), 600u);
 }
 
 TEST_F(MeshFiles, ARefusedFileLeavesNoMesh)
