@@ -93,39 +93,25 @@ public:
         , m_stand_in(stand_in)
     {
     }
-    // Assimp 5.2 forgets the buffer of a glTF that is shorter than it should be.
-    ~ToldFiles() override
-    {
-        while (!m_open.empty())
-            ToldFiles::Close(m_open.back());
-    }
     Assimp::IOStream* Open(const char* path, const char* mode) override
     {
         if (m_opens)
             m_opens(path);
-        Assimp::IOStream* file = nullptr;
         if (!m_stand_in.empty() && path == m_path)
-            file = new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(m_stand_in.data()), m_stand_in.size());
-        else if (OIIO::Filesystem::is_regular(path)) // a pipe that a mesh names would hold its reader up
-            file = m_files.Open(path, mode);
-        if (file)
-            m_open.push_back(file);
-        return file;
+            return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(m_stand_in.data()), m_stand_in.size());
+        if (!OIIO::Filesystem::is_regular(path))
+            return nullptr; // a pipe among the files that a mesh names would hold its reader up
+        return m_files.Open(path, mode);
     }
     // Assimp's own opens it to see.
     bool Exists(const char* path) const override { return OIIO::Filesystem::is_regular(path); }
     char getOsSeparator() const override { return m_files.getOsSeparator(); }
-    void Close(Assimp::IOStream* file) override
-    {
-        m_open.erase(std::remove(m_open.begin(), m_open.end(), file), m_open.end());
-        m_files.Close(file);
-    }
+    void Close(Assimp::IOStream* file) override { m_files.Close(file); }
 
 private:
     const std::function<void(const std::string& path)>& m_opens;
     const std::string &m_path, &m_stand_in;
     Assimp::DefaultIOSystem m_files;
-    std::vector<Assimp::IOStream*> m_open;
 };
 
 } // namespace
