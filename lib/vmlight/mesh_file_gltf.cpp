@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace vmlight {
@@ -16,66 +17,110 @@ using OIIO::Strutil::fmt::format;
 
 constexpr int kDeepest = 1000; // brackets; a glTF has about ten
 
-// The JSON: all of a .gltf, the first chunk of a GLB.
-OIIO::string_view json_of(const std::string& bytes)
+// The JSON: all of a .gltf, the first chunk of a GLB. The importer stops at a zero, and takes any bytes in a string:
+// what is not ASCII, which only strings hold, is made a question mark.
+std::string json_of(const std::string& bytes)
 {
     constexpr size_t kHeader = 20;
-    if (bytes.compare(0, 4, "glTF") != 0 || bytes.size() < kHeader)
-        return bytes;
-    size_t length = 0;
-    for (size_t i = 0; i < 4; ++i)
-        length |= size_t(uint8_t(bytes[12 + i])) << (8 * i);
-    return OIIO::string_view(bytes).substr(kHeader, std::min(length, bytes.size() - kHeader));
+    std::string text;
+    if (bytes.compare(0, 4, "glTF") != 0 || bytes.size() < kHeader) {
+        text = bytes;
+    } else {
+        size_t length = 0;
+        for (size_t i = 0; i < 4; ++i)
+            length |= size_t(uint8_t(bytes[12 + i])) << (8 * i);
+        text = bytes.substr(kHeader, length);
+    }
+    text.resize(std::min(text.size(), text.find('\0')));
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return uint8_t(c) > 127; }, '?');
+    return text;
 }
 
-bool is_too_deep(OIIO::string_view text)
+// The children that the nodes name, collected as the JSON goes by. (A tree of all of it, with a callback that drops the
+// rest, takes time by the square of the nodes in nlohmann 3.11.)
+class NodeReader : public nlohmann::json_sax<json>
 {
-    int depth = 0;
-    bool in_string = false;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string && c == '\\')
-            ++i;
-        else if (c == '"')
-            in_string = !in_string;
-        else if (!in_string && (c == '[' || c == '{') && ++depth > kDeepest)
-            return true;
-        else if (!in_string && (c == ']' || c == '}'))
-            --depth;
+public:
+    bool is_too_deep() const { return depth_ > kDeepest; }
+    size_t node_count() const { return node_count_; }
+    const std::vector<std::pair<size_t, size_t>>& parents_and_children() const { return parents_and_children_; }
+
+    bool start_object(size_t) override { return open(); }
+    bool start_array(size_t) override { return open(); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(int64_t) override { return value(); }
+    bool number_float(double, const std::string&) override { return value(); }
+    bool string(std::string&) override { return value(); }
+    bool binary(json::binary_t&) override { return value(); }
+    bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+    bool key(std::string& name) override
+    {
+        if (depth_ == 1)
+            is_in_nodes_ = name == "nodes";
+        else if (depth_ == 3)
+            is_in_children_ = name == "children";
+        return true;
     }
-    return false;
-}
+
+    bool number_unsigned(uint64_t number) override
+    {
+        if (depth_ == 4 && is_in_nodes_ && is_in_children_)
+            parents_and_children_.emplace_back(node_count_ - 1, number);
+        return value();
+    }
+
+private:
+    // Depths: 1 in the root, 2 in its "nodes", 3 in a node, 4 in its "children".
+    bool open()
+    {
+        value();
+        return ++depth_ <= kDeepest;
+    }
+
+    bool close()
+    {
+        --depth_;
+        return true;
+    }
+
+    bool value()
+    {
+        node_count_ += depth_ == 2 && is_in_nodes_;
+        return true;
+    }
+
+    int depth_ = 0;
+    size_t node_count_ = 0;
+    bool is_in_nodes_ = false, is_in_children_ = false;
+    std::vector<std::pair<size_t, size_t>> parents_and_children_;
+};
 
 } // namespace
 
 std::string gltf_fault(const std::string& bytes)
 {
-    const OIIO::string_view text = json_of(bytes);
-    if (is_too_deep(text))
+    NodeReader nodes;
+    const bool is_json = json::sax_parse(json_of(bytes), &nodes);
+    if (nodes.is_too_deep())
         return format("its JSON has brackets more than {} deep", kDeepest);
-    const auto is_of_use = [](int depth, json::parse_event_t event, json& parsed) {
-        return event != json::parse_event_t::key || depth != 1 || parsed == "nodes";
-    };
-    const json root = json::parse(text.begin(), text.end(), is_of_use, false);
-    if (!root.is_object() || !root.contains("nodes") || !root["nodes"].is_array())
+    if (!is_json)
         return "";
-    const json& nodes = root["nodes"];
-    const size_t none = nodes.size();
-    std::vector<size_t> parents(nodes.size(), none);
-    for (size_t parent = 0; parent < nodes.size(); ++parent) {
-        if (!nodes[parent].is_object() || !nodes[parent].contains("children"))
+    const size_t none = nodes.node_count();
+    std::vector<size_t> parents(none, none);
+    for (const auto& [parent, child] : nodes.parents_and_children()) {
+        if (child >= none)
             continue;
-        for (const json& child : nodes[parent]["children"]) {
-            if (!child.is_number_unsigned() || child.get<uint64_t>() >= none)
-                continue;
-            size_t& known = parents[child.get<size_t>()];
-            if (known != none)
-                return format("its node {} is under two others: {} and {}", child.get<size_t>(), known, parent);
-            known = parent;
-        }
+        if (parents[child] != none)
+            return format("its node {} is under two others: {} and {}", child, parents[child], parent);
+        parents[child] = parent;
     }
-    std::vector<size_t> seen_from(nodes.size(), none);
-    for (size_t node = 0; node < nodes.size(); ++node)
+    std::vector<size_t> seen_from(none, none);
+    for (size_t node = 0; node < none; ++node)
         for (size_t up = node; up != none && seen_from[up] == none; up = parents[up]) {
             seen_from[up] = node;
             if (parents[up] != none && seen_from[parents[up]] == node)

@@ -196,7 +196,67 @@ TEST(Geometry, NodesUnderTwoOthers)
               "its node 2 is under two others: 0 and 1");
     EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "its node 0 is under itself");
     EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "its JSON has brackets more than 1000 deep");
+    row.ours("refused, with the node");
+}
+
+TEST(Geometry, AGltfOfAMillionNodes)
+{
+    HardCase row("A glTF of a million nodes, of which none is in the scene");
+    row.naive(
+        "nlohmann-json with a callback that drops what is of no use takes the square of their number, 1 s for 100000");
+    const TemporaryFolder folder;
+    EXPECT_NE(refusal(folder, "a.gltf",
+                      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}],"nodes":[{})"
+                          + OIIO::Strutil::repeat(",{}", 999999) + "]}"),
+              "");
+    row.ours("refused in seconds: it has no mesh");
+}
+
+namespace {
+
+// A triangle under the last of `count` nodes, each of which but the last holds `inner` of the next.
+std::string collada(int count, const std::function<std::string(int next)>& inner)
+{
+    std::string nodes;
+    for (int i = 0; i + 1 < count; ++i)
+        nodes += OIIO::Strutil::fmt::format(R"(<node id="n{}">{}</node>)", i, inner(i + 1));
+    return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">)"
+           R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">)"
+           R"(0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#pa" count="3" stride="3">)"
+           R"(<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>)"
+           R"(</technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)"
+           R"(<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh>)"
+           R"(</geometry></library_geometries><library_nodes>)"
+        + nodes + OIIO::Strutil::fmt::format(R"(<node id="n{}"><instance_geometry url="#g"/></node>)", count - 1)
+        + R"(</library_nodes><library_visual_scenes><visual_scene id="s"><node><instance_node url="#n0"/></node>)"
+          R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+std::string named(int next)
+{
+    return OIIO::Strutil::fmt::format(R"(<instance_node url="#n{}"/>)", next);
+}
+
+} // namespace
+
+TEST(Geometry, ColladaNodesThatNameOthers)
+{
+    HardCase row("A Collada file of 40 nodes, each of which names the next twice; of nodes in a ring; of 500000 deep");
+    EXPECT_GT(std::ldexp(1.0, 40), 1e12);
+    row.naive("assimp puts each in its place: all memory, or no end of recursion");
+    const TemporaryFolder folder;
+    const auto twice = [](int next) { return named(next) + named(next); };
+    Mesh mesh;
+    std::string error;
+    ASSERT_TRUE(read_mesh(mesh, folder.write("a.dae", collada(5, twice)), {}, error)) << error;
+    EXPECT_EQ(mesh.triangles.size(), 16u);
+    ASSERT_TRUE(read_mesh(mesh, folder.write("a.dae", collada(2000, named)), {}, error)) << error;
+    EXPECT_EQ(mesh.triangles.size(), 1u);
+    EXPECT_EQ(refusal(folder, "a.dae", collada(40, twice)), "its nodes name others until they are more than 1000000");
+    EXPECT_EQ(refusal(folder, "a.dae", collada(3, [](int) { return named(0); })), "its node n0 is under itself");
+    EXPECT_EQ(refusal(folder, "a.dae", collada(3, [](int next) { return named((next + 1) % 3 % 2); })),
+              "its node n0 is under itself");
     EXPECT_EQ(refusal(folder, "a.dae", "<COLLADA>" + OIIO::Strutil::repeat("<node>", 500000)),
               "its elements are more than 100000 deep");
-    row.ours("refused, with the node");
+    row.ours("refused, with why");
 }
