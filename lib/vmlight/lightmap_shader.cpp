@@ -44,7 +44,7 @@ void copy_filter(ImageSpec& dst, const ImageSpec& cfem, bool is_filtered)
     }
 }
 
-// Values that are not finite, and packed numbers that are none any more.
+// Values that are not finite, visibilities that are none, and packed numbers that are none any more.
 void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const ShadingModel& model, const float* texels,
                         ShadeFaults& faults)
 {
@@ -57,6 +57,8 @@ void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const ShadingModel& mo
                 const float value = texels[last ? (c + 3) % 4 : c];
                 if (!std::isfinite(value))
                     faults.vismap.add(x, y, c);
+                else if (c == 0 && std::abs(value) > kLargestVisibility)
+                    faults.visibility.add(x, y, c);
                 else if (is_packed_channel(model.channels[size_t(c)])
                          && !(value >= 0 && value < 0x1p24f && value == std::floor(value)))
                     faults.packed.add(x, y, c);
@@ -86,6 +88,7 @@ ImageSpec describe_lightmap(const ImageSpec& vismap, const ImageSpec& cfem, cons
 void ShadeFaults::merge(const ShadeFaults& other)
 {
     vismap.merge(other.vismap);
+    visibility.merge(other.visibility);
     packed.merge(other.packed);
     albedo.merge(other.albedo);
     result.merge(other.result);
@@ -184,6 +187,10 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
         return faults.error;
     if (faults.vismap.any())
         return led_by(vismap_name, faults.vismap.text("visibility map", "not finite", m_model.channels));
+    if (faults.visibility.any())
+        return led_by(
+            vismap_name,
+            faults.visibility.text("visibility map", "too far outside [0, 1] for a visibility", m_model.channels));
     if (faults.packed.any())
         return led_by(vismap_name,
                       faults.packed.text("visibility map",

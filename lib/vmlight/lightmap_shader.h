@@ -26,10 +26,13 @@ OIIO::ImageSpec describe_lightmap(const OIIO::ImageSpec& vismap, const OIIO::Ima
 /// What shading found wrong.
 struct ShadeFaults
 {
-    Faults vismap, packed, albedo, result;
+    Faults vismap, visibility, packed, albedo, result;
     std::string error;
 
-    bool any() const { return vismap.any() || packed.any() || albedo.any() || result.any() || !error.empty(); }
+    bool any() const
+    {
+        return vismap.any() || visibility.any() || packed.any() || albedo.any() || result.any() || !error.empty();
+    }
     void merge(const ShadeFaults& other);
 };
 

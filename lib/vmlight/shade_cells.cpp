@@ -58,7 +58,7 @@ bool light_of(const ShadeSetup& setup, const Sums& sums, const float* n, float v
     const float even = cosine < kLeastCosine ? (kLeastCosine - cosine) * (1 / kLeastCosine) : 0.0f;
     const FourFloats weighted = along + all_four(even) * sums.plain;
     const float gain = v * setup.gain, share = weighted[3] > 0 ? 1 / weighted[3] : 0.0f;
-    bool sound = std::isfinite(gain) && std::isfinite(size);
+    bool sound = std::abs(v) <= kLargestVisibility && std::isfinite(size);
     for (int c = 0; c < 3; ++c) {
         const float mean = light.mean[c] + weighted[c] * share;
         // No mean is beyond what there is; and what is no number stays none, to be found.

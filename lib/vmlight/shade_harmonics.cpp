@@ -21,6 +21,7 @@ bool shade_harmonics(const ShadeSetup& setup, VismapOrder, const float* vismap, 
         }
         if (k < count)
             even += all_four(vismap[k]) * load_four(light + 4 * k);
+        sound &= std::abs(vismap[0]) <= kLargestVisibility;
         const FourFloats sum = all_four(setup.gain) * (even + odd);
         for (int c = 0; c < 3; ++c) {
             sound &= std::isfinite(sum[c]);

@@ -71,7 +71,7 @@ bool shade_paper_scalar(const ShadeSetup& setup, VismapOrder order, const float*
     const CfemLookup& cfem = *setup.cfem;
     const float* r = setup.rotation;
     const float w = float(cfem.width), h = float(cfem.height);
-    const float limit = largest_light(cfem);
+    const float limit = largest_light(cfem, setup.gain);
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += 4, rgb += 3) {
         const bool first = order == VismapOrder::visibility_first;

@@ -42,10 +42,15 @@ struct ShadeSetup
 /// A texel whose direction has no component of this many times its visibility has none: what it sees is symmetric.
 constexpr float kNoDirection = 1e-6f;
 
-/// The largest V gain for which no lookup can leave float's range.
-template <class Lookup> float largest_light(const Lookup& map)
+/// The largest |V| that is still a visibility: a filter that rings makes a little more of [0, 1] than there was, and
+/// what is beyond is another picture, or a map that was graded as if it were one.
+constexpr float kLargestVisibility = 2;
+
+/// The largest V gain that is one's, and for which no lookup can leave float's range.
+template <class Lookup> float largest_light(const Lookup& map, float gain)
 {
-    return 1.7e38f / (map.largest > 1 ? map.largest : 1.0f);
+    const float in_range = 1.7e38f / (map.largest > 1 ? map.largest : 1.0f);
+    return in_range < kLargestVisibility * gain ? in_range : kLargestVisibility * gain;
 }
 
 /// Shade `texels` texels by the model `paper`: gain V C(R B / |B|). 0 where V <= 0; where there is light but no
@@ -53,8 +58,8 @@ template <class Lookup> float largest_light(const Lookup& map)
 ///
 /// @param vismap   four floats a texel
 /// @param rgb      three floats a texel; may not overlap `vismap`
-/// @returns false if an input may not have been finite or a result may be out of float's range: the caller looks
-///          closer. Never reads or writes outside its arrays, whatever the input.
+/// @returns false if an input may not have been finite, |V| is above kLargestVisibility, or a result may be out of
+///          float's range: the caller looks closer. Never reads or writes outside its arrays, whatever the input.
 using ShadeTexels
     = bool (*)(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb);
 VMLIGHT_API bool shade_paper(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels,

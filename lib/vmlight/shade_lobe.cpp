@@ -83,7 +83,7 @@ bool shade_lobe_scalar(const ShadeSetup& setup, VismapOrder order, const float* 
     const LobeLookup& lobes = *setup.lobes;
     const float* r = setup.rotation;
     const float w = float(lobes.width), h = float(lobes.height);
-    const float limit = largest_light(lobes);
+    const float limit = largest_light(lobes, setup.gain);
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += 4, rgb += 3) {
         const bool first = order == VismapOrder::visibility_first;

@@ -54,7 +54,7 @@ struct Light
         , height(lookup.height)
         , pitch(lookup.pitch)
         , gain(setup.gain)
-        , limit(largest_light(lookup))
+        , limit(largest_light(lookup, setup.gain))
     {
         std::copy_n(setup.rotation, 9, rotation);
     }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightmap_scene.h"
+#include "scenes.h"
+#include "stack_maps.h"
+
+#include <vmlight/vismap.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -59,6 +62,34 @@ TEST(LightmapRefusal, PixelsThatAreNotFiniteAreCountedAndTheFirstIsTold)
     const ImageBuf small = with_value(random_cfem(9, 9), 7, 3, 1, NAN);
     EXPECT_EQ(refusal(kVismap, kCfem, {}, &small),
               "albedo has 1 value that is negative or not finite, at pixel (7, 3) channel \"G\"");
+}
+
+TEST(LightmapRefusal, AVisibilityThatIsNoneIsRefusedByEveryModel)
+{
+    const std::vector<ImageBuf> light = filtered_stack(random_cfem(16, 8), 16);
+    for (const char* model : { "paper", "lobe", "ao", "sh", "mask", "cells" }) {
+        SCOPED_TRACE(model);
+        VismapParams bake;
+        bake.resolution = { 8, 8 };
+        bake.samples = 4;
+        bake.channels = { "normal" };
+        for (const char* basis : { "sh", "mask", "cells" })
+            if (basis == std::string(model))
+                bake.basis = basis;
+        ImageBuf baked;
+        ASSERT_TRUE(make_vismap(baked, scenes::floor_facing_z(1), {}, bake)) << baked.geterror();
+        LightmapParams params;
+        params.model = model;
+        ImageBuf dst;
+        for (float rung : { -2.0f, -0.3f, 1.3f, 2.0f })
+            EXPECT_TRUE(make_lightmap(dst, with_value(baked, 3, 2, 0, rung), light, params)) << dst.geterror();
+        for (float none : { -2.1f, 2.1f, 255.0f, 1e30f }) {
+            EXPECT_FALSE(make_lightmap(dst, with_value(baked, 3, 2, 0, none), light, params));
+            EXPECT_EQ(dst.geterror(),
+                      "visibility map has 1 value that is too far outside [0, 1] for a visibility, at pixel (3, 2) "
+                      "channel \"visibility\"");
+        }
+    }
 }
 
 TEST(LightmapRefusal, AResultTooLargeForFloatIsRefused)
