@@ -3,6 +3,8 @@
 /// done under a lock, which whoever takes the work takes first. In other builds nothing is done.
 #pragma once
 
+#include <vmlight/sanitizers.h>
+
 #include <mutex>
 
 namespace vmlight {

@@ -201,9 +201,10 @@ class Cost(Case):
         self.assertNotIn("reused the reference", self.cost("checker.exr", *SMALL))
         self.assertEqual(self.read("report/" + reference), traced)
 
+    CUT_SHORT = ["--quick", "--resolution", "64", "--reference-samples", "16", "--no-plots"]
+
     def interrupted(self, number):
-        words = [os.path.join(BIN, "vmcost"), "step.obj", "checker.exr", "-o", "report", "--quick",
-                 "--reference-samples", "16", "--no-plots", "--quiet"]
+        words = [os.path.join(BIN, "vmcost"), "step.obj", "checker.exr", "-o", "report", *self.CUT_SHORT, "--quiet"]
         process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.PIPE, text=True)
         journal = self.path("report/journal.jsonl")
         until = time.monotonic() + 60
@@ -227,7 +228,7 @@ class Cost(Case):
         self.assertEqual(code, -signal.SIGKILL)
         with open(self.path("report/journal.jsonl"), "ab") as journal:
             journal.write(b'{"key": "torn", "environment": "che')
-        out = self.cost("checker.exr", "--quick", "--reference-samples", "16", "--no-plots")
+        out = self.cost("checker.exr", *self.CUT_SHORT)
         self.assertIn("checker: reused the reference", out)
         self.assertGreaterEqual(self.reused, kept)
         self.assertGreater(self.measured, 0)

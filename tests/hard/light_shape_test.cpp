@@ -7,6 +7,7 @@
 #include "temporary_folder.h"
 
 #include <vmlight/make_stage.h>
+#include <vmlight/sanitizers.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>

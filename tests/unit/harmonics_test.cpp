@@ -14,7 +14,7 @@ using Imath::V3d;
 
 namespace {
 
-constexpr int kOrder = Harmonics::kLargestOrder, kCount = kOrder * kOrder;
+constexpr int kOrder = Harmonics::kLargestOrder;
 
 // Y_lm of one direction.
 std::vector<double> harmonics_at(const V3d& w, int order = kOrder)

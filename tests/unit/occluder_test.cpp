@@ -164,21 +164,31 @@ TEST(Occluder, OriginsAreOffTheSurfaceByWhatTheirNamesSay)
 
 TEST(Occluder, NearASurfaceTheSideOfItIsWorkedOutInDouble)
 {
-    // Long slivers, whose normal is mostly rounding in float.
+    // Long slivers, whose plane is mostly rounding in float, and rays of all directions.
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> in(-1, 1);
+    const auto any = [&random] { // a loop, since compilers differ in which argument they see to first
+        std::uniform_real_distribution<double> in(-1, 1);
+        V3d v;
+        for (int axis = 0; axis < 3; ++axis)
+            v[axis] = in(random);
+        return v;
+    };
     int wrong_in_float = 0;
-    for (int run = 0; run < 2000; ++run) {
+    for (int run = 0; run < 3000; ++run) {
         Mesh mesh;
-        const V3d a(in(random), in(random), in(random)), b(in(random), in(random), in(random));
-        add_quad(mesh, a, b, b + V3d(in(random), in(random), in(random)) * std::pow(10.0, -5 * std::abs(in(random))),
-                 a);
+        const V3d a = any(), b = any(), side = any();
+        add_quad(mesh, a, b, b + side * std::pow(10.0, -7 * std::abs(any().x)), a);
         const SceneFrame frame;
         const SurfacePoint point = Surface(mesh, frame).at(0, 0.3f, 0.6f);
         const Scene scene({ mesh }, frame);
-        EXPECT_FALSE(scene.blocked(point.near_origin, point.geometric_normal, kNoLimit, true)) << run;
-        wrong_in_float += scene.blocked(point.near_origin, point.geometric_normal);
-        EXPECT_FALSE(scene.blocked(point.origin, point.geometric_normal)) << run;
+        for (int ray = 0; ray < 8; ++ray) {
+            V3f direction(any().normalized());
+            if (direction.dot(point.geometric_normal) < 0)
+                direction = -direction;
+            EXPECT_FALSE(scene.blocked(point.near_origin, direction, kNoLimit, true)) << run;
+            wrong_in_float += scene.blocked(point.near_origin, direction);
+            EXPECT_FALSE(scene.blocked(point.origin, direction)) << run;
+        }
     }
     EXPECT_GT(wrong_in_float, 0);
 }
