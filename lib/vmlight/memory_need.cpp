@@ -46,31 +46,41 @@ int64_t free_swap(const std::string& root)
     return 1024 * number_after(read_text(root + "/proc/meminfo"), "SwapFree:", 0);
 }
 
-int64_t left_by_machine(const std::string& root)
+int64_t left_by_machine(const std::string& root, int64_t swap)
 {
     const int64_t kilobytes = number_after(read_text(root + "/proc/meminfo"), "MemAvailable:", -1);
-    return kilobytes < 0 ? kUnknown : 1024 * kilobytes;
+    return kilobytes < 0 ? kUnknown : 1024 * kilobytes + swap;
 }
 
-// What the group and those around it leave. `folder` is where their hierarchy is mounted, `group` the path in it.
-int64_t left_by_groups(const std::string& folder, std::string group, const char* limit_file, const char* usage_file,
-                       const char* cache)
+// What a version of control groups calls its files, and lines of memory.stat.
+struct GroupFiles
+{
+    const char *limit, *usage, *cache, *shared;
+};
+constexpr GroupFiles kFirst { "memory.limit_in_bytes", "memory.usage_in_bytes", "total_cache ", "total_shmem " };
+constexpr GroupFiles kSecond { "memory.max", "memory.current", "file ", "shmem " };
+
+// What the group and those around it leave, of which each may use no more swap than `swap`. `folder` is where their
+// hierarchy is mounted, `group` the path in it.
+int64_t left_by_groups(const std::string& folder, std::string group, const GroupFiles& files, int64_t swap)
 {
     int64_t left = kUnknown;
     for (;;) {
-        const std::string at = folder + group;
-        const int64_t limit = number_after(read_text(at + "/" + limit_file), "", kUnknown);
-        const int64_t used = number_after(read_text(at + "/" + usage_file), "", 0);
-        const int64_t files = number_after(read_text(at + "/memory.stat"), cache, 0);
+        const std::string at = folder + group + "/", stat = read_text(at + "memory.stat");
+        const int64_t limit = number_after(read_text(at + files.limit), "", kUnknown);
+        const int64_t used = number_after(read_text(at + files.usage), "", 0);
+        // Files of a tmpfs are counted as files, but stay.
+        const int64_t cache = number_after(stat, files.cache, 0) - number_after(stat, files.shared, 0);
+        const int64_t own_swap = number_after(read_text(at + "memory.swap.max"), "", swap);
         if (limit != kUnknown)
-            left = std::min(left, std::max<int64_t>(0, limit - used + files));
+            left = std::min(left, std::max<int64_t>(0, limit - used + cache) + std::min(swap, own_swap));
         if (group.empty() || group == "/")
             return left;
         group.erase(group.rfind('/'));
     }
 }
 
-int64_t left_by_groups(const std::string& root)
+int64_t left_by_groups(const std::string& root, int64_t swap)
 {
     int64_t left = kUnknown;
     const std::string groups = root + "/sys/fs/cgroup";
@@ -80,11 +90,9 @@ int64_t left_by_groups(const std::string& root)
             continue;
         const std::vector<std::string> controllers = splits(parts[1], ",");
         if (parts[1].empty())
-            left = std::min(left, left_by_groups(groups, parts[2], "memory.max", "memory.current", "file "));
+            left = std::min(left, left_by_groups(groups, parts[2], kSecond, swap));
         else if (std::find(controllers.begin(), controllers.end(), "memory") != controllers.end())
-            left = std::min(left,
-                            left_by_groups(groups + "/memory", parts[2], "memory.limit_in_bytes",
-                                           "memory.usage_in_bytes", "total_cache "));
+            left = std::min(left, left_by_groups(groups + "/memory", parts[2], kFirst, swap));
     }
     return left;
 }
@@ -104,17 +112,12 @@ int64_t left_by_limits(const std::string& root)
                     left_by_limit(RLIMIT_DATA, 1024 * number_after(status, "VmData:", 0)));
 }
 
-int64_t plus_swap(int64_t left, int64_t swap)
-{
-    return left == kUnknown ? left : left + swap;
-}
-
 } // namespace
 
 int64_t available_memory(const std::string& root)
 {
-    const int64_t shared = std::min(left_by_machine(root), left_by_groups(root));
-    return std::min(plus_swap(shared, free_swap(root)), left_by_limits(root));
+    const int64_t swap = free_swap(root);
+    return std::min({ left_by_machine(root, swap), left_by_groups(root, swap), left_by_limits(root) });
 }
 
 std::string memory_fault(const OIIO::ImageSpec& spec)

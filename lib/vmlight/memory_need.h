@@ -13,8 +13,9 @@
 namespace vmlight {
 
 /// Bytes that this process could get at most: what the machine, each control group (of either version) that the process
-/// is in, and its own limits (RLIMIT_AS, RLIMIT_DATA) leave, whichever is least. Files that the system keeps in memory,
-/// and swap, count as free. The largest number where nothing tells.
+/// is in, and its own limits (RLIMIT_AS, RLIMIT_DATA) leave, whichever is least. Files that the system keeps in memory
+/// count as free, and so does free swap, as much as a group (of the second version) may have of it. The largest number
+/// where nothing tells.
 ///
 /// @param root     of /proc and /sys
 VMLIGHT_API int64_t available_memory(const std::string& root = "");

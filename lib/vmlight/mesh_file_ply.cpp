@@ -7,6 +7,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace vmlight {
@@ -228,7 +229,7 @@ std::string read_property(Body& body, const Element& element, const Property& pr
     for (double i = 0; i < count; ++i) {
         if (!body.read(*property.type, value))
             return cut();
-        if (is_corners && !(value >= 0 && value < vertices))
+        if (is_corners && !(value >= 0 && value < vertices && value == std::floor(value)))
             return format("its PLY face {} has vertex {}, of {}", row, value, vertices);
     }
     return "";

@@ -219,8 +219,8 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
     // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).
     for (int i = 0; i < kTileSize * kTileSize / 8; ++i) {
         const int block = i / 8, left = block % 8 * 8, y = block / 8 * 8 + i % 8;
-        std::array<SurfacePoint, 8> points;
-        std::array<int, 8> columns;
+        std::array<SurfacePoint, kPacketSize> points;
+        std::array<int, kPacketSize> columns;
         int count = 0;
         for (int x = left; x < left + 8; ++x) {
             const size_t texel = size_t(y) * kTileSize + x;

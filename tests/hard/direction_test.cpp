@@ -57,6 +57,25 @@ TEST(Arithmetic, ATexelThatSeesNothing)
     row.ours("0");
 }
 
+TEST(Arithmetic, VisibilitiesThatAreNone)
+{
+    HardCase row("V of -3, 2.1 or 255: a map that was graded, stored as whole numbers, or another picture");
+    const auto stack = scene::random_stack(16, 8);
+    row.naive("255 times the light, exit code 0");
+    for (const char* name : { "paper", "lobe" }) {
+        for (float v : { -3.0f, 2.1f, 255.0f, 1e30f }) {
+            OIIO::ImageBuf dst;
+            EXPECT_FALSE(make_lightmap(dst, one_texel(v, V3f(0, 0.6f, 0)), stack, model(name)));
+            EXPECT_NE(dst.geterror().find("too far outside [0, 1] for a visibility, at pixel (0, 0)"),
+                      std::string::npos);
+        }
+        const V3f light = color(lit(one_texel(1, V3f(0, 1.0f / 3, 0)), stack, model(name)));
+        const V3f rung = color(lit(one_texel(1.2f, V3f(0, 0.4f, 0)), stack, model(name))); // by a filter
+        EXPECT_LT((rung - 1.2f * light).length(), 1e-5f * light.length());
+    }
+    row.ours("refused beyond [-2, 2], with the place; what a filter rang is lit");
+}
+
 TEST(Arithmetic, LookupsWhereTheMapEnds)
 {
     HardCase row("A lookup exactly at a pole, on the seam, at the corners of texels, with directions of any length");

@@ -43,6 +43,7 @@ TEST(Geometry, PlyFacesOfVerticesThatAreNot)
     EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 2")), "");
     EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 3")), "its PLY face 0 has vertex 3, of 3");
     EXPECT_EQ(refusal(folder, "a.ply", ply(2, "3 0 1 2\n3 0 -1 2")), "its PLY face 1 has vertex -1, of 3");
+    EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 1.5")), "its PLY face 0 has vertex 1.5, of 3");
     EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 2000000000")), "its PLY face 0 has vertex 2000000000, of 3");
     for (const char* format : { "binary_little_endian", "binary_big_endian" }) {
         Mesh mesh = floor_facing_z(1);

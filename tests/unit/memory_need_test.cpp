@@ -48,6 +48,11 @@ TEST(MemoryNeed, IsWhatTheLeastOfTheGroupsAroundItLeaves)
     EXPECT_EQ(available_memory(root / ""), 2 * kMebi);
     write(root, "sys/fs/cgroup/farm/memory.stat", "anon 7\nfile_mapped 9\nfile 1048576\n");
     EXPECT_EQ(available_memory(root / ""), 3 * kMebi);
+    write(root, "sys/fs/cgroup/farm/memory.stat", "anon 7\nfile_mapped 9\nfile 1048576\nshmem 524288\n");
+    EXPECT_EQ(available_memory(root / ""), 5 * kMebi / 2) << "files of a tmpfs stay";
+    write(root, "sys/fs/cgroup/farm/memory.swap.max", "0\n");
+    EXPECT_EQ(available_memory(root / ""), 3 * kMebi / 2) << "the machine's swap is not for this group";
+    write(root, "sys/fs/cgroup/farm/memory.swap.max", "max\n");
     write(root, "sys/fs/cgroup/farm/memory.current", "99999999\n");
     EXPECT_EQ(available_memory(root / ""), kMebi) << "more than the limit";
 }
