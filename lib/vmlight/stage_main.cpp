@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage_main.h>
 
+#include <vmlight/command_line.h>
 #include <vmlight/image_file.h>
 #include <vmlight/interrupt.h>
 #include <vmlight/output_file.h>
@@ -9,11 +10,11 @@
 #include <vmlight/utf8.h>
 #include <vmlight/words.h>
 
-#include <OpenImageIO/argparse.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
@@ -22,17 +23,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
-
-std::string flag_of(const std::string& name)
-{
-    return name.size() == 1 ? "-" + name : "--" + OIIO::Strutil::replace(name, "_", "-", true);
-}
-
-struct Option
-{
-    std::string heading, name, metavar, help;
-    StageMain::Take take;
-};
 
 struct FormatParams
 {
@@ -60,10 +50,7 @@ struct RunParams
 
 struct StageMain::State
 {
-    std::string name, purpose, example;
-    std::vector<std::string> operand_names, operands;
-    std::vector<Option> options;
-    std::vector<std::pair<const Option*, std::string>> given;
+    CommandLine line;
     RecipeDoor door { "", {}, {}, {}, [] { return std::string(); }, {}, [](const auto&) { return std::string(); } };
     std::vector<std::function<std::string()>> checks;
     bool prints_recipe = false;
@@ -75,23 +62,8 @@ struct StageMain::State
     void message(const char* kind, const std::string& text) const
     {
         end_progress_line();
-        std::fprintf(stderr, "%s %s: %s\n", name.c_str(), kind, one_line(text).c_str());
+        std::fprintf(stderr, "%s %s: %s\n", line.name.c_str(), kind, one_line(text).c_str());
     }
-    std::vector<std::string> flags() const
-    {
-        std::vector<std::string> all { "--help", "--version" };
-        for (const Option& option : options)
-            all.push_back(flag_of(option.name));
-        return all;
-    }
-    bool split_arguments(int argc, const char** argv, std::vector<std::string>& words, std::string& error) const;
-    bool parse(const std::vector<std::string>& words, bool& helped, std::string& error);
-    bool given_recipe() const
-    {
-        return !door.stage.empty() && !operands.empty() && recipe_stage(operands[0]) == door.stage;
-    }
-    bool takes_more() const { return OIIO::Strutil::ends_with(operand_names.back(), "..."); }
-    const char* metavar() const { return kind == OutputKind::Folder ? "FOLDER" : "OUTPUT.exr"; }
     std::string output_name_fault() const
     {
         return kind == OutputKind::Folder ? "" : vmlight::output_name_fault(output);
@@ -104,90 +76,11 @@ struct StageMain::State
     Exit settle(int argc, const char** argv, bool& helped, std::string& error);
 };
 
-// ArgParse takes neither --flag=value nor tells an unknown flag from a missing one's nearest name: both are done first.
-bool StageMain::State::split_arguments(int argc, const char** argv, std::vector<std::string>& words,
-                                       std::string& error) const
-{
-    const std::vector<std::string> known = flags();
-    words.push_back(argc > 0 ? argv[0] : name);
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (word.size() < 2 || word[0] != '-') {
-            words.push_back(word);
-            continue;
-        }
-        const size_t equals = word.find('=');
-        const std::string flag = word.substr(0, equals);
-        if (std::find(known.begin(), known.end(), flag) == known.end()) {
-            const std::string near = nearest_name(flag, known);
-            error = format("unknown flag \"{}\"{}", flag, near.empty() ? "" : format("; did you mean {}?", near));
-            return false;
-        }
-        words.push_back(flag);
-        if (equals != std::string::npos)
-            words.push_back(word.substr(equals + 1));
-        for (const Option& option : options) {
-            const bool takes_value = !option.metavar.empty();
-            if (flag_of(option.name) != flag || (!takes_value && equals == std::string::npos))
-                continue;
-            if (!takes_value) {
-                error = format("{} takes no value", flag);
-                return false;
-            }
-            if (equals == std::string::npos && i + 1 < argc)
-                words.push_back(argv[++i]); // as it is, though it may begin with '-'
-        }
-    }
-    return true;
-}
-
-bool StageMain::State::parse(const std::vector<std::string>& words, bool& helped, std::string& error)
-{
-    OIIO::ArgParse parser;
-    parser.intro(format("{}: {}\n(vmlight {})", name, purpose, VMLIGHT_VERSION));
-    std::string usage = format("{} {} -o {} [options]", name, OIIO::Strutil::join(operand_names, " "), metavar());
-    if (!door.stage.empty())
-        usage += format("\n       {} RECIPE.{} -o {} [options]", name, door.stage, metavar());
-    parser.usage(usage);
-    parser.epilog(format("Example:\n{}\nExit code 0: done, 1: the work failed, 2: wrong usage.\n", example));
-    parser.exit_on_error(false);
-    parser.add_help(true);
-    parser.add_version(VMLIGHT_VERSION);
-    parser.arg("operand").hidden().action([&](OIIO::cspan<const char*> argv) { operands.push_back(argv[0]); });
-    std::string heading;
-    for (const Option& option : options) {
-        if (option.heading != heading)
-            parser.separator(heading = option.heading);
-        const std::string flag = flag_of(option.name);
-        // Metavars follow a colon and end at the next blank.
-        const std::string metavar = OIIO::Strutil::replace(option.metavar, " ", "_", true);
-        parser.arg((option.metavar.empty() ? flag : flag + " %s:" + metavar).c_str())
-            .help(option.help)
-            .action([this, &option](OIIO::cspan<const char*> argv) {
-                given.emplace_back(&option, argv.size() > 1 ? argv[1] : "true");
-            });
-    }
-    std::vector<const char*> pointers;
-    for (const std::string& word : words)
-        pointers.push_back(word.c_str());
-    const int result = parser.parse_args(int(pointers.size()), pointers.data());
-    helped = parser.aborted();
-    if (helped)
-        return true;
-    const size_t wanted = given_recipe() ? 1 : operand_names.size();
-    if (result < 0)
-        error = parser.geterror();
-    else if (operands.size() < wanted || (operands.size() > wanted && !takes_more()))
-        error = operands.size() < wanted ? format("{} is missing", operand_names[operands.size()])
-                                         : format("\"{}\" is one argument too many", operands[wanted]);
-    return error.empty();
-}
-
 // What a recipe cannot hold.
 std::string StageMain::State::unsaid() const
 {
-    std::vector<std::string> texts = operands;
-    for (const auto& [option, text] : given)
+    std::vector<std::string> texts = line.operands;
+    for (const auto& [option, text] : line.given)
         texts.push_back(text);
     for (const std::string& text : texts)
         if (!is_utf8(text))
@@ -198,33 +91,32 @@ std::string StageMain::State::unsaid() const
 // The recipe or the operands first, then the flags, which override them.
 Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::string& error)
 {
-    std::vector<std::string> words;
-    if (!split_arguments(argc, argv, words, error) || !parse(words, helped, error))
+    if (!line.parse(argc, argv, helped, error))
         return Exit::Usage;
     if (helped)
         return Exit::Done;
-    if (given_recipe() && has_udim(recipe_path(operands[0]))) {
-        error = format("\"{}\": one recipe makes all tiles: <UDIM> goes into the paths within it", operands[0]);
+    if (line.given_recipe() && has_udim(recipe_path(line.operands[0]))) {
+        error = format("\"{}\": one recipe makes all tiles: <UDIM> goes into the paths within it", line.operands[0]);
         return Exit::Usage;
     }
     std::string fault_of_file; // the work tells it, with its line
-    if (given_recipe()) {
-        if (!door.read(operands[0], error))
+    if (line.given_recipe()) {
+        if (!door.read(line.operands[0], error))
             return Exit::Failed;
         fault_of_file = door.fault();
     } else if (door.fill) {
-        door.fill(operands);
+        door.fill(line.operands);
     }
-    for (const auto& [option, text] : given)
+    for (const auto& [option, text] : line.given)
         if (!option->take(text, error))
             return Exit::Usage;
     if (prints_recipe)
         error = unsaid();
     if (!prints_recipe)
-        error = output.empty() ? format("-o {} is missing", metavar()) : output_name_fault();
+        error = output.empty() ? format("-o {} is missing", line.output_metavar) : output_name_fault();
     if (error.empty() && door.fault() != fault_of_file)
         error = door.fault();
-    for (const auto& [option, text] : given)
+    for (const auto& [option, text] : line.given)
         if (const std::string reason = door.unused(option->name); error.empty() && !reason.empty())
             error = format("{}{}: {}", flag_of(option->name), option->metavar.empty() ? "" : " " + text, reason);
     for (const auto& check : checks)
@@ -237,13 +129,15 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
                      OutputKind output)
     : m_state(std::make_unique<State>())
 {
-    m_state->name = std::move(name);
-    m_state->purpose = std::move(purpose);
-    m_state->operand_names = std::move(operands);
-    m_state->example = std::move(example);
+    CommandLine& line = m_state->line;
+    line.name = std::move(name);
+    line.purpose = std::move(purpose);
+    line.operand_names = std::move(operands);
+    line.example = std::move(example);
+    line.output_metavar = output == OutputKind::Folder ? "FOLDER" : "OUTPUT.exr";
     m_state->kind = output;
     group("Output:");
-    option("o", m_state->metavar(), output == OutputKind::Folder ? "The folder to write to" : "The image to write",
+    option("o", line.output_metavar, output == OutputKind::Folder ? "The folder to write to" : "The image to write",
            m_state->output);
     if (output == OutputKind::Image)
         params("Output:", m_state->file);
@@ -254,16 +148,17 @@ StageMain::~StageMain() = default;
 
 bool StageMain::has_option(const std::string& name) const
 {
-    return std::any_of(m_state->options.begin(), m_state->options.end(),
-                       [&](const Option& option) { return option.name == name; });
+    return std::any_of(m_state->line.options.begin(), m_state->line.options.end(),
+                       [&](const CommandLine::Option& option) { return option.name == name; });
 }
 
 void StageMain::take_recipe(RecipeDoor door)
 {
+    m_state->line.stage = door.stage;
     m_state->door = std::move(door);
     const auto take = [this](OIIO::string_view, std::string&) { return m_state->prints_recipe = true; };
-    m_state->options.insert(
-        m_state->options.begin() + 1,
+    m_state->line.options.insert(
+        m_state->line.options.begin() + 1,
         { "Output:", "print_recipe", "", "Write the recipe of this command line to stdout, and do no more", take });
 }
 
@@ -274,7 +169,7 @@ void StageMain::group(const std::string& heading)
 
 void StageMain::option(const std::string& name, const std::string& metavar, const std::string& help, Take take)
 {
-    m_state->options.push_back({ m_state->heading, name, metavar, help, std::move(take) });
+    m_state->line.options.push_back({ m_state->heading, name, metavar, help, std::move(take) });
 }
 
 void StageMain::option(const std::string& name, const std::string& metavar, const std::string& help, std::string& dst)
@@ -312,7 +207,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         } else if (exit == Exit::Done && !helped) {
             if (state.common.threads > 0)
                 OIIO::attribute("threads", state.common.threads);
-            catch_interrupts(state.name, int(Exit::Failed));
+            catch_interrupts(state.line.name, int(Exit::Failed));
             exit = Exit::Failed;
             if (!has_udim(state.output)) // else each tile's file is looked at
                 error = state.output_fault();
@@ -333,7 +228,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         error = exception.what();
     }
     if (exit != Exit::Done)
-        state.message("ERROR", exit == Exit::Usage ? error + " (see " + state.name + " --help)" : error);
+        state.message("ERROR", exit == Exit::Usage ? error + " (see " + state.line.name + " --help)" : error);
     return int(exit);
 }
 
@@ -349,14 +244,14 @@ const std::string& StageMain::output() const
 
 const std::vector<std::string>& StageMain::operands() const
 {
-    return m_state->operands;
+    return m_state->line.operands;
 }
 
 MakeOptions StageMain::make_options()
 {
     MakeOptions options;
-    if (m_state->given_recipe())
-        options.chain.push_back(m_state->operands[0]);
+    if (m_state->line.given_recipe())
+        options.chain.push_back(m_state->line.operands[0]);
     options.threads = m_state->common.threads;
     options.progress = [this](const std::string& step, int64_t texels) { return progress(step, texels); };
     options.say = [this](const std::string& line) { say(line); };
