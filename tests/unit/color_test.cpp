@@ -1,80 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/color.h>
+// Light from one space to another, the configs that do it, and the tags it leaves. Which space an image is in:
+// color_space_test.cpp.
+#include "color_case.h"
 
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
-using namespace vmlight;
-using OIIO::ImageBuf;
-using OIIO::ImageSpec;
-
-namespace {
-
-const std::string kConfig = VMLIGHT_TEST_OCIO;
-
-// The caller's $OCIO is put back after each test.
-class Color : public testing::Test
-{
-protected:
-    Color()
-        : m_had(std::getenv("OCIO") != nullptr)
-        , m_old(m_had ? std::getenv("OCIO") : "")
-    {
-        unsetenv("OCIO");
-    }
-    ~Color() override
-    {
-        if (m_had)
-            setenv("OCIO", m_old.c_str(), 1);
-        else
-            unsetenv("OCIO");
-    }
-
-    // Converts, and keeps what was said.
-    bool convert(ImageBuf& image, const std::string& path, const ColorSettings& settings)
-    {
-        note.clear();
-        error.clear();
-        return to_scene_linear(image, path, settings, note, error);
-    }
-    // The note, or the error, for a small image of `path`.
-    std::string said(const std::string& path, const ColorSettings& settings, OIIO::TypeDesc format = OIIO::TypeFloat)
-    {
-        ImageBuf image = flat({ 0.8f, 0.2f, 0.1f }, format);
-        return convert(image, path, settings) ? note : "ERROR " + error;
-    }
-
-    static ImageBuf flat(const std::vector<float>& pixel, OIIO::TypeDesc format = OIIO::TypeFloat, int size = 3)
-    {
-        ImageBuf image(ImageSpec(size, size, int(pixel.size()), format));
-        OIIO::ImageBufAlgo::fill(image, pixel);
-        return image;
-    }
-    static void expect_pixel(const ImageBuf& image, const std::vector<float>& expected, float tolerance)
-    {
-        std::vector<float> pixel(image.nchannels());
-        image.getpixel(1, 1, pixel.data(), image.nchannels());
-        ASSERT_EQ(pixel.size(), expected.size());
-        for (size_t c = 0; c < expected.size(); ++c)
-            EXPECT_NEAR(pixel[c], expected[c], tolerance) << "channel " << c;
-    }
-    static std::string id_of(const ImageBuf& image) { return image.spec().get_string_attribute("colorInteropID"); }
-
-    std::string note, error;
-
-private:
-    bool m_had;
-    std::string m_old;
-};
-
-} // namespace
+using namespace color_case;
 
 // The columns of the matrix from Rec.709 (D65) to AP1 (D60) through Bradford's adaptation; each row sums to 1.
 TEST_F(Color, LinearRec709GoesToAcescgByTheKnownMatrix)
@@ -123,92 +59,6 @@ TEST_F(Color, TheSameLightInTwoSpacesIsTheSameAfterwards)
     const auto difference = OIIO::ImageBufAlgo::compare(rec709, again, 1e-4f, 1e-4f);
     EXPECT_LE(difference.maxerror, 1e-4);
     EXPECT_EQ(id_of(rec709), id_of(again));
-}
-
-TEST_F(Color, FileRulesNameTheSpace)
-{
-    const ColorSettings settings { kConfig, "" };
-    const char *data = "Raw is data, used as ACEScg unchanged", *rec709 = "Linear Rec.709 (sRGB) -> ACEScg",
-               *srgb = "sRGB - Texture -> ACEScg", *acescg = "ACEScg, unchanged";
-    const std::vector<std::pair<const char*, const char*>> rules {
-        { "spot_vismap.exr", data },
-        { "/show/spot.vismap", data },
-        { "spot.vismap?samples=64", data },
-        { "hero_vm.exr", data },
-        { "/a/b/hero_vm.1001.exr", data },
-        { "hero_vm.<UDIM>.exr", data },
-        { "hero_vm_u1_v1.tx", data },
-        { "hero_vm.####.tif", data },
-        { "hero_vm.%04d.exr", data },
-        { "hero_vmlit.1001.exr", acescg },
-        { "sky.cfem", acescg },
-        { "hero.lightmap?vismap=hero_vm.exr", acescg },
-        { "/show/vismap/sky.exr", acescg },
-        { "/show/raw/sky.exr", acescg },
-        { "SKY.EXR", acescg },
-        { "sky.hdr", rec709 },
-        { "sky.HDR", rec709 },
-        { "sky_lin_rec709.exr", rec709 },
-        { "sky_ACEScg.hdr", acescg },
-        { "sky_lin_ap0_scene.exr", "ACES2065-1 -> ACEScg" },
-        { "paint.png", srgb },
-        { "paint.jpg", srgb },
-        { "paint.JPEG", srgb },
-        { "paint.tga", srgb },
-        { "paint.bmp", srgb },
-        { "paint_srgb.tif", srgb },
-        { "paint_acescg.tif", acescg },
-    };
-    for (auto& [path, expected] : rules)
-        EXPECT_EQ(said(path, settings), expected) << path;
-}
-
-// OIIO 2.4 finds the space Raw in "drawing.tif", and in every file of a folder of that name.
-TEST_F(Color, ANameInsideAWordOrAFolderSaysNothing)
-{
-    for (const char* path : { "drawing.tif", "/show/raw/paint.tif", "/show/acescg.old/paint.tif", "strawberry.tif" }) {
-        EXPECT_EQ(said(path, { kConfig, "" }, OIIO::TypeUInt8), "sRGB - Texture -> ACEScg") << path;
-        EXPECT_EQ(said(path, { kConfig, "" }), "ACEScg, unchanged") << path;
-    }
-}
-
-TEST_F(Color, WithoutARuleTheTagDecidesAndThenTheType)
-{
-    ImageBuf image = flat({ 0.5f, 0.5f, 0.5f });
-    image.specmod().attribute("colorInteropID", "lin_ap0_scene");
-    ASSERT_TRUE(convert(image, "sky.tif", { kConfig, "" })) << error;
-    EXPECT_EQ(note, "ACES2065-1 -> ACEScg");
-
-    // What OIIO 2.4 stamps on every EXR means nothing.
-    ImageBuf stamped = flat({ 0.5f, 0.25f, 0.125f });
-    stamped.specmod().attribute("oiio:ColorSpace", "Linear");
-    ASSERT_TRUE(convert(stamped, "sky.tif", { kConfig, "" })) << error;
-    EXPECT_EQ(note, "ACEScg, unchanged");
-    EXPECT_EQ(stamped.spec().get_string_attribute("oiio:ColorSpace"), "");
-
-    EXPECT_EQ(said("paint.tif", { kConfig, "" }, OIIO::TypeUInt16), "sRGB - Texture -> ACEScg");
-    EXPECT_EQ(said("paint.tif", { kConfig, "" }, OIIO::TypeHalf), "ACEScg, unchanged");
-    // A rule comes before the tag, and what is asked for before both.
-    ImageBuf asked = flat({ 0.5f, 0.5f, 0.5f });
-    asked.specmod().attribute("colorInteropID", "lin_ap0_scene");
-    ASSERT_TRUE(convert(asked, "sky.hdr", { kConfig, "texture_paint" })) << error;
-    EXPECT_EQ(note, "sRGB - Texture -> ACEScg");
-}
-
-TEST_F(Color, AFileKeepsItsWholeNumbersInMind)
-{
-    const std::string path = testing::TempDir() + "vmlight_color_test.tif";
-    ASSERT_TRUE(flat({ 0.8f, 0.2f, 0.1f }, OIIO::TypeUInt8).write(path));
-    ImageBuf image(path);
-    ASSERT_TRUE(image.read(0, 0, true, OIIO::TypeFloat));
-    EXPECT_TRUE(convert(image, path, { kConfig, "" })) << error;
-    EXPECT_EQ(note, "sRGB - Texture -> ACEScg");
-    expect_pixel(image, { 0.3819f, 0.0729f, 0.0251f }, 1e-4f);
-
-    ImageBuf unread(path);
-    EXPECT_TRUE(convert(unread, path, { kConfig, "" })) << error;
-    expect_pixel(unread, { 0.3819f, 0.0729f, 0.0251f }, 1e-4f);
-    OIIO::Filesystem::remove(path);
 }
 
 TEST_F(Color, WithoutAConfigOnlySrgbIsConverted)
@@ -260,18 +110,6 @@ TEST_F(Color, AConfigThatIsBuiltIntoOpenColorIOServes)
     EXPECT_EQ(id_of(image), "lin_ap1_scene");
     setenv("OCIO", built_in.config.c_str(), 1);
     EXPECT_EQ(said("paint.png", { "", "ACEScg" }), "ACEScg, unchanged");
-}
-
-TEST_F(Color, RefusalsNameTheNearest)
-{
-    const std::string start = "ERROR the OCIO config \"" + kConfig + "\" has no colour space ";
-    EXPECT_EQ(said("sky.exr", { kConfig, "ACEScgg" }), start + "\"ACEScgg\"; did you mean \"ACEScg\"?");
-    EXPECT_EQ(said("sky.exr", { kConfig, "lin_rec708" }), start + "\"lin_rec708\"; did you mean \"lin_rec709\"?");
-    // OIIO would take "linear" for the role scene_linear; most who say it mean Rec.709.
-    EXPECT_EQ(said("sky.exr", { kConfig, "linear" }).rfind(start + "\"linear\"; ", 0), 0u);
-    EXPECT_EQ(said("sky.exr", { kConfig, "scene_linear" }), "ACEScg, unchanged");
-    EXPECT_EQ(said("sky.exr", { kConfig, "aCeScG" }), "ACEScg, unchanged");
-    EXPECT_EQ(said("sky.exr", { kConfig, "data" }), "Raw is data, used as ACEScg unchanged");
 }
 
 TEST_F(Color, ARefusedImageIsAsItWas)

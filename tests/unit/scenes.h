@@ -184,6 +184,13 @@ inline Mesh icosphere(int cuts)
     return mesh;
 }
 
+/// A wall without uvs, without end but for its foot on z = 0, which hides half of what a floor at x < 1 sees.
+inline const Mesh& wall_at_x1()
+{
+    static const Mesh wall = rectangle(V3d(1, -1e5, 0), V3d(0, 2e5, 0), V3d(0, 0, 1e5));
+    return wall;
+}
+
 /// Turn every triangle over; normals stay.
 inline Mesh rewound(Mesh mesh)
 {
