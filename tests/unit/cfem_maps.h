@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -106,6 +107,29 @@ inline double largest_difference(const Map& a, const Map& b)
     for (size_t i = 0; i < a.rgb.size(); ++i)
         worst = std::max(worst, double(std::abs(a.rgb[i] - b.rgb[i])));
     return worst;
+}
+
+/// What a surface that faces `normal` sees of one hot texel over light of 1: as the filter has it, and in truth.
+struct HotTexelLight
+{
+    const Map& map;
+    V3d normal;
+    double filtered, truth, mean; ///< mean of the map
+};
+
+/// Filter 64x32 texels of 1, of which one is 1e6, to 32x16, and visit each of these.
+template <class Visit> inline void each_light_of_hot_texel(int column, int row, Visit&& visit)
+{
+    Map map(64, 32, 1);
+    std::fill_n(map.at(column, row), 3, 1e6f);
+    const double mean = brute::mean(map)[0];
+    const Map cfem = filtered(map, 32, 16);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const V3d n = center(x, y, 32, 16);
+            const double truth = 1 + (1e6 - 1) * brute::pixel_response(n, column, row, 64, 32, 256);
+            visit(HotTexelLight { map, n, cfem.at(x, y)[0], truth, mean });
+        }
 }
 
 // A smooth light that no symmetry of the grid leaves alone.

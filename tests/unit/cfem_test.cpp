@@ -151,23 +151,15 @@ TEST(Cfem, OneHotTexelLightsAsItsAreaDoes)
 {
     // At the poles, on the seam, on the equator, elsewhere; over light of 1.
     const int places[][2] = { { 0, 0 }, { 20, 0 }, { 0, 13 }, { 63, 15 }, { 31, 16 }, { 40, 9 }, { 5, 31 } };
-    for (const auto& place : places) {
-        Map map(64, 32, 1);
-        std::fill_n(map.at(place[0], place[1]), 3, 1e6f);
-        const double mean = brute::mean(map)[0];
-        const Map cfem = filtered(map, 32, 16);
-        for (int y = 0; y < 16; ++y)
-            for (int x = 0; x < 32; ++x) {
-                const V3d n = center(x, y, 32, 16);
-                const double want = 1 + (1e6 - 1) * brute::pixel_response(n, place[0], place[1], 64, 32, 256);
-                const double whole = n.dot(brute::moment(place[0], place[1], 64, 32)) / pi;
-                const bool cut = want != 1 && std::abs(want - 1 - (1e6 - 1) * whole) > 1e-9 * want;
-                // Wholly seen or unseen: float's rounding and the quadrature of the background. Cut by the horizon:
-                // the quadrature of the texel, kept below 5e-5 of the mean.
-                EXPECT_NEAR(cfem.at(x, y)[0], want, (cut ? 6e-5 : 2e-6) * mean)
-                    << place[0] << "," << place[1] << " at " << x << "," << y;
-            }
-    }
+    for (const auto& place : places)
+        each_light_of_hot_texel(place[0], place[1], [&](const HotTexelLight& light) {
+            const double whole = light.normal.dot(brute::moment(place[0], place[1], 64, 32)) / pi;
+            const bool cut = light.truth != 1 && std::abs(light.truth - 1 - (1e6 - 1) * whole) > 1e-9 * light.truth;
+            // Wholly seen or unseen: float's rounding and the quadrature of the background. Cut by the horizon: the
+            // quadrature of the texel, kept below 5e-5 of the mean.
+            EXPECT_NEAR(light.filtered, light.truth, (cut ? 6e-5 : 2e-6) * light.mean)
+                << place[0] << "," << place[1] << " seen along " << light.normal;
+        });
 }
 
 TEST(Cfem, AgreesWithTheSumOverAllTexelsAtEverySize)
