@@ -1,90 +1,105 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh_file_collada.h>
 
+#include <vmlight/mesh_node_graph.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <pugixml.hpp>
 
-#include <algorithm>
 #include <cstring>
-#include <map>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
+using pugi::xml_node;
 
 constexpr int kDeepest = 100000; // twice as deep fits the stack that meshes are read on
-constexpr size_t kMostNodes = 1000000; // the importer takes more than a kilobyte for each
 
-bool is(const pugi::xml_node& element, const char* name)
+bool is(const xml_node& element, const char* name)
 {
     return std::strcmp(element.name(), name) == 0;
 }
 
-// What the nodes of the scenes are once the nodes that they name are put in their places. The importer knows a node by
-// its id or its name.
-class NodeCounter : public pugi::xml_tree_walker
+// What a url names; "" too is a name, of what has none.
+std::string named_by(const xml_node& element)
+{
+    const char* url = element.attribute("url").value();
+    return url[0] == '#' ? url + 1 : url;
+}
+
+// The nodes, as assimp finds them: in its library, which holds nodes that are under no other and whole scenes, the last
+// of each id; else in the scene that is shown, the first of that id or name.
+class Nodes : public pugi::xml_tree_walker
 {
 public:
-    bool for_each(pugi::xml_node& element) override
+    bool is_too_deep() const { return m_is_too_deep; }
+
+    bool for_each(xml_node& element) override
     {
-        is_deep_ |= depth() >= kDeepest;
-        if (!is(element, "node"))
-            return !is_deep_;
-        for (const char* name : { "id", "name" })
-            if (const pugi::xml_attribute attribute = element.attribute(name))
-                named_.emplace(attribute.value(), element);
-        if (is(element.parent(), "visual_scene"))
-            roots_.push_back(element);
-        return true;
+        m_is_too_deep |= depth() >= kDeepest;
+        const bool is_scene = is(element, "visual_scene");
+        if (is_scene || (is(element, "node") && is(element.parent(), "library_nodes")))
+            m_library[element.attribute("id").value()] = element;
+        if (is(element, "instance_visual_scene"))
+            m_shown = named_by(element);
+        if (is_scene || is(element, "node"))
+            m_nodes.push_back(element);
+        return !m_is_too_deep;
     }
 
-    // Why there is no end of them, or "".
     std::string fault()
     {
-        size_t sum = 0;
-        for (size_t i = 0; i < roots_.size() && !is_deep_ && ring_.empty(); ++i)
-            sum = std::min(kMostNodes + 1, sum + count(roots_[i], 1));
-        if (is_deep_)
-            return format("its elements are more than {} deep", kDeepest);
-        if (!ring_.empty())
-            return format("its node {} is under itself", ring_);
-        return sum > kMostNodes ? format("its nodes name others until they are more than {}", kMostNodes) : "";
+        const auto shown = m_library.find(m_shown);
+        if (shown == m_library.end())
+            return "";
+        const xml_node root = shown->second;
+        std::unordered_map<std::string, xml_node> in_scene;
+        for (const xml_node& node : m_nodes)
+            if (is_under(node, root))
+                for (const char* word : { "id", "name" })
+                    in_scene.emplace(node.attribute(word).value(), node);
+        MeshNodeGraph<const pugi::xml_node_struct*> graph;
+        for (const xml_node& node : m_nodes)
+            for (const xml_node& child : node)
+                if (is(child, "node")) {
+                    graph.add(node.internal_object(), child.internal_object());
+                } else if (is(child, "instance_node")) {
+                    const std::string name = named_by(child);
+                    const auto in_library = m_library.find(name), elsewhere = in_scene.find(name);
+                    if (in_library != m_library.end())
+                        graph.add(node.internal_object(), in_library->second.internal_object());
+                    else if (elsewhere != in_scene.end())
+                        graph.add(node.internal_object(), elsewhere->second.internal_object());
+                }
+        return graph.fault(root.internal_object(), [&](const pugi::xml_node_struct* node) {
+            for (const xml_node& known : m_nodes)
+                if (known.internal_object() == node)
+                    return format("\"{}\"", known.attribute("id").value());
+            return std::string();
+        });
     }
 
 private:
-    // This node, those under it and those that it names, up to a node more than the most.
-    size_t count(const pugi::xml_node& node, int depth)
+    // The walk goes from above to below: what is above has been asked about.
+    bool is_under(const xml_node& node, const xml_node& root)
     {
-        constexpr size_t kUnderWay = 0;
-        const auto [known, is_new] = counts_.emplace(node.internal_object(), kUnderWay);
-        if (!is_new && known->second == kUnderWay)
-            ring_ = node.attribute("id").value();
-        is_deep_ |= depth > kDeepest;
-        if (!is_new || is_deep_)
-            return known->second;
-        size_t sum = 1;
-        const auto add = [&](const pugi::xml_node& other) {
-            if (ring_.empty() && !is_deep_)
-                sum = std::min(kMostNodes + 1, sum + count(other, depth + 1));
-        };
-        for (const pugi::xml_node child : node)
-            if (is(child, "node"))
-                add(child);
-            else if (const char* url = child.attribute("url").value(); is(child, "instance_node") && url[0] == '#')
-                for (auto [at, end] = named_.equal_range(url + 1); at != end; ++at)
-                    add(at->second);
-        return known->second = sum;
+        const bool result = node == root || m_under.count(node.parent().internal_object()) > 0;
+        if (result)
+            m_under.insert(node.internal_object());
+        return result;
     }
 
-    bool is_deep_ = false;
-    std::string ring_;
-    std::vector<pugi::xml_node> roots_;
-    std::multimap<std::string, pugi::xml_node> named_;
-    std::map<const pugi::xml_node_struct*, size_t> counts_;
+    bool m_is_too_deep = false;
+    std::string m_shown;
+    std::vector<xml_node> m_nodes;
+    std::unordered_map<std::string, xml_node> m_library;
+    std::unordered_set<const pugi::xml_node_struct*> m_under;
 };
 
 } // namespace
@@ -93,9 +108,9 @@ std::string collada_fault(const std::string& text)
 {
     pugi::xml_document document;
     document.load_buffer(text.data(), text.size()); // of broken XML, as much as there is before the break
-    NodeCounter nodes;
+    Nodes nodes;
     document.traverse(nodes);
-    return nodes.fault();
+    return nodes.is_too_deep() ? format("its elements are more than {} deep", kDeepest) : nodes.fault();
 }
 
 } // namespace vmlight
