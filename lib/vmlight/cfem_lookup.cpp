@@ -100,6 +100,16 @@ bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& erro
     std::array<int, 3> index;
     if (!find_color_channels(spec, index, error))
         return false;
+    if (OIIO::get_roi(spec) != OIIO::get_roi_full(spec)) {
+        error = format("cosine-filtered environment is a crop: {}x{} pixels are stored of {}x{}", spec.width,
+                       spec.height, spec.full_width, spec.full_height);
+        return false;
+    }
+    if (spec.get_int_attribute("oiio:sampleborder")) {
+        error = "cosine-filtered environment has samples on its borders, as maketx --envlatl makes them; plain maketx "
+                "keeps it as it is";
+        return false;
+    }
     // The kernel counts texels in 32 bits.
     if ((int64_t(spec.width) + 2) * (int64_t(spec.height) + 4) > int64_t(1) << 28) {
         error = format("cosine-filtered environment of {}x{} pixels is too large", spec.width, spec.height);

@@ -66,7 +66,8 @@ bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index,
     index = { spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B") };
     if (index[0] >= 0 && index[1] >= 0 && index[2] >= 0)
         return true;
-    const int gray = spec.nchannels == 1 ? 0 : spec.channelindex("Y");
+    const auto is_light = [](const std::string& name) { return name != "A" && name != "Z"; };
+    const int gray = spec.nchannels == 1 && is_light(spec.channelnames[0]) ? 0 : spec.channelindex("Y");
     if (gray >= 0) {
         index = { gray, gray, gray };
         return true;

@@ -121,7 +121,13 @@ bool CommandLine::parse_words(const std::vector<std::string>& words, bool& helpe
 bool CommandLine::parse(int argc, const char** argv, bool& helped, std::string& error)
 {
     std::vector<std::string> words;
-    return split_arguments(argc, argv, words, error) && parse_words(words, helped, error);
+    if (!split_arguments(argc, argv, words, error) || !parse_words(words, helped, error))
+        return false;
+    // Mostly a shell's variable that is not set; what stands for "none" is the flag left out.
+    for (const auto& [option, value] : given)
+        if (error.empty() && OIIO::Strutil::strip(value).empty())
+            error = format("{} has an empty value", flag_of(option->name));
+    return error.empty();
 }
 
 } // namespace vmlight

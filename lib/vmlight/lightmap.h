@@ -68,9 +68,10 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 /// @param nthreads 0 means OIIO's default. The result is bit-equal for every value, whatever instructions the
 ///                 processor has.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, an image is not what it should
-///          be, a pixel of one is not finite (how many, and where the first is) or the albedo's is negative, a visibility
-///          is beyond [-2, 2], further than any filter rings from [0, 1], the result is too large for float, the map or the light lacks what the model reads (what, and how it is made), a map
-///          for `mask` or `cells` holds no whole numbers any more, or `progress` stopped the work
+///          be, a pixel of one is not finite (how many, and where the first is) or the albedo's is negative, a
+///          visibility is beyond [-2, 2], further than any filter rings from [0, 1], the result is too large for float,
+///          the map or the light lacks what the model reads (what, and how it is made), a map for `mask` or `cells`
+///          holds no whole numbers any more, or `progress` stopped the work
 ///          ("interrupted"); `dst` then has no pixels. Not checked: that `cfem` was filtered with a cosine, unless its
 ///          `vmlight:stage` says otherwise.
 VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& vismap, const OIIO::ImageBuf& cfem,

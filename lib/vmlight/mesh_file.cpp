@@ -17,6 +17,17 @@ namespace vmlight {
 
 using Imath::V3d;
 
+namespace {
+
+// In letters of either case, of one or two bytes each.
+bool says(std::string bytes, const char* text)
+{
+    bytes.erase(std::remove(bytes.begin(), bytes.end(), '\0'), bytes.end());
+    return OIIO::Strutil::lower(bytes).find(text) != std::string::npos;
+}
+
+} // namespace
+
 bool lie_far_from_origin(const std::vector<V3d>& positions)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -42,11 +53,18 @@ MeshFile inspect_mesh_file(const std::string& path)
 {
     using namespace OIIO;
     const std::string extension = Strutil::lower(Filesystem::extension(path));
-    const bool is_obj = extension == ".obj", is_gltf = extension == ".gltf" || extension == ".glb";
-    const bool is_collada = extension == ".dae";
-    std::string bytes(3, '\0');
+    const bool is_obj = extension == ".obj";
+    std::string bytes(4096, '\0');
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    if (!is_obj && !is_gltf && !is_collada && bytes != "ply")
+    if (Strutil::starts_with(bytes, "PK\3\4")) {
+        MeshFile file;
+        file.fault = "a zip archive; what is in it may be a mesh";
+        return file;
+    }
+    // Some are known to the importer by what they hold, whatever their names.
+    const bool is_collada = extension == ".dae" || says(bytes, "<collada"), is_ply = Strutil::starts_with(bytes, "ply");
+    const bool is_gltf = extension == ".gltf" || extension == ".glb" || Strutil::starts_with(bytes, "glTF");
+    if (!is_obj && !is_gltf && !is_collada && !is_ply)
         return {};
     bytes.resize(Filesystem::file_size(path));
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));

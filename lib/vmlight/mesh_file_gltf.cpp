@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh_file_gltf.h>
 
+#include <vmlight/mesh_node_graph.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <nlohmann/json.hpp>
@@ -37,14 +39,16 @@ std::string json_of(const std::string& bytes)
     return text;
 }
 
-// The children that the nodes name, collected as the JSON goes by. (A tree of all of it, with a callback that drops the
-// rest, takes time by the square of the nodes in nlohmann 3.11.)
+// The nodes that nodes and scenes name, collected as the JSON goes by. (A tree of all of it, with a callback that drops
+// the rest, takes time by the square of the nodes in nlohmann 3.11.)
 class NodeReader : public nlohmann::json_sax<json>
 {
 public:
     bool is_too_deep() const { return depth_ > kDeepest; }
     size_t node_count() const { return node_count_; }
     const std::vector<std::pair<size_t, size_t>>& parents_and_children() const { return parents_and_children_; }
+    const std::vector<std::pair<size_t, size_t>>& scenes_and_roots() const { return scenes_and_roots_; }
+    size_t scene() const { return scene_; }
 
     bool start_object(size_t) override { return open(); }
     bool start_array(size_t) override { return open(); }
@@ -61,21 +65,25 @@ public:
     bool key(std::string& name) override
     {
         if (depth_ == 1)
-            is_in_nodes_ = name == "nodes";
+            outer_ = name;
         else if (depth_ == 3)
-            is_in_children_ = name == "children";
+            inner_ = name;
         return true;
     }
 
     bool number_unsigned(uint64_t number) override
     {
-        if (depth_ == 4 && is_in_nodes_ && is_in_children_)
+        if (depth_ == 1 && outer_ == "scene")
+            scene_ = number;
+        else if (depth_ == 4 && outer_ == "scenes" && inner_ == "nodes")
+            scenes_and_roots_.emplace_back(scene_count_ - 1, number);
+        else if (depth_ == 4 && outer_ == "nodes" && inner_ == "children")
             parents_and_children_.emplace_back(node_count_ - 1, number);
         return value();
     }
 
 private:
-    // Depths: 1 in the root, 2 in its "nodes", 3 in a node, 4 in its "children".
+    // Depths: 1 in the root, 2 in its "nodes" or "scenes", 3 in one, 4 in its "children" or "nodes".
     bool open()
     {
         value();
@@ -90,14 +98,15 @@ private:
 
     bool value()
     {
-        node_count_ += depth_ == 2 && is_in_nodes_;
+        node_count_ += depth_ == 2 && outer_ == "nodes";
+        scene_count_ += depth_ == 2 && outer_ == "scenes";
         return true;
     }
 
     int depth_ = 0;
-    size_t node_count_ = 0;
-    bool is_in_nodes_ = false, is_in_children_ = false;
-    std::vector<std::pair<size_t, size_t>> parents_and_children_;
+    size_t node_count_ = 0, scene_count_ = 0, scene_ = 0;
+    std::string outer_, inner_;
+    std::vector<std::pair<size_t, size_t>> parents_and_children_, scenes_and_roots_;
 };
 
 } // namespace
@@ -119,14 +128,13 @@ std::string gltf_fault(const std::string& bytes)
             return format("its node {} is under two others: {} and {}", child, parents[child], parent);
         parents[child] = parent;
     }
-    std::vector<size_t> seen_from(none, none);
-    for (size_t node = 0; node < none; ++node)
-        for (size_t up = node; up != none && seen_from[up] == none; up = parents[up]) {
-            seen_from[up] = node;
-            if (parents[up] != none && seen_from[parents[up]] == node)
-                return format("its node {} is under itself", parents[up]);
-        }
-    return "";
+    MeshNodeGraph<size_t> graph;
+    for (const auto& [parent, child] : nodes.parents_and_children())
+        graph.add(parent, child);
+    for (const auto& [scene, root] : nodes.scenes_and_roots())
+        if (scene == nodes.scene())
+            graph.add(none, root); // `none` stands for the scene
+    return graph.fault(none, [](size_t node) { return format("{}", node); });
 }
 
 } // namespace vmlight

@@ -9,6 +9,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 
 #include <algorithm>
@@ -81,6 +82,21 @@ bool restore_positions(aiScene& scene, const MeshFile& file, ExactPositions& exa
     return true;
 }
 
+// Leaves the importer those formats whose files are looked at before it sees them, or that cannot name a part of
+// themselves. Of others (X3D, 3MF, glTF 1.0, ...) a short file can make assimp go round for ever.
+void keep_known_formats(Assimp::Importer& importer)
+{
+    for (size_t i = importer.GetImporterCount(); i-- > 0;) {
+        const aiImporterDesc& description = *importer.GetImporterInfo(i);
+        const std::vector<std::string> extensions = OIIO::Strutil::splits(description.mFileExtensions);
+        const std::vector<std::string> known { "obj", "ply", "stl", "dae", "fbx" };
+        const bool is_known
+            = !extensions.empty() && std::find(known.begin(), known.end(), extensions.front()) != known.end();
+        if (!is_known && !OIIO::Strutil::starts_with(description.mName, "glTF2"))
+            importer.UnregisterLoader(importer.GetImporter(i));
+    }
+}
+
 // Files, and who wants to be told of them; of one its stand-in. By holding assimp's own, which may not be derived from
 // in assimp 6.
 class ToldFiles : public Assimp::IOSystem
@@ -123,11 +139,16 @@ const aiScene* read_scene(Assimp::Importer& importer, const std::string& path, E
         error = reason;
         return nullptr;
     };
-    const auto fail_to_read
-        = [&] { return fail(format("not a mesh that can be read: {}", importer.GetErrorString())); };
+    const auto fail_to_read = [&] {
+        const std::string reason = importer.GetErrorString();
+        return OIIO::Strutil::starts_with(reason, "No suitable reader")
+            ? fail("not a mesh that can be read: none of OBJ, PLY, STL, glTF 2.0, Collada, FBX")
+            : fail(format("not a mesh that can be read: {}", reason));
+    };
     const MeshFile file = inspect_mesh_file(path);
     if (!file.fault.empty())
         return fail(file.fault);
+    keep_known_formats(importer);
     ToldFiles files(opens, path, file.stand_in);
     importer.SetIOHandler(&files);
     const bool read = importer.ReadFile(path, 0);
