@@ -123,9 +123,9 @@ bool CommandLine::parse(int argc, const char** argv, bool& helped, std::string& 
     std::vector<std::string> words;
     if (!split_arguments(argc, argv, words, error) || !parse_words(words, helped, error))
         return false;
-    // Mostly a shell's variable that is not set; what stands for "none" is the flag left out.
+    // Mostly a shell's variable that is not set. Of a recipe's keys it clears one.
     for (const auto& [option, value] : given)
-        if (error.empty() && OIIO::Strutil::strip(value).empty())
+        if (error.empty() && !given_recipe() && OIIO::Strutil::strip(value).empty())
             error = format("{} has an empty value", flag_of(option->name));
     return error.empty();
 }

@@ -53,7 +53,8 @@ class Usage(Case):
         for flag, value, text in [
                 ("--samples", "0", "samples: 0 is not in [1, 1048576]"),
                 ("--samples", "4x", 'samples: "4x" is not a whole number'),
-                ("--samples", "", 'samples: "" is not a whole number'),
+                ("--samples", "", "--samples has an empty value"),
+                ("--occluder", " ", "--occluder has an empty value"),
                 ("--resolution", "0", 'resolution: "0" is not WIDTHxHEIGHT from 1x1 to 32768x32768'),
                 ("--resolution", "99999", "resolution:"),
                 ("--sampler", "random", 'sampler: "random" is not one of fibonacci, sobol, halton'),
@@ -78,7 +79,7 @@ class Usage(Case):
     def test_frames_are_refused_in_words(self):
         lightmap = ["makelightmap", "vm.exr", "sky.exr"]
         self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "1-x")
-        self.refused(2, "is not a range of frames", *lightmap, "-o", "x.#.exr", "--frames", "")
+        self.refused(2, "--frames has an empty value", *lightmap, "-o", "x.#.exr", "--frames", "")
         self.refused(2, "is not FIRST:LAST or one number", *lightmap, "-o", "x.#.exr", "--rotate-y", "0:b")
         for endless in "1-2000000000", "1-3x0", "1-3x", "1-3x00,5":
             self.refused(2, "up to 999999", *lightmap, "-o", "x.#.exr", "--frames", endless)
@@ -92,8 +93,8 @@ class Usage(Case):
                             ("matrix: not a rotation", ["--matrix", "1,0,0,0,1,0,0,0,2"]),
                             ("quaternion: 0,0,0,0 has no direction", ["--quaternion", "0,0,0,0"]),
                             ("environment is given too", ["--cfem", "sky.exr"]),
-                            ("vismap is missing", ["--vismap", ""]),
-                            ("environment is missing, or cfem", ["--environment", ""])):
+                            ("--vismap has an empty value", ["--vismap", ""]),
+                            ("--environment has an empty value", ["--environment", ""])):
             self.refused(2, "makelightmap ERROR: " + text, "makelightmap", "vm.exr", "sky.exr", "-o", "x.exr", *flags)
             # Nothing was read: none of these files is there.
             self.refused(2, text, "makelightmap", "gone.exr", "gone.exr", "-o", "x.exr", *flags)

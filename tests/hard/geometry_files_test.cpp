@@ -2,6 +2,7 @@
 // Mesh files whose numbers or counts are not what they promise.
 #include "hard_case.h"
 #include "mesh_files.h"
+#include "mesh_refusal.h"
 #include "scenes.h"
 #include "temporary_folder.h"
 
@@ -9,20 +10,6 @@ using namespace vmlight;
 using namespace vmlight::scenes;
 
 namespace {
-
-// What is said, less the path; "" if the file is read.
-std::string refusal(const TemporaryFolder& folder, const char* name, const std::string& bytes)
-{
-    const std::string path = folder.write(name, bytes);
-    Mesh mesh;
-    std::string error;
-    if (read_mesh(mesh, path, {}, error))
-        return "";
-    EXPECT_EQ(error.find("\"" + path + "\": "), 0u) << error;
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
-    EXPECT_TRUE(mesh.triangles.empty());
-    return error.substr(std::min(error.size(), path.size() + 4));
-}
 
 const char* const kPly = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                          "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n"
@@ -154,149 +141,4 @@ TEST(Geometry, ConcavePolygonsAnySize)
             EXPECT_NEAR(area, 7, 1e-5) << size << ", from corner " << first;
         }
     row.ours("four triangles, of its area");
-}
-
-namespace {
-
-// How many come of a glTF with these nodes, of which the first is in the scene, and of a mesh of one triangle.
-size_t triangles_of_gltf(const TemporaryFolder& folder, const std::string& nodes)
-{
-    const float numbers[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
-    folder.write("a.bin", std::string(reinterpret_cast<const char*>(numbers), sizeof(numbers)));
-    const std::string path = folder.write(
-        "a.gltf",
-        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + "],"
-            + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":"a.bin"}],)"
-            + R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,)"
-            + R"("count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]})");
-    Mesh mesh;
-    std::string error;
-    EXPECT_TRUE(read_mesh(mesh, path, {}, error)) << error;
-    return mesh.triangles.size();
-}
-
-} // namespace
-
-TEST(Geometry, ATreeOfAHundredThousandNodes)
-{
-    HardCase row("A glTF whose one triangle hangs from 100000 nodes, one in the other");
-    row.naive("assimp goes down by recursion: a crash at 10000 nodes");
-    const TemporaryFolder folder;
-    const int count = 100000;
-    std::string nodes;
-    for (int i = 1; i < count; ++i)
-        nodes += OIIO::Strutil::fmt::format("{{\"children\":[{}]}},", i);
-    EXPECT_EQ(triangles_of_gltf(folder, nodes + R"({"mesh":0})"), 1u);
-    row.ours("its triangle");
-}
-
-namespace {
-
-// ",<first>,...,<last>"
-std::string numbers(int first, int last)
-{
-    std::string text;
-    for (int i = first; i <= last; ++i)
-        text += OIIO::Strutil::fmt::format(",{}", i);
-    return text;
-}
-
-} // namespace
-
-TEST(Geometry, NodesUnderTwoOthers)
-{
-    HardCase row("A glTF of 40 nodes, each of which names the next twice; or of nodes in a ring");
-    EXPECT_GT(std::ldexp(1.0, 40), 1e12);
-    row.naive("assimp copies what is named twice: all memory");
-    const TemporaryFolder folder;
-    std::string twice;
-    for (int i = 1; i < 40; ++i)
-        twice += OIIO::Strutil::fmt::format("{{\"children\":[{0},{0}]}},", i);
-    const auto gltf = [](const std::string& nodes, const std::string& roots = "0") {
-        return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" + nodes
-            + "]}";
-    };
-    EXPECT_EQ(refusal(folder, "a.gltf", gltf(twice + "{}")), "its node 1 is under two others: 0 and 0");
-    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[2]},{"children":[2]},{})")),
-              "its node 2 is under two others: 0 and 1");
-    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "its node 0 is under itself");
-    EXPECT_EQ(refusal(folder, "a.gltf",
-                      gltf(R"({"children":[1)" + numbers(2, 1200) + "]}" + OIIO::Strutil::repeat(",{}", 1200),
-                           "0" + OIIO::Strutil::repeat(",0", 1000))),
-              "its nodes, each put where others name it, are more than 1000000");
-    EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "its JSON has brackets more than 1000 deep");
-    row.ours("refused, with the node");
-}
-
-TEST(Geometry, AGltfOfAMillionNodes)
-{
-    HardCase row("A glTF of a million nodes, of which one is in the scene");
-    row.naive("nlohmann-json with a callback that drops what is of no use takes the square of their number: 1 s for "
-              "100000 (measured)");
-    const TemporaryFolder folder;
-    EXPECT_EQ(triangles_of_gltf(folder, R"({"mesh":0})" + OIIO::Strutil::repeat(",{}", 999999)), 1u);
-    row.ours("its one triangle");
-}
-
-namespace {
-
-// A triangle under the last of `count` nodes, each of which but the last holds `inner` of the next.
-std::string collada(int count, const std::function<std::string(int next)>& inner)
-{
-    std::string nodes;
-    for (int i = 0; i + 1 < count; ++i)
-        nodes += OIIO::Strutil::fmt::format(R"(<node id="n{}">{}</node>)", i, inner(i + 1));
-    return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">)"
-           R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">)"
-           R"(0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#pa" count="3" stride="3">)"
-           R"(<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>)"
-           R"(</technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)"
-           R"(<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh>)"
-           R"(</geometry></library_geometries><library_nodes>)"
-        + nodes + OIIO::Strutil::fmt::format(R"(<node id="n{}"><instance_geometry url="#g"/></node>)", count - 1)
-        + R"(</library_nodes><library_visual_scenes><visual_scene id="s"><node><instance_node url="#n0"/></node>)"
-          R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
-}
-
-std::string named(int next)
-{
-    return OIIO::Strutil::fmt::format(R"(<instance_node url="#n{}"/>)", next);
-}
-
-} // namespace
-
-TEST(Geometry, ColladaNodesThatNameOthers)
-{
-    HardCase row("A Collada file of 40 nodes, each of which names the next twice; of nodes in a ring; of 500000 deep");
-    EXPECT_GT(std::ldexp(1.0, 40), 1e12);
-    row.naive("assimp 5.2 puts each in its place: all memory, or a crash (measured)");
-    const TemporaryFolder folder;
-    const auto twice = [](int next) { return named(next) + named(next); };
-    Mesh mesh;
-    std::string error;
-    ASSERT_TRUE(read_mesh(mesh, folder.write("a.dae", collada(5, twice)), {}, error)) << error;
-    EXPECT_EQ(mesh.triangles.size(), 16u);
-    ASSERT_TRUE(read_mesh(mesh, folder.write("a.dae", collada(2000, named)), {}, error)) << error;
-    EXPECT_EQ(mesh.triangles.size(), 1u);
-    EXPECT_EQ(refusal(folder, "a.dae", collada(40, twice)),
-              "its nodes, each put where others name it, are more than 1000000");
-    for (const char* name : { "a.dae", "a.xml", "noname" }) // assimp looks into the file
-        EXPECT_EQ(refusal(folder, name, collada(3, [](int) { return named(0); })), "its node \"n0\" is under itself");
-    const auto in_scene = [](const char* attributes, const char* inner) {
-        return OIIO::Strutil::replace(collada(3, named), "<node><instance_node url=\"#n0\"/>",
-                                      OIIO::Strutil::fmt::format("<node {}>{}", attributes, inner));
-    };
-    for (const char* url : { "#", "#s", "#a", "#b" }) // what has no id, the scene, by id, by name
-        EXPECT_NE(refusal(folder, "a.dae",
-                          in_scene("id=\"a\" name=\"b\"",
-                                   OIIO::Strutil::fmt::format("<node><instance_node url=\"{}\"/></node>", url).c_str()))
-                      .find("is under itself"),
-                  std::string::npos)
-            << url;
-    EXPECT_EQ(refusal(folder, "a.dae", in_scene("id=\"a\" name=\"n0\"", "<instance_node url=\"#n0\"/>")), "")
-        << "named as what it shows";
-    EXPECT_EQ(refusal(folder, "a.dae", in_scene("", "<node id=\"n0\" name=\"n0\"/><instance_node url=\"#n0\"/>")), "");
-    EXPECT_EQ(refusal(folder, "a.dae", "<COLLADA>" + OIIO::Strutil::repeat("<node>", 500000)),
-              "its elements are more than 100000 deep");
-    row.ours("refused, with why");
 }

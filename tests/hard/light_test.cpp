@@ -208,6 +208,25 @@ TEST(Light, FaintLightBesideASun)
     row.ours("1e-3, to 1e-5 of it");
 }
 
+TEST(Light, WhatIsNoLight)
+{
+    HardCase row("An environment that is a depth or an alpha channel alone; a CFEM that was cropped");
+    row.naive("one channel is taken for grey light; the crop is drawn over the whole sphere");
+    std::string error;
+    for (const char* channel : { "Z", "A" }) {
+        OIIO::ImageSpec spec(16, 8, 1, OIIO::TypeFloat);
+        spec.channelnames[0] = channel;
+        OIIO::ImageBuf cfem;
+        EXPECT_FALSE(make_cfem(cfem, OIIO::ImageBuf(spec), exact(8, 4)));
+        EXPECT_EQ(cfem.geterror(), OIIO::Strutil::fmt::format("environment: no channels R, G, B among {}", channel));
+    }
+    OIIO::ImageBuf crop = image(Map(8, 4, 1)), dst;
+    crop.specmod().full_height = 8;
+    EXPECT_FALSE(make_lightmap(dst, scene::random_vismap(4, 4), crop));
+    EXPECT_EQ(dst.geterror(), "cosine-filtered environment is a crop: 8x4 pixels are stored of 8x8");
+    row.ours("refused");
+}
+
 TEST(Light, Blackness)
 {
     HardCase row("An environment without light");

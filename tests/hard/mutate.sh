@@ -18,7 +18,8 @@ options=(-S "$place/source" -B "$place/build" -G Ninja -DCMAKE_BUILD_TYPE=Releas
 cmake "${options[@]}" >"$place/log"
 
 build() {
-    cmake --build "$place/build" -j "$(nproc)" --target hard_tests makevismap makecfem makelightmap >>"$place/log" 2>&1
+    cmake --build "$place/build" -j "$(nproc)" --target hard_tests makevismap makecfem makelightmap \
+        vismap.imageio cfem.imageio lightmap.imageio >>"$place/log" 2>&1
 }
 
 # Whether the tests that $1 names pass.

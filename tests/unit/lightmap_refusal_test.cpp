@@ -128,6 +128,18 @@ TEST(LightmapRefusal, WhatIsNotAStagesImageIsRefused)
     EXPECT_EQ(refusal(kVismap, ImageBuf(volume)), "not a cosine-filtered environment: a volume image");
 }
 
+TEST(LightmapRefusal, ACfemIsTheWholeSphereByTexelsAtTheirCentres)
+{
+    ImageBuf crop = random_cfem(16, 8);
+    crop.specmod().full_width = 32;
+    EXPECT_EQ(refusal(kVismap, crop), "cosine-filtered environment is a crop: 16x8 pixels are stored of 32x8");
+    ImageBuf border = random_cfem(16, 8);
+    border.specmod().attribute("oiio:sampleborder", 1);
+    EXPECT_EQ(refusal(kVismap, border),
+              "cosine-filtered environment has samples on its borders, as maketx --envlatl makes them; plain maketx "
+              "keeps it as it is");
+}
+
 TEST(LightmapRefusal, NamesOfSeveralLinesAreToldOnOne)
 {
     ImageBuf vm = kVismap;
