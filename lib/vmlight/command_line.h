@@ -41,7 +41,8 @@ struct CommandLine
     /// and set `helped`.
     ///
     /// @returns false, with the reason in `error`, at an unknown flag (with the nearest), a missing value, one that
-    ///          is too many, or operands that are too few or too many.
+    ///          is too many or empty (where no recipe is given, whose key it would clear), or operands that are too few
+    ///          or too many.
     bool parse(int argc, const char** argv, bool& helped, std::string& error);
 
     /// Whether the first operand is a recipe of `stage`.

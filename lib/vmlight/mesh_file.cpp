@@ -58,7 +58,7 @@ MeshFile inspect_mesh_file(const std::string& path)
     bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
     if (Strutil::starts_with(bytes, "PK\3\4")) {
         MeshFile file;
-        file.fault = "a zip archive; what is in it may be a mesh";
+        file.fault = "a zip archive, not a mesh: unpack it";
         return file;
     }
     // Some are known to the importer by what they hold, whatever their names.

@@ -15,12 +15,6 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-std::string folder_of(const std::string& path)
-{
-    const std::string folder = OIIO::Filesystem::parent_path(path);
-    return folder.empty() ? "." : folder;
-}
-
 // Where the links lead that `path` may be, whether there is a file or not; "" if in circles.
 std::string link_target(std::string path)
 {

@@ -23,12 +23,6 @@ constexpr const char* kDigits = "%%%%%%%%"; // each becomes a random hexadecimal
 constexpr const char* kEnding = ".part";
 constexpr mode_t kAnyone = 0666; // less what the umask takes
 
-std::string folder_of(const std::string& path)
-{
-    const std::string folder = OIIO::Filesystem::parent_path(path);
-    return folder.empty() ? "." : folder;
-}
-
 // What hidden names of `name` begin with. Cut, since the file system may take no longer names than that.
 std::string hidden_prefix(const std::string& name)
 {
@@ -67,6 +61,12 @@ std::string link_of(int file)
 }
 
 } // namespace
+
+std::string folder_of(const std::string& path)
+{
+    const std::string folder = OIIO::Filesystem::parent_path(path);
+    return folder.empty() ? "." : folder;
+}
 
 PartFile::PartFile(const std::string& target, PartKind kind)
     : m_target(target)

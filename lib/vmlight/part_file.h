@@ -9,6 +9,9 @@
 
 namespace vmlight {
 
+/// The folder that holds `path`; "." if it names none.
+std::string folder_of(const std::string& path);
+
 /// Where the bytes are meanwhile.
 enum class PartKind
 {

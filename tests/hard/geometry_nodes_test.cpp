@@ -169,6 +169,6 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
     const std::string first = R"({"asset":{"version":"1.0"},"scene":"s","scenes":{"s":{"nodes":["a"]}},)"
                               R"("nodes":{"a":{"children":["b"]},"b":{"children":["a"]}}})";
     EXPECT_EQ(refusal(folder, "a.gltf", first), "not a mesh that can be read: GLTF: Unsupported glTF version: 1.0");
-    EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive; what is in it may be a mesh");
+    EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive, not a mesh: unpack it");
     row.ours("refused; README says which formats are read");
 }
