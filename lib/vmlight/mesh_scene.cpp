@@ -7,6 +7,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace vmlight {
 namespace {
@@ -92,8 +94,10 @@ void keep_known_formats(Assimp::Importer& importer)
         const std::vector<std::string> known { "obj", "ply", "stl", "dae", "fbx" };
         const bool is_known
             = !extensions.empty() && std::find(known.begin(), known.end(), extensions.front()) != known.end();
-        if (!is_known && !OIIO::Strutil::starts_with(description.mName, "glTF2"))
-            importer.UnregisterLoader(importer.GetImporter(i));
+        if (is_known || OIIO::Strutil::starts_with(description.mName, "glTF2"))
+            continue;
+        const std::unique_ptr<Assimp::BaseImporter> unknown(importer.GetImporter(i)); // ours once it is not listed
+        importer.UnregisterLoader(unknown.get());
     }
 }
 
