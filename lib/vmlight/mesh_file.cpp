@@ -2,6 +2,7 @@
 #include <vmlight/mesh_file.h>
 
 #include <vmlight/mesh_file_collada.h>
+#include <vmlight/mesh_file_fbx.h>
 #include <vmlight/mesh_file_gltf.h>
 #include <vmlight/mesh_file_obj.h>
 #include <vmlight/mesh_file_ply.h>
@@ -52,6 +53,8 @@ bool lie_far_from_origin(const std::vector<V3d>& positions)
 MeshFile inspect_mesh_file(const std::string& path)
 {
     using namespace OIIO;
+    if (const MeshFile fbx = inspect_fbx(path); !fbx.fault.empty())
+        return fbx; // FBX has many names
     const std::string extension = Strutil::lower(Filesystem::extension(path));
     const bool is_obj = extension == ".obj";
     std::string bytes(4096, '\0');
