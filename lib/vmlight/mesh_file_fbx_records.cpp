@@ -95,6 +95,8 @@ public:
                 ends.pop_back();
                 continue;
             }
+            if (m_at == whole)
+                return "";
             const size_t limit = ends.empty() ? whole : ends.back();
             const uint64_t end = number(word, limit);
             if (m_good && end == 0 && ends.empty())
