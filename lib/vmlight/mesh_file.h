@@ -13,7 +13,8 @@ struct MeshFile
 {
     /// Why the importer must not be given the file, or "". It looks for what is known to crash assimp 5.2, to hang it,
     /// or to come out of it as something else: a PLY whose header or body ends early or whose faces ask for vertices
-    /// that it has not, texture coordinates of an OBJ that are not finite.
+    /// that it has not, texture coordinates of an OBJ that are not finite, nodes of a glTF, a Collada file or an FBX
+    /// that are under themselves or more than memory holds; and archives.
     std::string fault;
 
     /// The vertices in the file's order and double precision, of an OBJ or of a PLY with `double` coordinates that lies
