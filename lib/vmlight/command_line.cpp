@@ -125,7 +125,7 @@ bool CommandLine::parse(int argc, const char** argv, bool& helped, std::string& 
         return false;
     // Mostly a shell's variable that is not set. Of a recipe's keys it clears one.
     for (const auto& [option, value] : given)
-        if (error.empty() && !given_recipe() && OIIO::Strutil::strip(value).empty())
+        if (error.empty() && !helped && !given_recipe() && OIIO::Strutil::strip(value).empty())
             error = format("{} has an empty value", flag_of(option->name));
     return error.empty();
 }

@@ -28,6 +28,7 @@ class Usage(Case):
         for tool in self.TOOLS:
             self.assertIn("Usage: " + tool, self.done(tool, "--help"))
             self.assertRegex(self.done(tool, "--version"), r"\d+\.\d+\.\d+")
+            self.assertIn("Usage: " + tool, self.done(tool, "-o", "", "--help"))
 
     def test_quiet_says_nothing(self):
         for tool, operands in self.TOOLS.items():
