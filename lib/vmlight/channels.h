@@ -45,8 +45,7 @@ VMLIGHT_API bool is_packed_channel(const std::string& name);
 ///          alone.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
-/// Find the colour channels R, G, B; a map of one channel, but A or Z, or of one named Y, serves
-/// as all three.
+/// Find the colour channels R, G, B. One named Y, or the only one, unless it is A or Z, serves as all three.
 ///
 /// @param index    set to the channels' places
 /// @param error    set to what is missing and what was found, if there is no colour or `vmlight:stage` is `vismap`

@@ -44,11 +44,11 @@ std::string json_of(const std::string& bytes)
 class NodeReader : public nlohmann::json_sax<json>
 {
 public:
-    bool is_too_deep() const { return depth_ > kDeepest; }
-    size_t node_count() const { return node_count_; }
-    const std::vector<std::pair<size_t, size_t>>& parents_and_children() const { return parents_and_children_; }
-    const std::vector<std::pair<size_t, size_t>>& scenes_and_roots() const { return scenes_and_roots_; }
-    size_t scene() const { return scene_; }
+    bool is_too_deep() const { return m_depth > kDeepest; }
+    size_t node_count() const { return m_node_count; }
+    const std::vector<std::pair<size_t, size_t>>& parents_and_children() const { return m_parents_and_children; }
+    const std::vector<std::pair<size_t, size_t>>& scenes_and_roots() const { return m_scenes_and_roots; }
+    size_t scene() const { return m_scene; }
 
     bool start_object(size_t) override { return open(); }
     bool start_array(size_t) override { return open(); }
@@ -64,21 +64,21 @@ public:
 
     bool key(std::string& name) override
     {
-        if (depth_ == 1)
-            outer_ = name;
-        else if (depth_ == 3)
-            inner_ = name;
+        if (m_depth == 1)
+            m_outer = name;
+        else if (m_depth == 3)
+            m_inner = name;
         return true;
     }
 
     bool number_unsigned(uint64_t number) override
     {
-        if (depth_ == 1 && outer_ == "scene")
-            scene_ = number;
-        else if (depth_ == 4 && outer_ == "scenes" && inner_ == "nodes")
-            scenes_and_roots_.emplace_back(scene_count_ - 1, number);
-        else if (depth_ == 4 && outer_ == "nodes" && inner_ == "children")
-            parents_and_children_.emplace_back(node_count_ - 1, number);
+        if (m_depth == 1 && m_outer == "scene")
+            m_scene = number;
+        else if (m_depth == 4 && m_outer == "scenes" && m_inner == "nodes")
+            m_scenes_and_roots.emplace_back(m_scene_count - 1, number);
+        else if (m_depth == 4 && m_outer == "nodes" && m_inner == "children")
+            m_parents_and_children.emplace_back(m_node_count - 1, number);
         return value();
     }
 
@@ -87,26 +87,26 @@ private:
     bool open()
     {
         value();
-        return ++depth_ <= kDeepest;
+        return ++m_depth <= kDeepest;
     }
 
     bool close()
     {
-        --depth_;
+        --m_depth;
         return true;
     }
 
     bool value()
     {
-        node_count_ += depth_ == 2 && outer_ == "nodes";
-        scene_count_ += depth_ == 2 && outer_ == "scenes";
+        m_node_count += m_depth == 2 && m_outer == "nodes";
+        m_scene_count += m_depth == 2 && m_outer == "scenes";
         return true;
     }
 
-    int depth_ = 0;
-    size_t node_count_ = 0, scene_count_ = 0, scene_ = 0;
-    std::string outer_, inner_;
-    std::vector<std::pair<size_t, size_t>> parents_and_children_, scenes_and_roots_;
+    int m_depth = 0;
+    size_t m_node_count = 0, m_scene_count = 0, m_scene = 0;
+    std::string m_outer, m_inner;
+    std::vector<std::pair<size_t, size_t>> m_parents_and_children, m_scenes_and_roots;
 };
 
 } // namespace

@@ -88,10 +88,10 @@ bool restore_positions(aiScene& scene, const MeshFile& file, ExactPositions& exa
 // themselves. Of others (X3D, 3MF, glTF 1.0, ...) a short file can make assimp go round for ever.
 void keep_known_formats(Assimp::Importer& importer)
 {
+    const std::vector<std::string> known { "obj", "ply", "stl", "dae", "fbx" }; // of each importer's, the first
     for (size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc& description = *importer.GetImporterInfo(i);
         const std::vector<std::string> extensions = OIIO::Strutil::splits(description.mFileExtensions);
-        const std::vector<std::string> known { "obj", "ply", "stl", "dae", "fbx" };
         const bool is_known
             = !extensions.empty() && std::find(known.begin(), known.end(), extensions.front()) != known.end();
         if (is_known || OIIO::Strutil::starts_with(description.mName, "glTF2"))
