@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes of a file, and the meshes that they move.
-#include "mesh_files.h"
+#include "mesh_fixture.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading meshes from files. Nodes: mesh_nodes_test.cpp; normals, merging and hashes: mesh_normals_test.cpp.
-#include "mesh_files.h"
+#include "mesh_fixture.h"
 
 #include <OpenImageIO/strutil.h>
 
