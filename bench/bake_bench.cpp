@@ -4,11 +4,12 @@
 /// The bare loop traces directions made beforehand, in the bake's own order, packets of eight; nothing else is in its
 /// time. The bake's time is all of make_vismap(): building, covering, sampling, tracing, summing, margin. The two take
 /// turns, so that a slow spell of the machine hits both; medians of their times are compared.
-#include <vmlight/embree.h>
-#include <vmlight/parallel.h>
-#include <vmlight/sampling.h>
-#include <vmlight/surface.h>
-#include <vmlight/vismap.h>
+#include <vmlight/base/parallel.h>
+#include <vmlight/math/sampling.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/trace/embree.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/timer.h>
 

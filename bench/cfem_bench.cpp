@@ -5,7 +5,7 @@
 // map's mean: for suns of one texel always, and for each lat-long MAP at 500 pixels of the result.
 #include "cfem_brute.h"
 
-#include <vmlight/cfem.h>
+#include <vmlight/cfem/cfem.h>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

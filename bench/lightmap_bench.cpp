@@ -5,12 +5,13 @@
 /// Counters: ns a texel, and ratios to a run of the other kind taken in turn with it, so that both see the same
 /// machine. Times are the best of the run. Two contents: `smooth`, where neighbours look along like directions, as in a
 /// baked chart; `random`, where each texel looks anywhere, the worst case for the cache that holds the CFEM.
-#include <vmlight/cfem_stack.h>
-#include <vmlight/channels.h>
-#include <vmlight/latlong.h>
-#include <vmlight/lightmap_shader.h>
-#include <vmlight/shade_kernel.h>
-#include <vmlight/vismap.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/shader.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <benchmark/benchmark.h>
 

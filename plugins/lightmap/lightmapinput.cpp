@@ -2,6 +2,8 @@
 /// `hero.lightmap` as an image: what OIIO looks for in lightmap.imageio.so.
 #include "../readers.h"
 
+#include <vmlight/version.h>
+
 OIIO_PLUGIN_NAMESPACE_BEGIN
 
 OIIO_PLUGIN_EXPORTS_BEGIN
@@ -10,7 +12,7 @@ OIIO_EXPORT int lightmap_imageio_version = OIIO_PLUGIN_VERSION;
 
 OIIO_EXPORT const char* lightmap_imageio_library_version()
 {
-    return "vmlight " VMLIGHT_VERSION;
+    return "vmlight " VMLIGHT_VERSION_STRING;
 }
 
 OIIO_EXPORT ImageInput* lightmap_input_imageio_create()

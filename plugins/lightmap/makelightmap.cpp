@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/animation.h>
-#include <vmlight/channels.h>
-#include <vmlight/recipe_udim.h>
-#include <vmlight/stage_main.h>
-#include <vmlight/udim_run.h>
+#include <vmlight/cli/animation.h>
+#include <vmlight/cli/main.h>
+#include <vmlight/cli/udim_run.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/stage/recipe/udim.h>
 
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/timer.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage_main.h>
-#include <vmlight/udim_run.h>
+#include <vmlight/cli/main.h>
+#include <vmlight/cli/udim_run.h>
 
 using namespace vmlight;
 

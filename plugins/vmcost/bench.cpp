@@ -5,10 +5,11 @@
 #include "journal.h"
 #include "least_seconds.h"
 
-#include <vmlight/lightmap.h>
-#include <vmlight/parallel.h>
-#include <vmlight/reference.h>
-#include <vmlight/vismap_baker.h>
+#include <vmlight/base/parallel.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/reference/reference.h>
+#include <vmlight/version.h>
+#include <vmlight/vismap/baker.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -68,7 +69,7 @@ Bench::Bench(const Inputs& inputs, const CostParams& params, const MakeOptions& 
 std::string Bench::key(const Setting& setting, size_t environment) const
 {
     Setting copy = setting;
-    std::string text = format("row {} {}\n{}{}\n", kMethod, VMLIGHT_VERSION, m_inputs.scene_text(),
+    std::string text = format("row {} {}\n{}{}\n", kMethod, VMLIGHT_VERSION_STRING, m_inputs.scene_text(),
                               m_inputs.environments[environment].reference_key);
     copy.visit([&](const char* name, auto& value) { text += format("{}={}\n", name, value); });
     text += params_text(map_of(setting, m_params));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vmlight/params.h>
+#include <vmlight/base/params.h>
 
 namespace vmlight::cost {
 

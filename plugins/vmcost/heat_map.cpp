@@ -3,7 +3,7 @@
 
 #include "named_channels.h"
 
-#include <vmlight/color.h>
+#include <vmlight/image/color.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -4,9 +4,9 @@
 #include "heat_map.h"
 #include "named_channels.h"
 
-#include <vmlight/image_file.h>
-#include <vmlight/interrupt.h>
-#include <vmlight/output_file.h>
+#include <vmlight/base/interrupt.h>
+#include <vmlight/base/output_file.h>
+#include <vmlight/image/image_file.h>
 
 #include <OpenImageIO/filesystem.h>
 

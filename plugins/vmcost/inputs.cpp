@@ -5,11 +5,11 @@
 #include "journal.h"
 #include "named_channels.h"
 
-#include <vmlight/image_file.h>
-#include <vmlight/interrupt.h>
-#include <vmlight/recipe_chain.h>
-#include <vmlight/reference.h>
-#include <vmlight/scene_cache.h>
+#include <vmlight/base/interrupt.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/reference/reference.h>
+#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/scene_cache.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>

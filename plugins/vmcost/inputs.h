@@ -4,9 +4,9 @@
 
 #include "cost_params.h"
 
-#include <vmlight/bake_scene.h>
-#include <vmlight/color.h>
-#include <vmlight/make_stage.h>
+#include <vmlight/image/color.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/trace/bake_scene.h>
 
 #include <OpenImageIO/imagebuf.h>
 

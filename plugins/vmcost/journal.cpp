@@ -3,7 +3,7 @@
 
 #include "row_json.h"
 
-#include <vmlight/interrupt.h>
+#include <vmlight/base/interrupt.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/hash.h>

@@ -3,8 +3,8 @@
 
 #include "least_seconds.h"
 
-#include <vmlight/cfem_stack.h>
-#include <vmlight/radiance.h>
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/cfem/stack.h>
 
 #include <OpenImageIO/strutil.h>
 

@@ -2,7 +2,7 @@
 /// The ladder of shading models, from the cheapest up. A new model is one line of the table in models.cpp.
 #pragma once
 
-#include <vmlight/vismap.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/span.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "named_channels.h"
 
-#include <vmlight/image_file.h>
+#include <vmlight/image/image_file.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>

@@ -3,8 +3,8 @@
 #include "report.h"
 #include "write_report.h"
 
-#include <vmlight/stage_main.h>
-#include <vmlight/words.h>
+#include <vmlight/base/words.h>
+#include <vmlight/cli/main.h>
 
 #include <OpenImageIO/filesystem.h>
 

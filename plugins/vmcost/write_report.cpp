@@ -9,9 +9,10 @@
 #include "plots.h"
 #include "report.h"
 
-#include <vmlight/interrupt.h>
-#include <vmlight/output_file.h>
-#include <vmlight/parallel.h>
+#include <vmlight/base/interrupt.h>
+#include <vmlight/base/output_file.h>
+#include <vmlight/base/parallel.h>
+#include <vmlight/version.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -68,7 +69,7 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
              { "reference", format("{0}x{0} texels, {1} pairs of rays", params.side(), params.pairs()) },
              { "threads", format("{}", worker_count(options.threads)) },
              { "seed", format("{}", params.seed) },
-             { "vmlight", VMLIGHT_VERSION } };
+             { "vmlight", VMLIGHT_VERSION_STRING } };
 }
 
 } // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A user's program: every public header, the installed OCIO config, and the library's answers where they are known.
-#include <vmlight/cfem.h>
-#include <vmlight/channels.h>
-#include <vmlight/color.h>
-#include <vmlight/latlong.h>
-#include <vmlight/lightmap.h>
-#include <vmlight/make_stage.h>
-#include <vmlight/mesh.h>
-#include <vmlight/recipe.h>
-#include <vmlight/rotation.h>
-#include <vmlight/vismap.h>
+#include <vmlight/cfem/cfem.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/image/color.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/math/rotation.h>
+#include <vmlight/mesh/mesh.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -6,7 +6,7 @@
 #include "captured_run.h"
 #include "law.h"
 
-#include <vmlight/recipe.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <OpenImageIO/strutil.h>
 

@@ -4,7 +4,7 @@
 
 #include "bytes.h"
 
-#include <vmlight/channels.h>
+#include <vmlight/image/channels.h>
 
 #include <OpenImageIO/imagebuf.h>
 

@@ -5,9 +5,9 @@
 #include "image_of_bytes.h"
 #include "law.h"
 
-#include <vmlight/cfem_stack.h>
-#include <vmlight/lightmap.h>
-#include <vmlight/radiance.h>
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/lightmap/lightmap.h>
 
 using namespace vmlight;
 using namespace vmlight::fuzz;

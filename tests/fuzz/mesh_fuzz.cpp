@@ -6,9 +6,9 @@
 #include "law.h"
 #include "scene_of_bytes.h"
 
-#include <vmlight/mesh_file_ply.h>
-#include <vmlight/mesh_of_scene.h>
-#include <vmlight/vismap.h>
+#include <vmlight/mesh/import/mesh_of_scene.h>
+#include <vmlight/mesh/import/ply.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>

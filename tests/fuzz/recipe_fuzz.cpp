@@ -3,7 +3,7 @@
 //   recipe_fuzz -max_total_time=60 NEW_CORPUS tests/fuzz/recipe_corpus
 #include "law.h"
 
-#include <vmlight/recipe.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <cstdint>
 

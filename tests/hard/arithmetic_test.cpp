@@ -7,7 +7,7 @@
 #include "stack_maps.h"
 #include "stage_scene.h"
 
-#include <vmlight/vismap.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

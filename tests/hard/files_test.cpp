@@ -4,9 +4,9 @@
 #include "hard_case.h"
 #include "temporary_folder.h"
 
-#include <vmlight/image_file.h>
-#include <vmlight/make_stage.h>
-#include <vmlight/pixel_source.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/pixel_source.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

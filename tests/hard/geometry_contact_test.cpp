@@ -5,7 +5,8 @@
 #include "scenes.h"
 #include "turned.h"
 
-#include <vmlight/surface.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/uv/uvraster.h>
 
 #include <random>
 

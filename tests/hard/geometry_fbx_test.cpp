@@ -5,7 +5,8 @@
 #include "hard_case.h"
 #include "temporary_folder.h"
 
-#include <vmlight/mesh.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/mesh/mesh.h>
 
 using namespace vmlight;
 

@@ -6,6 +6,8 @@
 #include "scenes.h"
 #include "temporary_folder.h"
 
+#include <vmlight/mesh/import/read_mesh.h>
+
 using namespace vmlight;
 using namespace vmlight::scenes;
 

@@ -4,6 +4,7 @@
 #include "mesh_refusal.h"
 
 #include <OpenImageIO/strutil.h>
+#include <vmlight/mesh/import/read_mesh.h>
 
 #include <cmath>
 #include <functional>

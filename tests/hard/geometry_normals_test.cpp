@@ -4,8 +4,9 @@
 #include "judgement.h"
 #include "scenes.h"
 
-#include <vmlight/sampling.h>
-#include <vmlight/visibility.h>
+#include <vmlight/math/sampling.h>
+#include <vmlight/uv/uvraster.h>
+#include <vmlight/vismap/visibility.h>
 
 using namespace vmlight;
 using namespace vmlight::scenes;

@@ -6,8 +6,8 @@
 #include "lightmap_scene.h"
 #include "temporary_folder.h"
 
-#include <vmlight/make_stage.h>
-#include <vmlight/sanitizers.h>
+#include <vmlight/base/sanitizers.h>
+#include <vmlight/stage/make_stage.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -6,9 +6,9 @@
 #include "lightmap_scene.h"
 #include "temporary_folder.h"
 
-#include <vmlight/cfem_rows.h>
-#include <vmlight/cfem_stack.h>
-#include <vmlight/image_file.h>
+#include <vmlight/cfem/rows.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/image/image_file.h>
 
 #include <Imath/half.h>
 

@@ -2,7 +2,7 @@
 /// Mesh files with all digits that a double has, for tests that read them back.
 #pragma once
 
-#include <vmlight/mesh.h>
+#include <vmlight/mesh/mesh.h>
 
 #include <OpenImageIO/strutil.h>
 

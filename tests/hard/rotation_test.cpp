@@ -4,7 +4,7 @@
 
 #include "lightmap_scene.h"
 
-#include <vmlight/rotation.h>
+#include <vmlight/math/rotation.h>
 
 #include <cmath>
 

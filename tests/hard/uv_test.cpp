@@ -5,7 +5,9 @@
 #include "scenes.h"
 #include "temporary_folder.h"
 
-#include <vmlight/make_stage.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/uv/uvraster.h>
 
 using namespace vmlight;
 using namespace vmlight::scenes;

@@ -2,7 +2,7 @@
 /// A visibility map in memory, for tests that look at its texels.
 #pragma once
 
-#include <vmlight/vismap.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <gtest/gtest.h>
 

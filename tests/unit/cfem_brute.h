@@ -3,7 +3,7 @@
 /// nothing with the filter but the frame of latlong.h.
 #pragma once
 
-#include <vmlight/latlong.h>
+#include <vmlight/math/latlong.h>
 
 #include <Imath/ImathVec.h>
 

@@ -4,7 +4,7 @@
 
 #include "cfem_brute.h"
 
-#include <vmlight/cfem.h>
+#include <vmlight/cfem/cfem.h>
 
 #include <OpenImageIO/imagebuf.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfem_maps.h"
 
-#include <vmlight/cfem_sh.h>
-#include <vmlight/cfem_stack.h>
+#include <vmlight/cfem/sh.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/math/harmonics.h>
 
 #include <cstring>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfem_maps.h"
 
-#include <vmlight/cfem_exact.h>
-#include <vmlight/rotation.h>
+#include <vmlight/cfem/exact.h>
+#include <vmlight/math/rotation.h>
 
 #include <gtest/gtest.h>
 

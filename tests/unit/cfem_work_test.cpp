@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfem_maps.h"
 
-#include <vmlight/cfem_kernel.h>
+#include <vmlight/cfem/kernel.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The image contract: what is taken for a visibility map, and what is one no more.
-#include <vmlight/channels.h>
+#include <vmlight/image/channels.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 /// Small images brought to scene-linear light, and what was said: for the tests of the colour rooms.
 #pragma once
 
-#include <vmlight/color.h>
+#include <vmlight/image/color.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

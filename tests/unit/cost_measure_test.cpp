@@ -8,7 +8,7 @@
 #include <vmcost/measure.h>
 #include <vmcost/models.h>
 
-#include <vmlight/latlong.h>
+#include <vmlight/math/latlong.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

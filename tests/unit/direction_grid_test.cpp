@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/direction_grid.h>
-#include <vmlight/latlong.h>
-#include <vmlight/packed_visibility.h>
-#include <vmlight/sampling.h>
+#include <vmlight/math/direction_grid.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/math/packed_visibility.h>
+#include <vmlight/math/sampling.h>
 
 #include <gtest/gtest.h>
 

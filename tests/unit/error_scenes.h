@@ -5,6 +5,8 @@
 #include "baked_map.h"
 #include "scenes.h"
 
+#include <vmlight/mesh/import/read_mesh.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

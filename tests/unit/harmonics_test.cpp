@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/cfem_sh.h>
-#include <vmlight/harmonic_light.h>
-#include <vmlight/harmonics.h>
-#include <vmlight/latlong.h>
+#include <vmlight/cfem/sh.h>
+#include <vmlight/lightmap/harmonic_light.h>
+#include <vmlight/math/harmonics.h>
+#include <vmlight/math/latlong.h>
 
 #include <gtest/gtest.h>
 

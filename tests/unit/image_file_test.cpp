@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "temporary_folder.h"
 
-#include <vmlight/channels.h>
-#include <vmlight/color.h>
-#include <vmlight/image_file.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/image/color.h>
+#include <vmlight/image/image_file.h>
 
 #include <gtest/gtest.h>
 

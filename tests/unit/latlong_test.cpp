@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/latlong.h>
+#include <vmlight/math/latlong.h>
 
 #include <gtest/gtest.h>
 

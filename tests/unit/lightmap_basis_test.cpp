@@ -3,9 +3,9 @@
 #include "scenes.h"
 #include "stack_maps.h"
 
-#include <vmlight/packed_visibility.h>
-#include <vmlight/radiance.h>
-#include <vmlight/vismap.h>
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/math/packed_visibility.h>
+#include <vmlight/vismap/vismap.h>
 
 using namespace vmlight;
 using namespace scene;

@@ -2,7 +2,7 @@
 #include "scenes.h"
 #include "stack_maps.h"
 
-#include <vmlight/vismap.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -2,9 +2,9 @@
 /// Small visibility maps and environments for the tests of shading.
 #pragma once
 
-#include <vmlight/channels.h>
-#include <vmlight/latlong.h>
-#include <vmlight/lightmap.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/math/latlong.h>
 
 #include <gtest/gtest.h>
 

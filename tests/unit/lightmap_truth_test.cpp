@@ -3,9 +3,11 @@
 #include "scenes.h"
 #include "stack_maps.h"
 
-#include <vmlight/occluder.h>
-#include <vmlight/surface.h>
-#include <vmlight/vismap.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/trace/occluder.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/uv/uvraster.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/margin.h>
+#include <vmlight/uv/margin.h>
 
 #include <Imath/ImathVec.h>
 #include <gtest/gtest.h>

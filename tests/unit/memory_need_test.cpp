@@ -2,7 +2,7 @@
 /// What memory there is, as the system's files tell it.
 #include "temporary_folder.h"
 
-#include <vmlight/memory_need.h>
+#include <vmlight/base/memory_need.h>
 
 #include <limits>
 

@@ -4,7 +4,8 @@
 
 #include "temporary_folder.h"
 
-#include <vmlight/mesh.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/mesh/mesh.h>
 
 #include <gtest/gtest.h>
 

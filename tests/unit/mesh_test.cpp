@@ -3,6 +3,7 @@
 #include "mesh_fixture.h"
 
 #include <OpenImageIO/strutil.h>
+#include <vmlight/mesh/import/read_mesh.h>
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
-#include <vmlight/occluder.h>
-#include <vmlight/sampling.h>
-#include <vmlight/surface.h>
+#include <vmlight/math/sampling.h>
+#include <vmlight/trace/occluder.h>
+#include <vmlight/trace/surface.h>
 
 #include <gtest/gtest.h>
 

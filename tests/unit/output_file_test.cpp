@@ -2,7 +2,7 @@
 /// Files that appear when they are whole, and folders to write them to.
 #include "temporary_folder.h"
 
-#include <vmlight/output_file.h>
+#include <vmlight/base/output_file.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/parallel.h>
+#include <vmlight/base/parallel.h>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/thread.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/cfem.h>
-#include <vmlight/lightmap.h>
-#include <vmlight/recipe.h>
+#include <vmlight/cfem/cfem.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/progress_line.h>
+#include <vmlight/cli/progress_line.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stack_maps.h"
 
-#include <vmlight/radiance.h>
+#include <vmlight/cfem/radiance.h>
 
 using namespace vmlight;
 using namespace scene;

@@ -2,7 +2,7 @@
 /// Recipes read from texts and by name, or refused: for the tests of the recipe rooms.
 #pragma once
 
-#include <vmlight/recipe.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 /// The reference against closed forms, and its standard error against what it is the error of.
 #include "scenes.h"
 
-#include <vmlight/cfem.h>
-#include <vmlight/environment_light.h>
-#include <vmlight/latlong.h>
-#include <vmlight/reference.h>
+#include <vmlight/cfem/cfem.h>
+#include <vmlight/lightmap/environment_light.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/reference/reference.h>
 
 #include <gtest/gtest.h>
 

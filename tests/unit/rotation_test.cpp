@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/rotation.h>
+#include <vmlight/math/rotation.h>
 
 #include <gtest/gtest.h>
 

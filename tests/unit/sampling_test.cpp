@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/sampling.h>
+#include <vmlight/math/sampling.h>
 
 #include <gtest/gtest.h>
 

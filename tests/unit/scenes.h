@@ -2,7 +2,7 @@
 /// Small meshes whose visibility has a closed form.
 #pragma once
 
-#include <vmlight/mesh.h>
+#include <vmlight/mesh/mesh.h>
 
 #include <array>
 #include <cmath>

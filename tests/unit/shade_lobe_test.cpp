@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stack_maps.h"
 
-#include <vmlight/shade_kernel.h>
+#include <vmlight/lightmap/shade_kernel.h>
 
 #include <hwy/highway.h>
 

@@ -4,8 +4,8 @@
 
 #include "lightmap_scene.h"
 
-#include <vmlight/cfem_stack.h>
-#include <vmlight/lobe_lookup.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/lightmap/lobe_lookup.h>
 
 namespace scene {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage_scene.h"
 
-#include <vmlight/cfem_stack.h>
-#include <vmlight/image_file.h>
-#include <vmlight/lightmap.h>
-#include <vmlight/make_stage.h>
-#include <vmlight/stage_counts.h>
-#include <vmlight/stage_input.h>
+#include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/stage/input.h>
+#include <vmlight/stage/make_stage.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

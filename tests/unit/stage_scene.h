@@ -4,11 +4,12 @@
 
 #include "temporary_folder.h"
 
-#include <vmlight/cfem.h>
-#include <vmlight/color.h>
-#include <vmlight/stage_counts.h>
-#include <vmlight/stage_input.h>
-#include <vmlight/vismap.h>
+#include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/cfem.h>
+#include <vmlight/image/color.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/input.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -101,9 +102,9 @@ inline std::vector<float> all_pixels(const OIIO::ImageBuf& image)
 /// What readers did so far.
 struct Work
 {
-    int64_t meshes_read = stage_counts().meshes_read, scenes_built = stage_counts().scenes_built;
-    int64_t tiles_baked = stage_counts().tiles_baked;
-    int64_t cfems_made = stage_counts().cfems_made, tiles_shaded = stage_counts().tiles_shaded;
+    int64_t meshes_read = work_counts().meshes_read, scenes_built = work_counts().scenes_built;
+    int64_t tiles_baked = work_counts().tiles_baked;
+    int64_t cfems_made = work_counts().cfems_made, tiles_shaded = work_counts().tiles_shaded;
 
     static Work none() { return Work() - Work(); }
     Work operator-(const Work& other) const

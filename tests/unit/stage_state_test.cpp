@@ -171,10 +171,10 @@ TEST(StageState, RotationsShareTheConvertedAlbedo)
     OIIO::ImageBufAlgo::noise(albedo, "uniform", 0.1f, 0.9f, false, 1);
     ASSERT_TRUE(albedo.write(folder / "paint.png"));
     folder.write("painted.lightmap", "vismap = \"hero.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"paint.png\"\n");
-    const int64_t before = stage_counts().albedos_made;
+    const int64_t before = work_counts().albedos_made;
     const auto one = all_pixels(*ImageInput::open(folder / "painted.lightmap?rotate=0,10,0"));
     EXPECT_NE(all_pixels(*ImageInput::open(folder / "painted.lightmap?rotate=0,100,0")), one);
-    EXPECT_EQ(stage_counts().albedos_made - before, 1);
+    EXPECT_EQ(work_counts().albedos_made - before, 1);
 }
 
 TEST(StageState, AConfigMattersOnlyWhereColourIsConverted)

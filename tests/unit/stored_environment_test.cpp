@@ -2,9 +2,9 @@
 #include "cfem_maps.h"
 #include "temporary_folder.h"
 
-#include <vmlight/cfem_stack.h>
-#include <vmlight/stored_environment.h>
-#include <vmlight/stored_image.h>
+#include <vmlight/cfem/stack.h>
+#include <vmlight/stage/stored_environment.h>
+#include <vmlight/stage/stored_image.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -2,9 +2,10 @@
 /// UDIM tiles as images: the right pixels, and the work that tiles share done once.
 #include "stage_scene.h"
 
-#include <vmlight/image_file.h>
-#include <vmlight/make_stage.h>
-#include <vmlight/recipe_udim.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/recipe/udim.h>
 
 #include <OpenImageIO/Imath.h>
 #include <OpenImageIO/texture.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "temporary_folder.h"
 
-#include <vmlight/udim.h>
+#include <vmlight/uv/udim.h>
 
 #include <gtest/gtest.h>
 

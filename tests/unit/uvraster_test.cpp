@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
-#include <vmlight/uvraster.h>
+#include <vmlight/uv/uvraster.h>
 
 #include <gtest/gtest.h>
 

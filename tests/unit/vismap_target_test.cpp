@@ -2,7 +2,7 @@
 // Bakes for an error or a time that was asked for.
 #include "error_scenes.h"
 
-#include <vmlight/vismap_baker.h>
+#include <vmlight/vismap/baker.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/vismap_tiles.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/vismap/tiles.h>
 
-#include <vmlight/parallel.h>
-#include <vmlight/stage_counts.h>
-#include <vmlight/vismap.h>
+#include <vmlight/base/parallel.h>
+#include <vmlight/base/work_counts.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <gtest/gtest.h>
 
@@ -182,13 +183,13 @@ TEST(VismapTiles, ATileOfALargeMapCostsItselfAndWhatReachesIntoItsMargin)
     ASSERT_GE(inside, 0);
     ASSERT_GE(rim, 0);
     VismapTiles tiles(baker, params.margin);
-    int64_t before = stage_counts().tiles_baked;
+    int64_t before = work_counts().tiles_baked;
     EXPECT_EQ(tiles.tile(inside)->texels.size(), size_t(kTileSize * kTileSize * 4));
-    EXPECT_EQ(stage_counts().tiles_baked, before + 1);
+    EXPECT_EQ(work_counts().tiles_baked, before + 1);
     tiles.tile(inside);
-    EXPECT_EQ(stage_counts().tiles_baked, before + 1);
-    before = stage_counts().tiles_baked;
+    EXPECT_EQ(work_counts().tiles_baked, before + 1);
+    before = work_counts().tiles_baked;
     tiles.tile(rim);
-    EXPECT_GE(stage_counts().tiles_baked, before + 1);
-    EXPECT_LE(stage_counts().tiles_baked, before + 9);
+    EXPECT_GE(work_counts().tiles_baked, before + 1);
+    EXPECT_LE(work_counts().tiles_baked, before + 9);
 }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/parallel.h>
+
+#include <vmlight/base/tsan_handoff.h>
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/thread.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace vmlight {
+namespace {
+
+// Who is at work. OIIO's own wait runs whatever task is queued while it waits; a task that needs what the waiting
+// thread is about to make would wait for itself. Here the caller works until nothing is left, turns away the helpers
+// that have not begun, and waits for the others, which are at work on the last items.
+class Crew
+{
+public:
+    bool enter()
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_inside += !m_closed;
+        return !m_closed;
+    }
+    void leave()
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        if (--m_inside == 0)
+            m_empty.notify_all();
+    }
+    void close()
+    {
+        std::unique_lock<std::mutex> lock(m_mutex);
+        m_closed = true;
+        m_empty.wait(lock, [this] { return m_inside == 0; });
+    }
+
+private:
+    std::mutex m_mutex;
+    std::condition_variable m_empty;
+    int m_inside = 0;
+    bool m_closed = false;
+};
+
+} // namespace
+
+// A worker of the pool never waits for the pool.
+InlineLoops::InlineLoops()
+    : m_registered(!OIIO::default_thread_pool()->is_worker(std::this_thread::get_id()))
+{
+    if (m_registered)
+        OIIO::default_thread_pool()->register_worker(std::this_thread::get_id());
+}
+
+InlineLoops::~InlineLoops()
+{
+    if (m_registered)
+        OIIO::default_thread_pool()->deregister_worker(std::this_thread::get_id());
+}
+
+int worker_count(int nthreads)
+{
+    return nthreads > 0 ? nthreads : std::max(1, OIIO::get_int_attribute("threads"));
+}
+
+bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t, int)>& work,
+                    const Progress& progress)
+{
+    std::atomic<int64_t> next { 0 }, finished { 0 };
+    std::atomic<bool> stopped { false };
+    std::mutex reporting;
+    double reported = 0;
+    std::exception_ptr failure; // OIIO's pool would swallow it
+
+    // Under the lock, so that what is reported only ever grows.
+    const auto report = [&] {
+        const double done = double(finished) / double(items);
+        if (!stopped && done > reported && !progress(reported = done))
+            stopped = true;
+    };
+    const auto run = [&](int worker) {
+        const InlineLoops inline_loops; // an item may hold a lock that another item wants
+        for (int64_t item; !stopped && (item = next++) < items;) {
+            try {
+                work(item, worker);
+            } catch (...) {
+                const std::lock_guard<std::mutex> lock(reporting);
+                if (!failure)
+                    failure = std::current_exception();
+                stopped = true;
+                return;
+            }
+            ++finished;
+            if (!progress)
+                continue;
+            // A worker that finds another one reporting goes on: progress must never hold up the work.
+            const std::unique_lock<std::mutex> lock(reporting, std::try_to_lock);
+            if (lock)
+                report();
+        }
+    };
+
+    // OIIO's own division of labour cuts the range into as many pieces as threads, which leaves a thread idle when
+    // pieces differ in cost; here each worker takes the next item when it is free.
+    const int workers = int(std::min<int64_t>(worker_count(nthreads), std::max<int64_t>(1, items)));
+    const auto crew = std::make_shared<Crew>();
+    for (int worker = 1; worker < workers; ++worker) {
+        const HandingOver handing_over;
+        OIIO::default_thread_pool()->push([crew, worker, &run](int) {
+            take_over();
+            if (crew->enter()) {
+                run(worker);
+                crew->leave();
+            }
+        });
+    }
+    run(0);
+    crew->close();
+    if (failure)
+        std::rethrow_exception(failure);
+    if (progress && items > 0)
+        report(); // the last item's, if another worker was reporting when it ended
+    return !stopped;
+}
+
+} // namespace vmlight

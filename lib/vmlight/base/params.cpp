@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/params.h>
+
+#include <vmlight/base/words.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+namespace {
+
+using OIIO::string_view;
+using OIIO::Strutil::fmt::format;
+
+// OIIO's stof/stoi read a leading number and drop the rest; here the whole text must be one finite number.
+bool whole_number_text(string_view text, double& value)
+{
+    const std::string trimmed(OIIO::Strutil::strip(text));
+    char* end = nullptr;
+    if (trimmed.empty() || OIIO::Strutil::icontains(trimmed, "x")) // no hexadecimal
+        return false;
+    value = OIIO::Strutil::strtod(trimmed.c_str(), &end) + 0.0; // -0 is 0
+    return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
+}
+
+std::string number_text(double value)
+{
+    // The shortest of the two precisions that reads back to the same value.
+    std::string brief = format("{:.6g}", value);
+    return OIIO::Strutil::strtod(brief.c_str()) == value ? brief : format("{:.17g}", value);
+}
+
+std::string range_text(const Range& range)
+{
+    std::string text = format("[{}, {}]", number_text(range.min), number_text(range.max));
+    return range.word ? text + format(" or \"{}\"", range.word) : text;
+}
+
+bool parse_number(double& dst, string_view text, const Range& allowed, bool integral, std::string& error)
+{
+    double value = 0;
+    if (allowed.word && OIIO::Strutil::strip(text) == allowed.word) {
+        dst = allowed.word_value;
+        return true;
+    }
+    if (!whole_number_text(text, value) || (integral && value != std::floor(value))) {
+        error = format("\"{}\" is not a {}", text, integral ? "whole number" : "number");
+        if (allowed.word)
+            error += format(" or \"{}\"", allowed.word);
+        return false;
+    }
+    if (!(value >= allowed.min && value <= allowed.max)) {
+        error = format("{} is not in {}", OIIO::Strutil::strip(text), range_text(allowed));
+        return false;
+    }
+    dst = value;
+    return true;
+}
+
+std::vector<std::string> in_order(std::vector<std::string> words, const Words& allowed)
+{
+    const auto place = [&](const std::string& word) {
+        return std::find(allowed.words.begin(), allowed.words.end(), word) - allowed.words.begin();
+    };
+    std::stable_sort(words.begin(), words.end(),
+                     [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+    return words;
+}
+
+} // namespace
+
+bool parse_value(int& dst, string_view text, const Range& allowed, std::string& error)
+{
+    double value = 0;
+    if (!parse_number(value, text, allowed, true, error))
+        return false;
+    dst = int(value);
+    return true;
+}
+
+bool parse_value(double& dst, string_view text, const Range& allowed, std::string& error)
+{
+    return parse_number(dst, text, allowed, false, error);
+}
+
+bool parse_value(Size& dst, string_view text, const SizeRange& allowed, std::string& error)
+{
+    const std::string trimmed(OIIO::Strutil::strip(text));
+    const size_t cross = trimmed.find('x');
+    const Range range { 1, double(allowed.max) };
+    int width = 0, height = 0;
+    std::string reason;
+    bool good = parse_value(width, trimmed.substr(0, cross), range, reason);
+    if (good && cross != std::string::npos)
+        good = parse_value(height, trimmed.substr(cross + 1), range, reason);
+    else
+        height = std::max(1, int(width * allowed.height_share));
+    if (!good) {
+        error = format("\"{}\" is not WIDTHxHEIGHT from 1x1 to {}x{}", text, allowed.max, allowed.max);
+        return false;
+    }
+    dst = { width, height };
+    return true;
+}
+
+bool parse_value(std::string& dst, string_view text, const Choices& allowed, std::string& error)
+{
+    for (const char* word : allowed.words)
+        if (text == word) {
+            dst = word;
+            return true;
+        }
+    error = format("\"{}\" is not one of {}", text, OIIO::Strutil::join(allowed.words, ", "));
+    return false;
+}
+
+bool parse_value(std::vector<std::string>& dst, string_view text, const Words& allowed, std::string& error)
+{
+    const std::vector<std::string> known(allowed.words.begin(), allowed.words.end());
+    std::vector<std::string> words;
+    if (!OIIO::Strutil::strip(text).empty())
+        words = OIIO::Strutil::splits(text, ",");
+    for (auto word = words.begin(); word != words.end(); ++word) {
+        *word = std::string(OIIO::Strutil::strip(*word));
+        if (std::find(known.begin(), known.end(), *word) == known.end()) {
+            const std::string near = nearest_name(*word, known);
+            error = format("\"{}\" is not one of {}{}", *word, OIIO::Strutil::join(known, ", "),
+                           near.empty() ? "" : format("; did you mean \"{}\"?", near));
+            return false;
+        }
+        if (std::find(words.begin(), word, *word) != word) {
+            error = format("\"{}\" comes twice", *word);
+            return false;
+        }
+    }
+    dst = in_order(words, allowed);
+    return true;
+}
+
+bool parse_value(std::string& dst, string_view text, const Text&, std::string&)
+{
+    dst = std::string(text);
+    return true;
+}
+
+bool parse_value(std::string& dst, string_view text, const Path&, std::string& error)
+{
+    if (text.find('\0') != string_view::npos) {
+        error = "a name cannot hold a zero byte";
+        return false;
+    }
+    dst = std::string(text);
+    return true;
+}
+
+bool parse_value(std::vector<std::string>& dst, string_view text, const Paths&, std::string& error)
+{
+    std::vector<std::string> paths;
+    if (!text.empty())
+        paths = OIIO::Strutil::splits(text, "\n");
+    for (std::string& path : paths) {
+        if (!parse_value(path, path, Path {}, error))
+            return false;
+        if (path.empty()) {
+            error = "one of its names is empty";
+            return false;
+        }
+    }
+    dst = paths;
+    return true;
+}
+
+bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
+{
+    std::string spaced(text);
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    std::vector<double> numbers;
+    for (const std::string& word : OIIO::Strutil::splits(OIIO::Strutil::strip(spaced))) {
+        double value = 0;
+        if (!whole_number_text(word, value)) {
+            error = format("\"{}\" in \"{}\" is not a number", word, text);
+            return false;
+        }
+        numbers.push_back(value);
+    }
+    if (!numbers.empty() && numbers.size() != allowed.count) {
+        error = format("\"{}\" has {} {}, {} are needed", text, numbers.size(),
+                       plural(int64_t(numbers.size()), "number", "numbers"), allowed.count);
+        return false;
+    }
+    dst = numbers;
+    return true;
+}
+
+bool parse_value(bool& dst, string_view text, const Flag&, std::string& error)
+{
+    if (text == "true" || text == "1" || text == "false" || text == "0") {
+        dst = text == "true" || text == "1";
+        return true;
+    }
+    error = format("\"{}\" is not true or false", text);
+    return false;
+}
+
+std::string value_text(int value, const Range& allowed)
+{
+    return allowed.word && value == allowed.word_value ? allowed.word : format("{}", value);
+}
+
+std::string value_text(double value, const Range& allowed)
+{
+    return allowed.word && value == allowed.word_value ? allowed.word : number_text(value);
+}
+
+std::string value_text(const Size& value, const SizeRange&)
+{
+    return format("{}x{}", value.width, value.height);
+}
+
+std::string value_text(const std::string& value, const Choices&)
+{
+    return value;
+}
+
+std::string value_text(const std::vector<std::string>& value, const Words& allowed)
+{
+    return OIIO::Strutil::join(in_order(value, allowed), ",");
+}
+
+std::string value_text(const std::string& value, const Text&)
+{
+    return value;
+}
+
+std::string value_text(const std::string& value, const Path&)
+{
+    return value;
+}
+
+std::string value_text(const std::vector<std::string>& value, const Paths&)
+{
+    return OIIO::Strutil::join(value, "\n");
+}
+
+std::string value_text(const std::vector<double>& value, const Numbers&)
+{
+    std::string text;
+    for (double number : value)
+        text += (text.empty() ? "" : ",") + number_text(number);
+    return text;
+}
+
+std::string value_text(bool value, const Flag&)
+{
+    return value ? "true" : "false";
+}
+
+std::string allowed_text(const Range& allowed)
+{
+    std::string text = format("{}..{}", number_text(allowed.min), number_text(allowed.max));
+    return allowed.word ? text + format(" or {}", allowed.word) : text;
+}
+
+std::string allowed_text(const SizeRange& allowed)
+{
+    return format("1x1..{}x{}", allowed.max, allowed.max);
+}
+
+std::string allowed_text(const Choices& allowed)
+{
+    return OIIO::Strutil::join(allowed.words, "|");
+}
+
+std::string allowed_text(const Words& allowed)
+{
+    return OIIO::Strutil::join(allowed.words, ",");
+}
+
+std::string allowed_text(const Text&)
+{
+    return "TEXT";
+}
+
+std::string allowed_text(const Path&)
+{
+    return "FILE";
+}
+
+std::string allowed_text(const Paths&)
+{
+    return "FILE";
+}
+
+std::string allowed_text(const Numbers& allowed)
+{
+    return format("{} numbers", allowed.count);
+}
+
+std::string allowed_text(const Flag&)
+{
+    return "";
+}
+
+std::string nearest_name(string_view name, const std::vector<std::string>& names)
+{
+    std::string best;
+    size_t fewest = std::max<size_t>(2, name.size() / 3) + 1;
+    for (const std::string& candidate : names) {
+        const size_t edits = OIIO::Strutil::edit_distance(name, candidate);
+        if (edits < fewest) {
+            fewest = edits;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+} // namespace vmlight

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/part_file.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr const char* kDigits = "%%%%%%%%"; // each becomes a random hexadecimal one
+constexpr const char* kEnding = ".part";
+constexpr mode_t kAnyone = 0666; // less what the umask takes
+
+// What hidden names of `name` begin with. Cut, since the file system may take no longer names than that.
+std::string hidden_prefix(const std::string& name)
+{
+    constexpr size_t kLongest = 200;
+    size_t length = std::min(name.size(), kLongest);
+    const auto is_inside_letter = [&](size_t i) { return i < name.size() && (name[i] & 0xC0) == 0x80; }; // UTF-8
+    while (length > 0 && is_inside_letter(length))
+        --length;
+    return "." + name.substr(0, length) + ".";
+}
+
+std::string hidden_name(const std::string& name)
+{
+    // The digits alone: a % of the name is one.
+    return hidden_prefix(name) + OIIO::Filesystem::unique_path(kDigits) + kEnding;
+}
+
+bool is_hidden_name_of(const std::string& entry, const std::string& name)
+{
+    const std::string prefix = hidden_prefix(name);
+    const size_t digits = std::strlen(kDigits);
+    return entry.size() == prefix.size() + digits + std::strlen(kEnding) && OIIO::Strutil::starts_with(entry, prefix)
+        && OIIO::Strutil::ends_with(entry, kEnding)
+        && entry.find_first_not_of("0123456789abcdef", prefix.size()) == prefix.size() + digits;
+}
+
+int open_folder(const std::string& target)
+{
+    // By its descriptor its files have short names, however long its path is.
+    return ::open(folder_of(target).c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+}
+
+std::string link_of(int file)
+{
+    return format("/proc/self/fd/{}", file);
+}
+
+} // namespace
+
+std::string folder_of(const std::string& path)
+{
+    const std::string folder = OIIO::Filesystem::parent_path(path);
+    return folder.empty() ? "." : folder;
+}
+
+PartFile::PartFile(const std::string& target, PartKind kind)
+    : m_target(target)
+    , m_name(OIIO::Filesystem::filename(target))
+    , m_folder(open_folder(target))
+{
+    int file = m_folder >= 0 && kind == PartKind::Nameless ? open_nameless() : -1;
+    if (m_folder >= 0 && file < 0)
+        file = open_hidden();
+    if (file >= 0)
+        m_stream = ::fdopen(file, "wb");
+    if (!m_stream) {
+        m_reason = std::strerror(errno);
+        return;
+    }
+    struct stat old;
+    if (::fstatat(m_folder, m_name.c_str(), &old, 0) == 0)
+        ::fchmod(file, old.st_mode & 0777);
+}
+
+PartFile::~PartFile()
+{
+    if (!m_hidden.empty())
+        ::unlinkat(m_folder, m_hidden.c_str(), 0);
+    if (m_stream)
+        std::fclose(m_stream);
+    if (m_folder >= 0)
+        ::close(m_folder);
+}
+
+int PartFile::open_nameless() const
+{
+    const int file = ::openat(m_folder, ".", O_TMPFILE | O_RDWR | O_CLOEXEC, kAnyone);
+    if (file < 0)
+        return -1;
+    if (::access(link_of(file).c_str(), F_OK) == 0) {
+        ::flock(file, LOCK_EX); // for when it has a name
+        return file;
+    }
+    ::close(file);
+    return -1;
+}
+
+int PartFile::open_hidden()
+{
+    for (;;) {
+        m_hidden = hidden_name(m_name);
+        const int file = ::openat(m_folder, m_hidden.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kAnyone);
+        if (file < 0 && errno == EEXIST)
+            continue;
+        if (file < 0) {
+            m_hidden.clear();
+            return -1;
+        }
+        // Before it was locked, another run may have taken it for abandoned.
+        struct stat status;
+        ::flock(file, LOCK_EX);
+        if (::fstat(file, &status) != 0 || status.st_nlink > 0)
+            return file;
+        ::close(file);
+    }
+}
+
+bool PartFile::give_hidden_name()
+{
+    int result;
+    do {
+        m_hidden = hidden_name(m_name);
+        result = ::linkat(AT_FDCWD, link_of(::fileno(m_stream)).c_str(), m_folder, m_hidden.c_str(), AT_SYMLINK_FOLLOW);
+    } while (result != 0 && errno == EEXIST);
+    if (result != 0)
+        m_hidden.clear();
+    return result == 0;
+}
+
+std::string PartFile::path() const
+{
+    if (!m_stream)
+        return m_target;
+    const std::string link = link_of(::fileno(m_stream));
+    return m_hidden.empty() || ::access(link.c_str(), F_OK) == 0 ? link : folder_of(m_target) + "/" + m_hidden;
+}
+
+bool PartFile::place()
+{
+    // The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
+    if (std::fflush(m_stream) != 0 || ::fsync(::fileno(m_stream)) != 0)
+        return false;
+    // No call gives a file without a name that of another: then it has a hidden one between two calls.
+    const std::string link = link_of(::fileno(m_stream));
+    const bool first
+        = m_hidden.empty() && ::linkat(AT_FDCWD, link.c_str(), m_folder, m_name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    if (!first) {
+        if (m_hidden.empty() && (errno != EEXIST || !give_hidden_name()))
+            return false;
+        if (::renameat(m_folder, m_hidden.c_str(), m_folder, m_name.c_str()) != 0)
+            return false;
+        m_hidden.clear();
+    }
+    const int folder = ::openat(m_folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) { // else it may be written and not read
+        ::fsync(folder);
+        ::close(folder);
+    }
+    return true;
+}
+
+void remove_abandoned_parts(const std::string& target)
+{
+    const std::string name = OIIO::Filesystem::filename(target);
+    const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(folder_of(target).c_str()), ::closedir);
+    while (const dirent* entry = folder ? ::readdir(folder.get()) : nullptr) {
+        if (!is_hidden_name_of(entry->d_name, name))
+            continue;
+        const int place = ::dirfd(folder.get());
+        const int part = ::openat(place, entry->d_name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (part < 0)
+            continue;
+        struct stat status;
+        if (::fstat(part, &status) == 0 && S_ISREG(status.st_mode) && ::flock(part, LOCK_EX | LOCK_NB) == 0)
+            ::unlinkat(place, entry->d_name, 0);
+        ::close(part);
+    }
+}
+
+} // namespace vmlight

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/words.h>
+
+#include <vmlight/base/utf8.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight {
+
+std::string one_line(OIIO::string_view text)
+{
+    std::string line;
+    size_t count = 0;
+    for (; !text.empty(); text.remove_prefix(count)) {
+        uint32_t code = 0;
+        count = read_character(text, code);
+        if (count == 0 || code < 0x20 || code == 0x7f) {
+            line += OIIO::Strutil::fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+            count = 1;
+        } else {
+            line.append(text.data(), count);
+        }
+    }
+    return line;
+}
+
+std::string reason_line(OIIO::string_view reason)
+{
+    constexpr size_t kLongest = 500;
+    return one_line(reason.substr(0, kLongest)) + (reason.size() > kLongest ? "..." : "");
+}
+
+} // namespace vmlight

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/cfem/cfem.h>
+
+#include <vmlight/base/fail.h>
+#include <vmlight/base/memory_need.h>
+#include <vmlight/cfem/exact.h>
+#include <vmlight/cfem/image.h>
+#include <vmlight/cfem/rows.h>
+#include <vmlight/cfem/sh.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/version.h>
+
+#include <OpenImageIO/filesystem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace vmlight {
+
+OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& params)
+{
+    OIIO::ImageSpec spec(params.resolution.width, params.resolution.height, 3, OIIO::TypeFloat);
+    spec.channelnames = { "R", "G", "B" };
+    spec.attribute("vmlight:stage", kCfemStage);
+    spec.attribute("vmlight:version", VMLIGHT_VERSION_STRING);
+    append_params(spec, params);
+    spec.attribute("oiio:updirection", "y");
+    for (const char* name : { "colorInteropID", "chromaticities" })
+        if (const OIIO::ParamValue* value = env.find_attribute(name))
+            spec.extra_attribs.add_or_replace(*value);
+    return spec;
+}
+
+void record_environment(OIIO::ImageSpec& cfem, const std::string& image)
+{
+    cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(image.substr(0, image.find('?'))));
+}
+
+bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params, int nthreads,
+               const Progress& progress)
+{
+    std::string error;
+    if (!check_params(params, error))
+        return fail(dst, error);
+    error = memory_fault(describe_cfem(env.spec(), params));
+    if (!error.empty())
+        return fail(dst, error);
+    EnvironmentRows rows(env, params.sanitize);
+    if (!rows.open())
+        return fail(dst, rows.error());
+
+    std::vector<double> rgb;
+    const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
+    const bool exact = params.filter == "exact";
+    const bool done = exact
+        ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
+        : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress);
+    if (!done)
+        return fail(dst, rows.error().empty() ? "interrupted" : rows.error());
+
+    OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
+    note_mended(spec, rows.bad_values());
+    // Only rounding is below 0 in an exact sum; the harmonics' ringing is theirs to show.
+    return set_cfem(dst, spec, rgb, exact, error) || fail(dst, error);
+}
+
+bool set_cfem(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vector<double>& rgb, bool clamp,
+              std::string& error)
+{
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    std::vector<float> pixels(rgb.size());
+    for (size_t i = 0; i < rgb.size(); ++i) {
+        // A mean of light is no brighter than its brightest: beyond the largest float is rounding, if it is no more.
+        const bool rounding = rgb[i] > kLargest && rgb[i] <= kLargest * (1 + 1e-6);
+        pixels[i] = rounding ? kLargest : float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
+        if (!std::isfinite(pixels[i])) {
+            error = OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]);
+            return false;
+        }
+    }
+    dst.reset(spec, OIIO::InitializePixels::No);
+    return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
+}
+
+void note_mended(OIIO::ImageSpec& spec, int64_t values)
+{
+    if (values)
+        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(values, std::numeric_limits<int>::max())));
+}
+
+} // namespace vmlight

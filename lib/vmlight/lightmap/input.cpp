@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/lightmap/input.h>
+
+#include <vmlight/base/oiio.h>
+#include <vmlight/image/channels.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace vmlight {
+
+using OIIO::ImageBuf;
+using OIIO::ROI;
+using OIIO::Strutil::fmt::format;
+
+std::string named(const ImageBuf& image, const std::string& reason)
+{
+    return image.name().empty() ? reason : format("\"{}\": {}", image.name(), reason);
+}
+
+bool check_input(const ImageBuf& image, const char* what, std::string& error)
+{
+    if (!image.initialized()) {
+        const std::string reason = oiio::reason(image);
+        error = named(image, reason.empty() ? format("no {}: the image is empty", what) : reason);
+        return false;
+    }
+    if (image.deep() || image.spec().depth != 1) {
+        error = named(image, format("not a {}: a {} image", what, image.deep() ? "deep" : "volume"));
+        return false;
+    }
+    return true;
+}
+
+void find_not_finite(ROI roi, const float* pixels, int channels, Faults& faults)
+{
+    for (int y = roi.ybegin; y < roi.yend; ++y)
+        for (int x = roi.xbegin; x < roi.xend; ++x)
+            for (int c = 0; c < channels; ++c)
+                if (!std::isfinite(*pixels++))
+                    faults.add(x, y, c);
+}
+
+bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, bool has_stack, ShadingModel& model,
+                        std::string& error)
+{
+    if (!check_input(image, "visibility map", error))
+        return false;
+    if (!find_model(model, params, image.spec(), has_stack, error)) {
+        error = named(image, error);
+        return false;
+    }
+    m_index.clear();
+    for (const std::string& channel : model.channels)
+        m_index.push_back(image.spec().channelindex(channel));
+    m_image = &image;
+    m_pixels = nullptr;
+    m_order = VismapOrder::visibility_first;
+
+    const std::vector<int> first { 0, 1, 2, 3 }, last { 3, 0, 1, 2 };
+    const bool packed = image.localpixels() && image.pixeltype() == OIIO::TypeFloat && image.nchannels() == 4
+        && image.pixel_stride() == 16 && image.scanline_stride() == OIIO::stride_t(16) * image.spec().width;
+    if (packed && (m_index == first || m_index == last)) {
+        m_pixels = static_cast<const float*>(image.localpixels());
+        m_order = m_index == first ? VismapOrder::visibility_first : VismapOrder::visibility_last;
+    }
+    return true;
+}
+
+const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::string& error) const
+{
+    const OIIO::ImageSpec& spec = m_image->spec();
+    if (m_pixels)
+        return m_pixels + 4 * size_t(roi.ybegin - spec.y) * spec.width;
+
+    const auto [first, last] = std::minmax_element(m_index.begin(), m_index.end());
+    const int channels = *last - *first + 1;
+    const size_t texels = size_t(roi.width()) * roi.height();
+    roi.chbegin = *first;
+    roi.chend = *last + 1;
+    scratch.resize(texels * (m_index.size() + size_t(channels)));
+    float* read = scratch.data() + m_index.size() * texels;
+    if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
+        error = named(*m_image, oiio::reason(*m_image));
+        return nullptr;
+    }
+    float* texel = scratch.data();
+    for (size_t i = 0; i < texels; ++i, read += channels)
+        for (int index : m_index)
+            *texel++ = read[index - *first];
+    return scratch.data();
+}
+
+bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::string& error)
+{
+    if (!check_input(image, "albedo", error))
+        return false;
+    if (!check_window(image.spec(), error) || !find_color_channels(image.spec(), m_index, error)) {
+        error = named(image, error);
+        return false;
+    }
+    m_image = m_original = &image;
+    const ROI own = image.roi_full(), stored = image.roi();
+    m_dx = own.xbegin - roi.xbegin;
+    m_dy = own.ybegin - roi.ybegin;
+    if (own.width() == roi.width() && own.height() == roi.height())
+        return true;
+
+    // Looked at first: a filter would spread a NaN, and average a negative value away.
+    Faults faults;
+    std::vector<float> row;
+    for (int y = stored.ybegin; y < stored.yend; ++y)
+        if (!read(ROI(stored.xbegin, stored.xend, y, y + 1, stored.zbegin, stored.zend), row, faults, error))
+            return false;
+    if (faults.any()) {
+        error = fault_text(faults);
+        return false;
+    }
+    m_resized.reset(OIIO::ImageSpec(roi.width(), roi.height(), image.nchannels(), OIIO::TypeFloat),
+                    OIIO::InitializePixels::No);
+    if (!oiio::resize(m_resized, image, m_resized.roi(), nthreads)) {
+        error = named(image, oiio::reason(m_resized));
+        return false;
+    }
+    m_image = &m_resized;
+    m_dx = -roi.xbegin;
+    m_dy = -roi.ybegin;
+    return true;
+}
+
+bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, Faults& faults, std::string& error) const
+{
+    const auto [first, last] = std::minmax_element(m_index.begin(), m_index.end());
+    const int channels = *last - *first + 1;
+    const size_t texels = size_t(roi.width()) * roi.height();
+    roi.chbegin = *first;
+    roi.chend = *last + 1;
+    scratch.resize(texels * (3 + channels));
+    float* read = scratch.data() + 3 * texels;
+    if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
+        error = named(*m_original, oiio::reason(*m_image));
+        return false;
+    }
+    const bool gray = m_index[0] == m_index[1];
+    float* texel = scratch.data();
+    for (size_t i = 0; i < texels; ++i, read += channels)
+        for (int c = 0; c < 3; ++c, ++texel) {
+            *texel = read[m_index[c] - *first];
+            // The negated test is true for NaN, too. One gray value is one fault.
+            if (!(*texel >= 0 && *texel <= FLT_MAX) && (c == 0 || !gray))
+                faults.add(roi.xbegin + int(i % roi.width()), roi.ybegin + int(i / roi.width()), m_index[c]);
+        }
+    return true;
+}
+
+void AlbedoReader::multiply(ROI roi, float* rgb, std::vector<float>& scratch, Faults& faults, std::string& error) const
+{
+    const size_t values = 3 * size_t(roi.width()) * roi.height();
+    roi.xbegin += m_dx, roi.xend += m_dx;
+    roi.ybegin += m_dy, roi.yend += m_dy;
+    const ROI own = m_image->roi();
+    roi.zbegin = own.zbegin, roi.zend = own.zend;
+    if (!read(roi, scratch, faults, error))
+        return;
+    for (size_t i = 0; i < values; ++i)
+        rgb[i] *= scratch[i];
+}
+
+std::string AlbedoReader::fault_text(const Faults& faults) const
+{
+    return named(*m_original, faults.text("albedo", "negative or not finite", m_original->spec().channelnames));
+}
+
+} // namespace vmlight

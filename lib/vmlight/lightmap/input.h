@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What shading reads, in whatever form it comes: any pixel type, order of channels, and storage.
+#pragma once
+
+#include <vmlight/base/faults.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/lightmap/model.h>
+#include <vmlight/lightmap/shade_kernel.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// `reason`, led by the image's name in quotes if it has one.
+std::string named(const OIIO::ImageBuf& image, const std::string& reason);
+
+/// False, with the reason in `error`, if `image` cannot be read, or is deep or a volume. `what` says what it should be.
+bool check_input(const OIIO::ImageBuf& image, const char* what, std::string& error);
+
+/// Add the values of `pixels`, which hold `roi` with `channels` channels, that are NaN or infinite.
+void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, Faults& faults);
+
+/// Hands out a visibility map as the kernels want it: the numbers of a texel side by side, in the model's order.
+class VismapReader
+{
+public:
+    /// Set `model` to what `params` ask for of this map (find_model()). False, with the reason in `error`, if `image`
+    /// is not a visibility map, or has not all that the model reads. It must outlive the reader.
+    bool open(const OIIO::ImageBuf& image, const LightmapParams& params, bool has_stack, ShadingModel& model,
+              std::string& error);
+
+    VismapOrder order() const { return m_order; }
+
+    /// Texels of `roi`, which spans whole rows: in place if they stand in memory as the kernels want them, else copied
+    /// to `scratch`. nullptr, with the reason in `error`, if they cannot be read.
+    const float* read(OIIO::ROI roi, std::vector<float>& scratch, std::string& error) const;
+
+    std::string name() const { return m_image->name(); }
+
+private:
+    const OIIO::ImageBuf* m_image = nullptr;
+    const float* m_pixels = nullptr;
+    std::vector<int> m_index;
+    VismapOrder m_order = VismapOrder::visibility_first;
+};
+
+/// Multiplies by an albedo: colour, or one channel for all three.
+class AlbedoReader
+{
+public:
+    /// The albedo's display window is the texture, black where the file stores nothing. Resizes it to `roi` by a
+    /// triangle filter, which never rings, if its size differs. False, with the reason in `error`, if check_window()
+    /// refuses it, it is no colour, or was resized and has a negative value or one that is not finite.
+    bool open(const OIIO::ImageBuf& image, OIIO::ROI roi, int nthreads, std::string& error);
+
+    /// Multiply `rgb`, the pixels of `roi`. Adds what is negative or not finite to `faults`, and says in `error` if
+    /// the albedo cannot be read.
+    void multiply(OIIO::ROI roi, float* rgb, std::vector<float>& scratch, Faults& faults, std::string& error) const;
+
+    std::string fault_text(const Faults& faults) const;
+
+private:
+    bool read(OIIO::ROI roi, std::vector<float>& scratch, Faults& faults, std::string& error) const;
+
+    const OIIO::ImageBuf* m_original = nullptr; // what the user named
+    const OIIO::ImageBuf* m_image = nullptr; // what is read: the original, or the resized copy
+    OIIO::ImageBuf m_resized;
+    std::array<int, 3> m_index {};
+    int m_dx = 0, m_dy = 0; // from the map's pixel coordinates to those of m_image
+};
+
+} // namespace vmlight

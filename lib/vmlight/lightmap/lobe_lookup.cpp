@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/lightmap/lobe_lookup.h>
+
+#include <vmlight/lightmap/cfem_lookup.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr double kLobeTolerance = 1e-4;
+// The kernel counts floats in 32 bits.
+constexpr int64_t kMostFloats = (int64_t(1) << 31) - 1;
+
+int knot_of(int level)
+{
+    return level == 0 ? kCfemKnot : level == 1 ? 1 : level + 1;
+}
+
+// In the maps of both its pairs.
+void set_knot(LobeLookup& dst, int knot, int64_t place, const float* texel)
+{
+    const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
+    if (knot > 0)
+        std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * ((knot - 1) * texels + place) + 3)]);
+    if (knot + 1 < kLobeKnots)
+        std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * (knot * texels + place))]);
+}
+
+std::string level_fault(const LobeLookup& dst, const OIIO::ImageBuf& image, int level, CfemLookup& map)
+{
+    const OIIO::ImageSpec& spec = image.spec();
+    const float lobe = spec.get_float_attribute("vmlight:lobe", -1);
+    std::string error;
+    if (!(std::abs(lobe - stack_lobe(level)) < kLobeTolerance))
+        return format("vmlight:lobe is {:g}; {:.4f} is needed", lobe, stack_lobe(level));
+    if (level > 0 && (spec.width != dst.width || spec.height != dst.height))
+        return format("{}x{} pixels, and {}x{} at level 0", spec.width, spec.height, dst.width, dst.height);
+    return prepare_cfem(map, image, error) ? "" : error;
+}
+
+} // namespace
+
+bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::string& error)
+{
+    dst = {};
+    if (levels.size() != kStackLevels) {
+        error = format("a stack of {} levels; {} are needed", levels.size(), kStackLevels);
+        return false;
+    }
+    const OIIO::ImageSpec& spec = levels[0].spec();
+    dst.width = spec.width;
+    dst.height = spec.height;
+    dst.pitch = spec.width + 2;
+    const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
+    if (texels * kLobeFloats * (kLobeKnots - 1) > kMostFloats) {
+        error = format("a stack of {} levels of {}x{} pixels is too large", kStackLevels, spec.width, spec.height);
+        return false;
+    }
+    dst.texels.resize(kLobeFloats * size_t(texels) * (kLobeKnots - 1) + 2);
+    for (int level = 0; level < kStackLevels; ++level) {
+        CfemLookup map;
+        error = level_fault(dst, levels[level], level, map);
+        if (!error.empty()) {
+            error = format("level {} of the stack: {}", level, error);
+            return false;
+        }
+        dst.largest = std::max(dst.largest, map.largest);
+        for (int64_t i = 0; i < texels; ++i) {
+            const float* texel = &map.texels[4 * size_t(i)];
+            set_knot(dst, knot_of(level), i, texel);
+            if (level == 0)
+                set_knot(dst, 0, i, &map.texels[4 * size_t(map.mean_texel())]);
+        }
+    }
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/numbering.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/mesh/mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vmlight {
+namespace {
+
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+
+struct Vertex
+{
+    V3d position;
+    V3f normal;
+    V2f uv;
+    float padding = 0; // named, so that all bytes of a key are known
+};
+static_assert(sizeof(Vertex) == 48);
+
+// Rebuild the vertices: corner_normal(t, triangle, k) is the normal of corner k of triangle t.
+template <class CornerNormal> void rebuild(Mesh& mesh, const CornerNormal& corner_normal)
+{
+    Numbering<Vertex> vertices(mesh.triangles.size() * 3);
+    const bool has_uvs = !mesh.uvs.empty();
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() looks at all three
+        for (int k = 0; k < 3; ++k) {
+            const uint32_t v = old[k];
+            const Vertex vertex { mesh.positions[v], corner_normal(t, old, k), has_uvs ? mesh.uvs[v] : V2f(0) };
+            mesh.triangles[t][k] = vertices.number(vertex);
+        }
+    }
+    const size_t count = vertices.keys().size();
+    mesh.positions.resize(count);
+    mesh.normals.resize(count);
+    mesh.uvs.resize(has_uvs ? count : 0);
+    for (size_t v = 0; v < count; ++v) {
+        mesh.positions[v] = vertices.keys()[v].position;
+        mesh.normals[v] = vertices.keys()[v].normal;
+        if (has_uvs)
+            mesh.uvs[v] = vertices.keys()[v].uv;
+    }
+}
+
+double angle_between(const V3d& a, const V3d& b)
+{
+    return std::atan2(a.cross(b).length(), a.dot(b));
+}
+
+struct Corner
+{
+    uint32_t triangle;
+    float angle;
+};
+
+/// The corners at each position, and the unit normal of each triangle (zero without area).
+struct Fans
+{
+    std::vector<V3f> triangle_normals;
+    std::vector<uint32_t> position_of_vertex;
+    std::vector<uint32_t> first_corner; // of position p: first_corner[p] .. first_corner[p + 1]
+    std::vector<Corner> corners;
+
+    explicit Fans(const Mesh& mesh)
+    {
+        Numbering<V3d> positions(mesh.positions.size());
+        for (const V3d& p : mesh.positions)
+            position_of_vertex.push_back(positions.number(p + V3d(0))); // -0 becomes 0
+        first_corner.assign(positions.keys().size() + 2, 0);
+        for (const auto& triangle : mesh.triangles)
+            for (uint32_t vertex : triangle)
+                ++first_corner[position_of_vertex[vertex] + 2];
+        std::partial_sum(first_corner.begin(), first_corner.end(), first_corner.begin());
+        corners.resize(mesh.triangles.size() * 3);
+        for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            const auto& triangle = mesh.triangles[t];
+            const V3d normal = triangle_area_normal(mesh, triangle).normalized();
+            triangle_normals.push_back(V3f(normal));
+            for (int k = 0; k < 3; ++k) {
+                const V3d& p = mesh.positions[triangle[k]];
+                const V3d to_next = mesh.positions[triangle[(k + 1) % 3]] - p;
+                const V3d to_last = mesh.positions[triangle[(k + 2) % 3]] - p;
+                corners[first_corner[position_of_vertex[triangle[k]] + 1]++]
+                    = { t, float(angle_between(to_next, to_last)) };
+            }
+        }
+        first_corner.pop_back();
+    }
+
+    V3f smooth_normal(uint32_t vertex, uint32_t triangle, double crease_angle) const
+    {
+        const uint32_t position = position_of_vertex[vertex];
+        const V3f& own = triangle_normals[triangle];
+        const double least_cosine = std::cos(crease_angle * latlong::pi / 180);
+        V3d sum(0);
+        double weight = 0;
+        for (uint32_t c = first_corner[position]; c < first_corner[position + 1]; ++c) {
+            const V3f& other = triangle_normals[corners[c].triangle];
+            const bool joins = crease_angle >= 180 || corners[c].triangle == triangle || own.length2() == 0
+                || own.dot(other) >= least_cosine - 1e-6; // a unit dot product's rounding
+            if (joins) {
+                sum += V3d(other) * corners[c].angle;
+                weight += corners[c].angle;
+            }
+        }
+        // Faces back to back cancel: what is left of the sum is rounding, and the triangle's own normal is right.
+        return sum.length() > 1e-6 * weight ? V3f(sum.normalized()) : own;
+    }
+};
+
+} // namespace
+
+void make_flat_normals(Mesh& mesh)
+{
+    rebuild(mesh,
+            [&](size_t, const auto& triangle, int) { return V3f(triangle_area_normal(mesh, triangle).normalized()); });
+}
+
+void make_smooth_normals(Mesh& mesh, double crease_angle)
+{
+    mesh.normals.assign(mesh.positions.size(), V3f(0));
+    fill_missing_normals(mesh, crease_angle);
+}
+
+void fill_missing_normals(Mesh& mesh, double crease_angle)
+{
+    const auto is_missing = [](const V3f& n) { return !(n.length2() > 0.25f); };
+    if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_missing)) {
+        merge_equal_vertices(mesh);
+        return;
+    }
+    const Fans fans(mesh);
+    rebuild(mesh, [&](size_t t, const auto& triangle, int k) {
+        const uint32_t vertex = triangle[k];
+        const V3f& normal = mesh.normals[vertex];
+        return is_missing(normal) ? fans.smooth_normal(vertex, uint32_t(t), crease_angle) : normal;
+    });
+}
+
+void merge_equal_vertices(Mesh& mesh)
+{
+    rebuild(mesh, [&](size_t, const auto& triangle, int k) { return mesh.normals[triangle[k]]; });
+}
+
+} // namespace vmlight

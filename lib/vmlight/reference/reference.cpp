@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/reference/reference.h>
+
+#include <vmlight/base/fail.h>
+#include <vmlight/base/parallel.h>
+#include <vmlight/lightmap/environment_light.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/math/sampling.h>
+#include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/uv/uvraster.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vmlight {
+namespace {
+
+using Imath::V3d;
+using Imath::V3f;
+using latlong::pi;
+using OIIO::Strutil::fmt::format;
+
+constexpr int kChannels = 7;
+constexpr int kPairs = 128; // whose rays are asked about at once
+
+// Independent numbers in [0, 1): a function of the texel, the pair and the seed alone.
+// Source: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (SplitMix64).
+class Random
+{
+public:
+    Random(int x, int y, int seed)
+    {
+        m_state = uint64_t(uint32_t(seed));
+        for (const int key : { x, y })
+            m_state = next_bits() ^ uint64_t(uint32_t(key));
+        next_bits();
+    }
+    double next() { return double(next_bits() >> 11) * 0x1p-53; }
+
+private:
+    uint64_t next_bits()
+    {
+        uint64_t z = m_state += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    uint64_t m_state;
+};
+
+// Means and squared deviations of three channels, pair by pair.
+// Source: B. P. Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.
+struct Moments
+{
+    V3d mean { 0 }, squares { 0 };
+    int64_t count = 0;
+
+    void add(const V3d& value)
+    {
+        const V3d before = value - mean;
+        mean += before / double(++count);
+        squares += before * (value - mean);
+    }
+    double standard_error(int channel) const
+    {
+        return std::sqrt(squares[channel] / (double(count) * double(count - 1)));
+    }
+};
+
+// One to a thread.
+class Tracer
+{
+public:
+    Tracer(const Occluder& occluder, const EnvironmentLight& light, const Rotation& to_environment, float length)
+        : m_occluder(occluder)
+        , m_light(light)
+        , m_to_environment(to_environment)
+        , m_to_object(to_environment.transposed())
+        , m_length(length)
+        , m_fan(2 * kPairs)
+        , m_values(2 * kPairs)
+    {
+    }
+
+    Moments trace(const SurfacePoint& point, Random random, int pairs)
+    {
+        Moments moments;
+        const TangentFrame frame(point.normal);
+        for (int done = 0; done < pairs; done += kPairs) {
+            const int count = std::min(kPairs, pairs - done);
+            std::fill(m_fan.lanes.begin(), m_fan.lanes.end(), uint8_t(0));
+            for (int i = 0; i < count; ++i) {
+                const double radius = std::sqrt(random.next()), angle = 2 * pi * random.next();
+                const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+                const double z = std::sqrt(std::max(0.0, 1 - radius * radius));
+                const V3d around = V3d(frame.tangent) * x + V3d(frame.bitangent) * y + V3d(frame.normal) * z;
+                take(2 * i, point, around, m_light.at(rotate(m_to_environment, around)));
+                const double u = random.next(), v = random.next();
+                const EnvironmentSample bright = m_light.sample(u, v);
+                take(2 * i + 1, point, rotate(m_to_object, bright.direction), bright);
+            }
+            m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
+            for (int i = 0; i < count; ++i)
+                moments.add(seen(2 * i) + seen(2 * i + 1));
+        }
+        return moments;
+    }
+
+private:
+    // What the ray brings if nothing blocks it: with the balance heuristic, light over the sum of both densities.
+    void take(int ray, const SurfacePoint& point, const V3d& direction, const EnvironmentSample& light)
+    {
+        const double cosine = direction.dot(V3d(point.normal));
+        const double above = direction.dot(V3d(point.geometric_normal));
+        m_fan.x[ray] = float(direction.x);
+        m_fan.y[ray] = float(direction.y);
+        m_fan.z[ray] = float(direction.z);
+        const bool counts = cosine > 0 && above > 0 && light.radiance != V3f(0);
+        m_values[size_t(ray)] = counts ? V3d(light.radiance) * (cosine / (cosine + pi * light.density)) : V3d(0);
+        m_fan.lanes[size_t(ray / kPacketSize)] |= uint8_t(counts) << ray % kPacketSize;
+    }
+    V3d seen(int ray) const
+    {
+        return m_fan.lanes[size_t(ray / kPacketSize)] >> ray % kPacketSize & 1 ? m_values[size_t(ray)] : V3d(0);
+    }
+
+    const Occluder& m_occluder;
+    const EnvironmentLight& m_light;
+    const Rotation m_to_environment, m_to_object;
+    const float m_length;
+    RayFan m_fan;
+    std::vector<V3d> m_values;
+};
+
+OIIO::ImageSpec reference_spec(const VismapParams& map, const LightmapParams& light, const ReferenceParams& params)
+{
+    OIIO::ImageSpec spec(map.size().width, map.size().height, kChannels, OIIO::TypeFloat);
+    spec.channelnames = { "R", "G", "B", "error.R", "error.G", "error.B", "coverage" };
+    append_params(spec, params);
+    append_params(spec, light);
+    spec.erase_attribute("vmlight:model");
+    return spec;
+}
+
+} // namespace
+
+bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders,
+                    const OIIO::ImageBuf& env, const VismapParams& map, const LightmapParams& light,
+                    const ReferenceParams& params, int nthreads, const Progress& progress)
+{
+    std::string error;
+    BakeScene scene;
+    return scene.build(borrowed(mesh), occluders, nthreads, error)
+        ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
+        : fail(dst, error);
+}
+
+bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env, const VismapParams& map,
+                    const LightmapParams& light, const ReferenceParams& params, int nthreads, const Progress& progress)
+{
+    std::string error;
+    Rotation rotation;
+    EnvironmentLight sky;
+    if (!check_params(map, error) || !check_params(params, error) || !lightmap_rotation(rotation, light, error)
+        || !sky.build(env, params.sanitize, error))
+        return fail(dst, error);
+
+    dst.reset(reference_spec(map, light, params), OIIO::InitializePixels::Yes);
+    float* pixels = static_cast<float*>(dst.localpixels());
+    const int width = dst.spec().width, height = dst.spec().height;
+    if (!pixels)
+        return fail(dst, format("no memory for {} x {} texels", width, height));
+    const float length
+        = map.max_distance > 0 ? float(map.max_distance * scene.frame().scale) : std::numeric_limits<float>::infinity();
+    const double gain = std::exp2(light.exposure);
+    const UvRaster raster(scene.mesh(), width, height, map.udim);
+    struct Worker
+    {
+        Tracer tracer;
+        Surface surface;
+        TileCover cover;
+    };
+    std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
+    for (auto& worker : workers)
+        worker.reset(new Worker { { scene.occluder(), sky, rotation, length }, { scene.mesh(), scene.frame() }, {} });
+    const auto trace = [&](int64_t tile, int index) {
+        Worker& worker = *workers[size_t(index)];
+        raster.cover(int(tile), worker.cover);
+        const int left = int(tile % raster.tiles_across()) * kTileSize,
+                  top = int(tile / raster.tiles_across()) * kTileSize;
+        for (int i = 0; i < kTileSize * kTileSize; ++i) {
+            if (worker.cover.triangle[size_t(i)] == TileCover::kNone)
+                continue;
+            const int x = left + i % kTileSize, y = top + i / kTileSize;
+            SurfacePoint point = worker.surface.at(worker.cover.triangle[size_t(i)], worker.cover.weight1[size_t(i)],
+                                                   worker.cover.weight2[size_t(i)]);
+            settle_origins(&point, 1, scene.occluder());
+            const Moments moments = worker.tracer.trace(point, Random(x, y, params.seed), params.samples);
+            const double above = 0.5 * (1 + double(point.normal.dot(point.geometric_normal)));
+            float* texel = pixels + (size_t(y) * size_t(width) + size_t(x)) * kChannels;
+            for (int c = 0; c < 3; ++c) {
+                texel[c] = float(moments.mean[c] * gain / above);
+                texel[3 + c] = float(moments.standard_error(c) * gain / above);
+            }
+            texel[6] = 1;
+        }
+    };
+    const int64_t tiles = int64_t(raster.tiles_across()) * raster.tiles_down();
+    return parallel_items(tiles, nthreads, trace, progress) || fail(dst, "interrupted");
+}
+
+} // namespace vmlight

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/pixel_source.h>
+
+#include <vmlight/base/work_counts.h>
+#include <vmlight/stage/stored_image.h>
+
+#include <algorithm>
+#include <iterator>
+#include <list>
+#include <map>
+#include <mutex>
+
+namespace vmlight {
+namespace {
+
+// Those used last stand first. What is dropped ends after the lock does: it may be large.
+class Sources
+{
+public:
+    PixelSourcePointer find(const std::string& key)
+    {
+        List dropped;
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        auto found = place(key);
+        if (found == m_sources.end()) {
+            const auto open = m_open.find(key);
+            PixelSourcePointer source = open == m_open.end() ? nullptr : open->second.lock();
+            if (!source)
+                return nullptr;
+            found = m_sources.insert(m_sources.begin(), std::move(source));
+        }
+        if ((*found)->failed()) {
+            m_open.erase(key);
+            dropped.splice(dropped.end(), m_sources, found);
+            return nullptr;
+        }
+        m_sources.splice(m_sources.begin(), m_sources, found);
+        trim(dropped);
+        return m_sources.front();
+    }
+    PixelSourcePointer keep(PixelSourcePointer source)
+    {
+        List dropped;
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        const auto found = place(source->key());
+        if (found != m_sources.end() && !(*found)->failed())
+            return *found;
+        m_sources.push_front(source);
+        for (auto open = m_open.begin(); open != m_open.end();)
+            open = open->second.expired() ? m_open.erase(open) : std::next(open);
+        m_open[source->key()] = source;
+        trim(dropped);
+        return source;
+    }
+    void set_limits(size_t bytes, size_t sources)
+    {
+        List dropped;
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_bytes = bytes;
+        m_count = std::max<size_t>(1, sources);
+        trim(dropped);
+    }
+
+private:
+    using List = std::list<PixelSourcePointer>;
+    List::iterator place(const std::string& key)
+    {
+        return std::find_if(m_sources.begin(), m_sources.end(), [&](const auto& s) { return s->key() == key; });
+    }
+    void trim(List& dropped)
+    {
+        size_t bytes = 0;
+        for (const auto& source : m_sources)
+            bytes += source->bytes();
+        while (m_sources.size() > 1 && (m_sources.size() > m_count || bytes > m_bytes)) {
+            bytes -= std::min(bytes, m_sources.back()->bytes());
+            dropped.splice(dropped.end(), m_sources, std::prev(m_sources.end()));
+        }
+    }
+    std::mutex m_mutex;
+    List m_sources;
+    // What someone has open is found again, though the list has dropped it.
+    std::map<std::string, std::weak_ptr<PixelSource>> m_open;
+    size_t m_bytes = size_t(1) << 30, m_count = 64;
+};
+
+// Never taken down: threads of the host may still read while the process ends.
+Sources& sources()
+{
+    static auto& all = *new Sources;
+    return all;
+}
+
+template <class Recipe> PixelSourcePointer open_recipe(const std::string& name, std::string& error, RecipeChain chain)
+{
+    Recipe recipe;
+    return link_recipe(chain, name, error) && read_recipe(recipe, name, error) ? open_source(recipe, error, chain)
+                                                                               : nullptr;
+}
+
+} // namespace
+
+PixelSourcePointer find_source(const std::string& key)
+{
+    return sources().find(key);
+}
+
+PixelSourcePointer keep_source(PixelSourcePointer source)
+{
+    return sources().keep(std::move(source));
+}
+
+void set_source_limits(size_t bytes, size_t count)
+{
+    sources().set_limits(bytes, count);
+}
+
+PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain)
+{
+    const std::string stage = recipe_stage(name);
+    return stage == VismapRecipe::kStage  ? open_recipe<VismapRecipe>(name, error, chain)
+        : stage == CfemRecipe::kStage     ? open_recipe<CfemRecipe>(name, error, chain)
+        : stage == LightmapRecipe::kStage ? open_recipe<LightmapRecipe>(name, error, chain)
+                                          : open_stored_image(name, error);
+}
+
+template <class Recipe>
+PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+                              std::string& error, const RecipeChain& chain)
+{
+    const std::string stage = recipe_stage(name);
+    RecipeChain longer = chain;
+    PixelSourcePointer source;
+    // A recipe of the wrong stage is refused before what it reads is opened, but as what it is if it reads itself.
+    if (stage.empty() || link_recipe(longer, name, error))
+        error = stage.empty() ? "" : input_fault(name, stage, wanted);
+    if (error.empty())
+        source = open_source(name, error, chain);
+    if (source)
+        error = input_fault(name, source->spec().get_string_attribute("vmlight:stage"), wanted);
+    if (error.empty())
+        return source;
+    error = placed(recipe, key, chain, error);
+    return nullptr;
+}
+
+template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
+                                       const RecipeChain&);
+template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input, std::string&,
+                                       const RecipeChain&);
+
+} // namespace vmlight

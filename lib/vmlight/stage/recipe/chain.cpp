@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/recipe/chain.h>
+
+#include <vmlight/image/channels.h>
+#include <vmlight/stage/recipe/udim.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr size_t kLongestChain = 64;
+
+// The same file by another way to its folder is the same recipe. Its name is as it was given, a link or not: it may say
+// a UDIM tile. A ring through links comes back to a name all the same.
+std::string identity(const std::string& name)
+{
+    const std::filesystem::path path = recipe_path(name);
+    std::error_code ignored;
+    const auto folder
+        = std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored).parent_path(), ignored);
+    return (ignored ? path : folder / path.filename()).string() + name.substr(path.string().size());
+}
+
+std::string missing(const std::string& what, const RecipeChain& chain)
+{
+    return (chain.empty() ? "" : format("\"{}\": ", chain.back())) + what + " is missing";
+}
+
+// `reason` begins with its key and ": ", or is about more than one key.
+std::string placed_parameter(const LightmapRecipe& recipe, const RecipeChain& chain, const std::string& reason)
+{
+    const size_t colon = reason.find(": ");
+    if (chain.empty())
+        return reason;
+    return colon == std::string::npos ? format("\"{}\": {}", chain.back(), reason)
+                                      : placed(recipe, reason.substr(0, colon), chain, reason.substr(colon + 2));
+}
+
+} // namespace
+
+bool link_recipe(RecipeChain& chain, const std::string& name, std::string& error)
+{
+    const auto same = [id = identity(name)](const std::string& other) { return identity(other) == id; };
+    const auto first = std::find_if(chain.begin(), chain.end(), same);
+    if (first == chain.end() && chain.size() < kLongestChain) {
+        chain.push_back(name);
+        return true;
+    }
+    std::string way;
+    for (auto at = first; at != chain.end(); ++at)
+        way += format("\"{}\" -> ", *at);
+    error = first != chain.end() ? format("\"{}\" reads itself: {}\"{}\"", name, way, name)
+                                 : format("\"{}\": more than {} recipes, each within the last", name, kLongestChain);
+    return false;
+}
+
+template <class Recipe>
+std::string placed(const Recipe& recipe, const std::string& key, const RecipeChain& chain, const std::string& reason)
+{
+    Recipe read;
+    std::string ignored;
+    if (chain.empty() || !read_recipe(read, chain.back(), ignored))
+        return reason;
+    Recipe now = recipe;
+    udim_of(read) = udim_of(now);
+    if (recipe_value(resolve_udim(read), key) != recipe_value(resolve_udim(now), key))
+        return reason;
+    return recipe_place(chain.back(), key) + ": " + reason;
+}
+
+std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
+{
+    return recipe.mesh.empty() ? missing("mesh", chain) : "";
+}
+
+std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)
+{
+    return recipe.environment.empty() ? missing("environment", chain) : "";
+}
+
+std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
+{
+    if (recipe.vismap.empty())
+        return missing("vismap", chain);
+    if (recipe.cfem.empty() && recipe.environment.empty())
+        return missing("environment", chain) + ", or cfem";
+    if (!recipe.cfem.empty() && !recipe.environment.empty())
+        return placed(recipe, "cfem", chain, "environment is given too: one of them must be empty");
+    Rotation rotation;
+    std::string error;
+    return lightmap_rotation(rotation, recipe.lightmap_params, error) ? "" : placed_parameter(recipe, chain, error);
+}
+
+template std::string placed(const VismapRecipe&, const std::string&, const RecipeChain&, const std::string&);
+template std::string placed(const CfemRecipe&, const std::string&, const RecipeChain&, const std::string&);
+template std::string placed(const LightmapRecipe&, const std::string&, const RecipeChain&, const std::string&);
+
+std::string input_fault(const std::string& name, const std::string& stage, Input wanted)
+{
+    if (is_recipe_name(name)) {
+        const char* noun = wanted == Input::Vismap ? "a vismap" : wanted == Input::Cfem ? "a cfem" : "an environment";
+        const bool good = wanted == Input::Albedo || (wanted == Input::Vismap && stage == kVismapStage)
+            || (wanted == Input::Cfem && stage == kCfemStage);
+        return good ? "" : format("\"{}\": the recipe of a {}, not of {}", name, stage, noun);
+    }
+    if (wanted == Input::Environment && stage == kCfemStage)
+        return format("\"{}\": filtered already: give it as cfem", name);
+    if ((wanted == Input::Environment && !stage.empty())
+        || (wanted == Input::Cfem && !stage.empty() && stage != kCfemStage))
+        return format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", name, stage);
+    return "";
+}
+
+} // namespace vmlight

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recipes written: values as TOML.
+#include <vmlight/stage/recipe/recipe.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+std::string quoted(const std::string& text)
+{
+    std::string quoted = "\"";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\')
+            quoted += '\\', quoted += c;
+        else
+            quoted += byte < 0x20 || byte == 0x7f ? format("\\u{:04x}", byte) : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
+std::string number_toml(const std::string& text, const Range& allowed)
+{
+    return allowed.word && text == allowed.word ? quoted(text) : text;
+}
+
+std::string toml_text(int value, const Range& allowed)
+{
+    return number_toml(value_text(value, allowed), allowed);
+}
+
+std::string toml_text(double value, const Range& allowed)
+{
+    return number_toml(value_text(value, allowed), allowed);
+}
+
+std::string toml_text(bool value, const Flag& allowed)
+{
+    return value_text(value, allowed);
+}
+
+std::string toml_text(const std::vector<double>& value, const Numbers& allowed)
+{
+    return "[" + OIIO::Strutil::replace(value_text(value, allowed), ",", ", ", true) + "]";
+}
+
+std::string toml_text(const std::vector<std::string>& value, const Words& allowed)
+{
+    const std::string words = value_text(value, allowed);
+    return words.empty() ? "[]" : "[" + OIIO::Strutil::replace(quoted(words), ",", "\", \"", true) + "]";
+}
+
+std::string toml_text(const std::vector<std::string>& value, const Paths&)
+{
+    std::string text;
+    for (const std::string& path : value)
+        text += "    " + quoted(path) + ",\n";
+    return text.empty() ? "[]" : "[\n" + text + "]";
+}
+
+// Choices, texts, paths and sizes.
+template <class Value, class Allowed> std::string toml_text(const Value& value, const Allowed& allowed)
+{
+    return quoted(value_text(value, allowed));
+}
+
+} // namespace
+
+template <class Recipe> std::string recipe_text(const Recipe& recipe)
+{
+    Recipe copy = recipe;
+    Recipe defaults;
+    std::vector<std::string> usual;
+    defaults.visit([&](const char*, auto& value, const auto& allowed, const char*) {
+        usual.push_back(value_text(value, allowed));
+    });
+    std::string text;
+    size_t index = 0;
+    copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        const bool given = copy.udim_given && std::string("udim") == name;
+        if (value_text(value, allowed) != usual[index++] || given)
+            text += format("{} = {}\n", name, toml_text(value, allowed));
+    });
+    return text;
+}
+
+template std::string recipe_text(const VismapRecipe&);
+template std::string recipe_text(const CfemRecipe&);
+template std::string recipe_text(const LightmapRecipe&);
+
+} // namespace vmlight

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+/// TOML values as the texts that parse_value() takes: node_text() for each kind of parameter.
+/// The only room that includes toml++, for recipe.cpp alone: nothing of it is linked or exported, and it throws
+/// nothing.
+#pragma once
+
+#include <vmlight/base/params.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <string>
+#include <vector>
+
+#define TOML_HEADER_ONLY 1
+#define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_FORMATTERS 0
+#define TOML_MAX_NESTED_VALUES 8
+// What it asserts of texts that are no TOML, it lets clang assume where NDEBUG is set: "[=" is then undefined
+// behaviour. With neither it goes on and refuses them.
+#define TOML_ASSERT(expression) static_assert(true)
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
+
+namespace vmlight {
+
+inline const char* kind_of(const toml::node& node)
+{
+    switch (node.type()) {
+    case toml::node_type::table:
+        return "a table";
+    case toml::node_type::array:
+        return "an array";
+    case toml::node_type::string:
+        return "a string";
+    case toml::node_type::integer:
+        return "an integer";
+    case toml::node_type::floating_point:
+        return "a float";
+    case toml::node_type::boolean:
+        return "a boolean";
+    default:
+        return "a date or time";
+    }
+}
+
+inline bool misfit(const toml::node& node, const std::string& wanted, std::string& reason)
+{
+    reason = OIIO::Strutil::fmt::format("{} where {} is needed", kind_of(node), wanted);
+    return false;
+}
+
+inline bool number_text(std::string& text, const toml::node& node, bool integral)
+{
+    if (const auto* integer = node.as_integer())
+        text = OIIO::Strutil::fmt::format("{}", integer->get());
+    else if (const auto* number = node.as_floating_point(); number && !integral)
+        text = OIIO::Strutil::fmt::format("{}", number->get());
+    else
+        return false;
+    return true;
+}
+
+inline bool word_text(std::string& text, const toml::node& node, const Range& allowed, const char* wanted,
+                      std::string& reason)
+{
+    const auto* word = node.as_string();
+    if (!allowed.word || !word)
+        return misfit(node, allowed.word ? OIIO::Strutil::fmt::format("{} or \"{}\"", wanted, allowed.word) : wanted,
+                      reason);
+    if (word->get() != allowed.word) {
+        reason = OIIO::Strutil::fmt::format("\"{}\" is neither {} nor \"{}\"", word->get(), wanted, allowed.word);
+        return false;
+    }
+    text = word->get();
+    return true;
+}
+
+inline bool string_text(std::string& text, const toml::node& node, const char* wanted, std::string& reason)
+{
+    const auto* string = node.as_string();
+    if (!string)
+        return misfit(node, wanted, reason);
+    text = string->get();
+    return true;
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const int&, const Range& allowed, std::string& reason)
+{
+    return number_text(text, node, true) || word_text(text, node, allowed, "an integer", reason);
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const double&, const Range& allowed,
+                      std::string& reason)
+{
+    return number_text(text, node, false) || word_text(text, node, allowed, "a number", reason);
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const Size&, const SizeRange&, std::string& reason)
+{
+    const char* wanted = "a width, [width, height] or \"WIDTHxHEIGHT\"";
+    if (number_text(text, node, true))
+        return true;
+    const toml::array* sides = node.as_array();
+    if (!sides)
+        return string_text(text, node, wanted, reason);
+    std::string width, height;
+    if (sides->size() != 2 || !number_text(width, *sides->get(0), true) || !number_text(height, *sides->get(1), true))
+        return misfit(node, wanted, reason);
+    text = width + "x" + height;
+    return true;
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Choices&,
+                      std::string& reason)
+{
+    return string_text(text, node, "a string", reason);
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Words&,
+                      std::string& reason)
+{
+    const toml::array* words = node.as_array();
+    if (!words)
+        return string_text(text, node, "an array of words in quotes", reason);
+    for (const toml::node& element : *words) {
+        std::string word;
+        if (!string_text(word, element, "a word in quotes", reason))
+            return false;
+        if (word.empty() || word.find(',') != std::string::npos) {
+            reason = word.empty() ? "one of its words is empty" : "a word in a list cannot hold a comma";
+            return false;
+        }
+        text += (text.empty() ? "" : ",") + word;
+    }
+    return true;
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Text&, std::string& reason)
+{
+    return string_text(text, node, "a string", reason);
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Path&, std::string& reason)
+{
+    return string_text(text, node, "a path in quotes", reason);
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Paths&,
+                      std::string& reason)
+{
+    const char* wanted = "an array of paths in quotes";
+    const toml::array* paths = node.as_array();
+    if (!paths)
+        return string_text(text, node, wanted, reason);
+    for (const toml::node& element : *paths) {
+        std::string path;
+        if (!string_text(path, element, "a path in quotes", reason))
+            return false;
+        if (path.empty() || path.find('\n') != std::string::npos) {
+            reason = path.empty() ? "one of its names is empty" : "a name in a list cannot hold a line break";
+            return false;
+        }
+        text += (text.empty() ? "" : "\n") + path;
+    }
+    return true;
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const std::vector<double>&, const Numbers& allowed,
+                      std::string& reason)
+{
+    const toml::array* numbers = node.as_array();
+    if (!numbers)
+        return string_text(text, node, OIIO::Strutil::fmt::format("an array of {} numbers", allowed.count).c_str(),
+                           reason);
+    for (const toml::node& element : *numbers) {
+        std::string number;
+        if (!number_text(number, element, false))
+            return misfit(element, "a number", reason);
+        text += (text.empty() ? "" : ",") + number;
+    }
+    return true;
+}
+
+inline bool node_text(std::string& text, const toml::node& node, const bool&, const Flag&, std::string& reason)
+{
+    const auto* flag = node.as_boolean();
+    if (!flag)
+        return misfit(node, "true or false", reason);
+    text = flag->get() ? "true" : "false";
+    return true;
+}
+
+} // namespace vmlight

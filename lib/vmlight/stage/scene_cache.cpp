@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/scene_cache.h>
+
+#include <vmlight/base/work_counts.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/pixel_source.h>
+
+#include <OpenImageIO/timer.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace vmlight {
+namespace {
+
+/// A place for a scene, held by those who want it at the moment.
+struct Slot
+{
+    std::mutex mutex; // held while it is built
+    std::weak_ptr<const BakeScene> scene;
+};
+
+/// Slots by key. Those whose scene is gone leave no more than their key behind, until the next call.
+class Slots
+{
+public:
+    std::shared_ptr<Slot> find(const std::string& key)
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        for (auto at = m_slots.begin(); at != m_slots.end();)
+            at = is_left(*at->second, at->second.use_count()) ? m_slots.erase(at) : std::next(at);
+        std::shared_ptr<Slot>& slot = m_slots[key];
+        if (!slot)
+            slot = std::make_shared<Slot>();
+        return slot;
+    }
+
+private:
+    // If no one else has the slot, no one builds in it or can come to, and its lock is free.
+    static bool is_left(Slot& slot, long holders)
+    {
+        if (holders > 1)
+            return false;
+        const std::lock_guard<std::mutex> lock(slot.mutex);
+        return slot.scene.expired();
+    }
+    std::mutex m_mutex;
+    std::map<std::string, std::shared_ptr<Slot>> m_slots;
+};
+
+// Never taken down: threads of the host may still read while the process ends.
+Slots& slots()
+{
+    static auto& all = *new Slots;
+    return all;
+}
+
+const std::string& path_of(const VismapRecipe& recipe, size_t index)
+{
+    return index ? recipe.occluder[index - 1] : recipe.mesh;
+}
+
+const char* key_of(size_t index)
+{
+    return index ? "occluder" : "mesh";
+}
+
+bool build(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, double& seconds,
+           std::string& at, std::string& error)
+{
+    auto mesh = std::make_shared<Mesh>();
+    std::vector<Mesh> occluders(recipe.occluder.size());
+    auto scene = std::make_shared<BakeScene>();
+    const auto keep_stamp = [&](const std::string& path) {
+        FileStamp file { path, "" };
+        std::string ignored;
+        if (stamp_file(file.stamp, path, ignored))
+            scene->files.push_back(std::move(file));
+    };
+    for (size_t i = 0; i < stamps.files.size(); ++i) {
+        at = key_of(i);
+        if (!read_mesh(i ? occluders[i - 1] : *mesh, path_of(recipe, i), recipe.mesh_params, error, keep_stamp)
+            || !check_stamp(stamps.files[i], path_of(recipe, i), error))
+            return false;
+    }
+    work_counts().meshes_read += int64_t(stamps.files.size());
+    const OIIO::Timer timer;
+    at = key_of(0);
+    if (!scene->build(std::move(mesh), occluders, nthreads, error))
+        return false;
+    ++work_counts().scenes_built;
+    seconds = timer();
+    dst = std::move(scene);
+    return true;
+}
+
+} // namespace
+
+bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error)
+{
+    SceneStamps stamps;
+    stamps.files.resize(1 + recipe.occluder.size());
+    MeshParams params = recipe.mesh_params;
+    params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        stamps.key += std::string(name) + "=" + value_text(value, allowed) + "\n";
+    });
+    for (size_t i = 0; i < stamps.files.size(); ++i) {
+        at = key_of(i);
+        if (!stamp_file(stamps.files[i], path_of(recipe, i), error))
+            return false;
+        stamps.key += stamps.files[i];
+    }
+    dst = std::move(stamps);
+    return true;
+}
+
+bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
+                 double* built, std::string& at, std::string& error)
+{
+    double seconds = 0;
+    const std::shared_ptr<Slot> slot = slots().find(stamps.key);
+    const std::lock_guard<std::mutex> lock(slot->mutex);
+    dst = slot->scene.lock();
+    if (dst && !are_unchanged(dst->files)) // one that another of them names, such as a glTF's buffer
+        dst = nullptr;
+    if (!dst && !build(dst, recipe, stamps, nthreads, seconds, at, error))
+        return false;
+    slot->scene = dst;
+    if (built)
+        *built = seconds;
+    return true;
+}
+
+} // namespace vmlight

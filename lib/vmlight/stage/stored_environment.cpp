@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/stored_environment.h>
+
+#include <vmlight/image/channels.h>
+#include <vmlight/stage/stored_image.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace vmlight {
+namespace {
+
+constexpr OIIO::imagesize_t kMostHeld = OIIO::imagesize_t(256) << 20; // bytes
+
+void convert_row(float* pixels, const OIIO::ImageSpec& spec, const std::array<int, 3>& channels,
+                 const ColorConversion& conversion)
+{
+    std::vector<float> rgb(3 * size_t(spec.width));
+    for (int x = 0; x < spec.width; ++x)
+        for (int c = 0; c < 3; ++c)
+            rgb[3 * size_t(x) + c] = pixels[size_t(x) * spec.nchannels + channels[c]];
+    conversion(rgb.data(), spec.width);
+    for (int x = 0; x < spec.width; ++x)
+        for (int c = 0; c < 3; ++c)
+            pixels[size_t(x) * spec.nchannels + channels[c]] = rgb[3 * size_t(x) + c];
+}
+
+} // namespace
+
+bool is_large(const OIIO::ImageSpec& spec)
+{
+    return spec.image_pixels() * OIIO::imagesize_t(spec.nchannels) * sizeof(float) > kMostHeld;
+}
+
+bool read_as_it_goes(std::optional<Environment>& dst, const PixelSourcePointer& image, const std::string& path,
+                     const ColorSettings& settings, std::string& note, std::string& error)
+{
+    OIIO::ImageSpec spec = image->spec();
+    std::array<int, 3> channels;
+    ColorConversion conversion;
+    if (!find_color_channels(spec, channels, error)) {
+        error = OIIO::Strutil::fmt::format("\"{}\": {}", path, error);
+        return false;
+    }
+    if (!describe_scene_linear(spec, conversion, path, settings, note, error))
+        return false;
+    dst.emplace(spec, [=](int y, float* pixels, std::string& reason) {
+        if (!image->read(OIIO::ROI(spec.x, spec.x + spec.width, y, y + 1), pixels, reason))
+            return false;
+        if (conversion)
+            convert_row(pixels, spec, channels, conversion);
+        return true;
+    });
+    return true;
+}
+
+PixelSourcePointer open_large_image(const std::string& path)
+{
+    std::string unused;
+    const PixelSourcePointer image = OIIO::Filesystem::is_regular(path) ? open_stored_image(path, unused) : nullptr;
+    return image && is_large(image->spec()) ? image : nullptr;
+}
+
+} // namespace vmlight

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/stored_image.h>
+
+#include <vmlight/base/cache.h>
+#include <vmlight/base/memory_need.h>
+#include <vmlight/base/oiio.h>
+#include <vmlight/image/image_file.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+constexpr size_t kMostBlocks = size_t(256) << 20; // bytes
+constexpr int kStripRows = 64;
+
+/// What is read of a file at once: a tile of it, or some scanlines.
+struct Block
+{
+    std::vector<float> pixels;
+    size_t bytes() const { return sizeof(*this) + pixels.size() * sizeof(float); }
+};
+
+/// File, block. Never taken down: threads of the host may still read while the process ends.
+using Blocks = OnceCache<std::pair<uint64_t, int64_t>, Block>;
+Blocks& blocks()
+{
+    static auto& all = *new Blocks(kMostBlocks);
+    return all;
+}
+
+uint64_t next_id()
+{
+    static std::atomic<uint64_t> count { 0 };
+    return ++count;
+}
+
+// A name with ?query may be an image without any file, which another plugin makes.
+bool stamp_image(std::string& stamp, const std::string& path, std::string& error)
+{
+    if (path.find('?') != std::string::npos && !OIIO::Filesystem::exists(path)
+        && !OIIO::Filesystem::exists(recipe_path(path))) {
+        stamp = path + "\n";
+        return true;
+    }
+    return stamp_file(stamp, path, error);
+}
+
+bool is_unchanged(const std::string& stamp, const std::string& path, std::string& error)
+{
+    return stamp == path + "\n" || check_stamp(stamp, path, error); // a name alone has nothing that could change
+}
+
+class StoredImage : public PixelSource
+{
+public:
+    StoredImage(const std::string& key, const std::string& path)
+        : PixelSource(key)
+        , m_path(path)
+        , m_id(next_id())
+    {
+    }
+    ~StoredImage() override { blocks().forget({ m_id, 0 }, { m_id + 1, 0 }); }
+
+    bool open(std::string& error)
+    {
+        const auto file = OIIO::ImageInput::open(m_path);
+        if (!file) {
+            error = oiio::named_reason(m_path, OIIO::geterror());
+            return false;
+        }
+        m_spec = file->spec();
+        const std::string fault = header_fault(m_spec);
+        if (!fault.empty())
+            error = format("\"{}\": {}", m_path, fault);
+        if (m_spec.deep || m_spec.depth > 1)
+            error = format("\"{}\": a {} image", m_path, m_spec.deep ? "deep" : "volume");
+        m_specs.push_back(m_spec);
+        if (m_spec.get_string_attribute("vmlight:stack") == "true")
+            while (file->seek_subimage(int(m_specs.size()), 0))
+                m_specs.push_back(file->spec());
+        return error.empty();
+    }
+
+    int subimages() const override { return int(m_specs.size()); }
+    const OIIO::ImageSpec& spec_of(int subimage) const override { return m_specs[size_t(subimage)]; }
+
+    bool read(OIIO::ROI roi, float* dst, std::string& error) override
+    {
+        const auto open_file = [&](std::string& reason) {
+            m_file = OIIO::ImageInput::open(m_path);
+            if (!m_file)
+                reason = oiio::named_reason(m_path, OIIO::geterror());
+            else if (is_unchanged(key(), m_path, reason) && OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec))
+                reason = format("\"{}\": changed since it was opened", m_path);
+            return reason.empty();
+        };
+        if (!m_open.run(open_file, error))
+            return false;
+        const int wide = m_spec.tile_width ? m_spec.tile_width : m_spec.width;
+        const int high = m_spec.tile_width ? m_spec.tile_height : kStripRows;
+        const int across = (m_spec.width + wide - 1) / wide;
+        try {
+            for (int j = (roi.ybegin - m_spec.y) / high; j <= (roi.yend - 1 - m_spec.y) / high; ++j)
+                for (int i = (roi.xbegin - m_spec.x) / wide; i <= (roi.xend - 1 - m_spec.x) / wide; ++i) {
+                    const OIIO::ROI whole(m_spec.x + i * wide, m_spec.x + (i + 1) * wide, m_spec.y + j * high,
+                                          m_spec.y + (j + 1) * high);
+                    const OIIO::ROI own = OIIO::roi_intersection(OIIO::get_roi(m_spec), whole);
+                    const auto block = blocks().get({ m_id, int64_t(j) * across + i }, [&] { return read_block(own); });
+                    copy(OIIO::roi_intersection(own, roi), own, block->pixels.data(), roi, dst);
+                }
+        } catch (const BadBlock& bad) {
+            error = oiio::named_reason(m_path, bad.what());
+        }
+        return error.empty();
+    }
+
+    // At once, without the cache.
+    bool read_file(int subimage, float* dst, std::string& error)
+    {
+        const auto file = OIIO::ImageInput::open(m_path);
+        if (!is_unchanged(key(), m_path, error))
+            return false;
+        if (file)
+            file->threads(1);
+        if (file && file->read_image(subimage, 0, 0, spec_of(subimage).nchannels, OIIO::TypeFloat, dst))
+            return true;
+        error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
+        return false;
+    }
+
+    bool failed() const override { return m_open.failed(); }
+
+private:
+    // Thrown past the cache, which keeps no failure: who asks again is told again.
+    using BadBlock = std::runtime_error;
+
+    std::shared_ptr<const Block> read_block(OIIO::ROI roi)
+    {
+        std::string reason;
+        if (!is_unchanged(key(), m_path, reason))
+            throw BadBlock("changed since it was opened");
+        auto block = std::make_shared<Block>();
+        block->pixels.resize(size_t(roi.width()) * roi.height() * m_spec.nchannels);
+        float* pixels = block->pixels.data();
+        const int channels = m_spec.nchannels, z = m_spec.z;
+        const bool good = m_spec.tile_width
+            ? m_file->read_tiles(0, 0, roi.xbegin, roi.xend, roi.ybegin, roi.yend, z, z + 1, 0, channels,
+                                 OIIO::TypeFloat, pixels)
+            : m_file->read_scanlines(0, 0, roi.ybegin, roi.yend, z, 0, channels, OIIO::TypeFloat, pixels);
+        if (!good)
+            throw BadBlock(m_file->geterror());
+        return block;
+    }
+
+    // `both` of the pixels of `own` at `from` to those of `roi` at `to`.
+    void copy(OIIO::ROI both, OIIO::ROI own, const float* from, OIIO::ROI roi, float* to) const
+    {
+        const size_t channels = size_t(m_spec.nchannels);
+        for (int y = both.ybegin; y < both.yend; ++y)
+            std::copy_n(from + (size_t(y - own.ybegin) * own.width() + (both.xbegin - own.xbegin)) * channels,
+                        size_t(both.width()) * channels,
+                        to + (size_t(y - roi.ybegin) * roi.width() + (both.xbegin - roi.xbegin)) * channels);
+    }
+
+    const std::string m_path;
+    const uint64_t m_id;
+    std::unique_ptr<OIIO::ImageInput> m_file;
+    std::vector<OIIO::ImageSpec> m_specs;
+    Once m_open;
+};
+
+} // namespace
+
+PixelSourcePointer open_stored_image(const std::string& path, std::string& error)
+{
+    std::string key;
+    if (!stamp_image(key, path, error))
+        return nullptr;
+    if (PixelSourcePointer known = find_source(key))
+        return known;
+    auto image = std::make_shared<StoredImage>(key, path);
+    return image->open(error) ? keep_source(image) : nullptr;
+}
+
+bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage)
+{
+    OIIO::ImageSpec spec = source.spec_of(subimage);
+    spec.set_format(OIIO::TypeFloat);
+    error = memory_fault(spec);
+    if (!error.empty())
+        return false;
+    dst.reset(spec, OIIO::InitializePixels::No);
+    auto* pixels = static_cast<float*>(dst.localpixels());
+    if (!pixels) {
+        error = format("no memory for {}x{} pixels", spec.width, spec.height);
+        return false;
+    }
+    if (auto* file = dynamic_cast<StoredImage*>(&source))
+        return file->read_file(subimage, pixels, error);
+    return source.read_of(subimage, OIIO::get_roi(spec), pixels, error);
+}
+
+} // namespace vmlight

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/pixel_source.h>
+
+#include <vmlight/base/memory_need.h>
+#include <vmlight/stage/recipe/udim.h>
+#include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/tiles.h>
+
+#include <OpenImageIO/filesystem.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
+namespace vmlight {
+namespace {
+
+class VismapSource : public PixelSource
+{
+public:
+    VismapSource(const std::string& key, const VismapRecipe& recipe, SceneStamps stamps)
+        : PixelSource(key)
+        , m_recipe(recipe)
+        , m_stamps(std::move(stamps))
+    {
+        // The mesh's hash would take the mesh to know; a map that is made from the mesh as it is needs none.
+        m_spec = describe_vismap(OIIO::Filesystem::filename(recipe.mesh), recipe.vismap_params);
+        append_params(m_spec, recipe.mesh_params);
+    }
+
+    bool read(OIIO::ROI roi, float* dst, std::string& error) override
+    {
+        if (!m_prepare.run([&](std::string& reason) { return prepare(reason); }, error))
+            return false;
+        m_tiles->read(roi, dst);
+        return true;
+    }
+
+    bool failed() const override { return m_prepare.failed() || (m_bytes && !are_unchanged(m_scene->files)); }
+    // The scene counts by halves, thirds, ... where it is shared, so that together the sharers count it once.
+    size_t bytes() const override
+    {
+        const size_t own = m_bytes;
+        return own ? own + m_scene->bytes() / size_t(std::max<long>(1, m_scene.use_count())) : 0;
+    }
+
+private:
+    bool prepare(std::string& error)
+    {
+        std::string at;
+        if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
+            || !m_baker.prepare(m_scene, m_recipe.vismap_params, error))
+            return false;
+        m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
+        if (m_tiles->is_whole())
+            error = memory_fault(m_spec);
+        if (!error.empty())
+            return false;
+        // Of its own it has the lists of triangles, and the map if that is baked as a whole.
+        const size_t lists = sizeof(uint32_t) * m_scene->mesh().triangles.size();
+        m_bytes = 1 + lists + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
+        return true;
+    }
+
+    const VismapRecipe m_recipe;
+    const SceneStamps m_stamps;
+    Once m_prepare;
+    BakeScenePointer m_scene;
+    VismapBaker m_baker;
+    std::unique_ptr<VismapTiles> m_tiles;
+    std::atomic<size_t> m_bytes { 0 }; // set last: what is not 0 has all else
+};
+
+} // namespace
+
+PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain)
+{
+    const VismapRecipe recipe = resolve_udim(given);
+    error = recipe_fault(recipe, chain);
+    if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error))
+        return nullptr;
+    SceneStamps stamps;
+    std::string at;
+    if (!stamp_scene(stamps, recipe, at, error)) {
+        error = placed(recipe, at, chain, error);
+        return nullptr;
+    }
+    const std::string key = recipe_key(recipe) + stamps.key;
+    if (PixelSourcePointer known = find_source(key))
+        return known;
+    return keep_source(std::make_shared<VismapSource>(key, recipe, std::move(stamps)));
+}
+
+} // namespace vmlight

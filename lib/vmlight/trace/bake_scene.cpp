@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/trace/bake_scene.h>
+
+#include <vmlight/trace/surface.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vmlight {
+namespace {
+
+// Embree leaves out, without a word, what is farther away than 1.8e18.
+constexpr double kFarthestCaster = 1e18;
+
+bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
+{
+    for (const auto& triangle : mesh.triangles)
+        for (uint32_t vertex : triangle) {
+            const double reach = ((mesh.positions[vertex] - frame.centre) * frame.scale).length();
+            if (reach <= kFarthestCaster)
+                continue;
+            error
+                = OIIO::Strutil::fmt::format("\"{}\": vertex {} is {:.2g} times as far away as the baked mesh is "
+                                             "large; at most {:g} can be traced",
+                                             mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
+            return false;
+        }
+    return true;
+}
+
+int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
+{
+    int64_t count = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Imath::V3d &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
+        const double longest = std::max({ (q - p).length(), (r - q).length(), (p - r).length() });
+        count += longest > 0 && longest * frame.scale < kTinyTriangle;
+    }
+    return count;
+}
+
+// What rounding to float leaves of the mesh's shape. 0 if its coordinates are more than floats.
+double rounding_of(const Mesh& mesh, const SceneFrame& frame)
+{
+    if (mesh.has_exact_positions)
+        return 0;
+    double reach = 0;
+    for (const auto& triangle : mesh.triangles)
+        for (uint32_t vertex : triangle)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double x = mesh.positions[vertex][axis];
+                if (x != double(float(x)))
+                    return 0;
+                reach = std::max(reach, std::abs(x));
+            }
+    return reach * frame.scale * std::numeric_limits<float>::epsilon() / 4;
+}
+
+} // namespace
+
+bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
+                      std::string& error)
+{
+    using OIIO::Strutil::fmt::format;
+    const std::string& path = mesh->path.empty() ? mesh->name : mesh->path;
+    if (mesh->triangles.empty()) {
+        error = format("\"{}\": no triangle in it", path);
+        return false;
+    }
+    if (mesh->uvs.empty()) {
+        error = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", path);
+        return false;
+    }
+    std::vector<const Mesh*> casters { mesh.get() };
+    for (const Mesh& occluder : occluders)
+        casters.push_back(&occluder);
+    for (const Mesh* caster : casters)
+        if (!check_mesh(*caster, error))
+            return false;
+    m_frame = SceneFrame::around(*mesh);
+    for (const Mesh* caster : casters)
+        if (!check_reach(*caster, m_frame, error))
+            return false;
+    m_tiny = count_tiny(*mesh, m_frame);
+    m_rounding = rounding_of(*mesh, m_frame);
+    if (!m_occluder.build(casters, m_frame, nthreads, error))
+        return false;
+    m_mesh_hash = vmlight::mesh_hash(*mesh);
+    for (const Mesh& occluder : occluders)
+        m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(occluder);
+    for (const Mesh* caster : casters)
+        m_triangles += int64_t(caster->triangles.size());
+    m_mesh = std::move(mesh);
+    return true;
+}
+
+size_t BakeScene::bytes() const
+{
+    // The ray tracer takes about 100 bytes a triangle.
+    return 100 * size_t(m_triangles) + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
+}
+
+} // namespace vmlight

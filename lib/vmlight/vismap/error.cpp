@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/error.h>
+
+#include <vmlight/vismap/pilot.h>
+
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/timer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+namespace {
+
+constexpr int kFirst = 64, kMost = 1 << 20;
+// The error is known no better than to some per cent: counts nearer than this are as good.
+constexpr double kNear = 1.04;
+// Fewer texels may well agree by chance, all of them.
+constexpr int64_t kTelling = 256;
+
+// error ~ samples^-0.75, the rate of all samplers.
+double samples_for(const PilotError& known, double target)
+{
+    return known.samples * std::pow(known.rms / target, 1 / 0.75);
+}
+
+double error_at(int samples, const PilotError& known)
+{
+    return known.rms * std::pow(double(known.samples) / samples, 0.75);
+}
+
+int to_count(double samples, double least, double most)
+{
+    return int(std::ceil(std::min(std::max(samples, least), most)));
+}
+
+// Between a count that misses and one that reaches; both ends excluded, by kNear where there is room.
+int between(const PilotError& misses, const PilotError& reaches, double target, bool halve)
+{
+    double share = 0.5;
+    if (reaches.rms > 0 && misses.rms > target && !halve)
+        share = std::log(misses.rms / target) / std::log(misses.rms / reaches.rms);
+    const double samples = misses.samples * std::pow(double(reaches.samples) / misses.samples, share);
+    const int low = misses.samples + 1, high = reaches.samples - 1;
+    return std::min(std::max(to_count(samples, misses.samples * kNear, reaches.samples / kNear), low), high);
+}
+
+enum class Outcome
+{
+    Done,
+    Stopped,
+    OutOfReach
+};
+
+// `dst` is the least that reaches the target, or the most that was tried.
+Outcome reach(PilotError& dst, const VismapPilot& pilot, double target, int least)
+{
+    PilotError misses, reaches; // samples 0: none yet
+    int samples = kFirst;
+    bool still = false; // nothing scatters
+    for (int tries = 1;; ++tries) {
+        if (!pilot.measure(samples, dst))
+            return Outcome::Stopped;
+        if (tries == 1 && dst.rms == 0) {
+            still = pilot.texels() == 0 || pilot.texels() >= kTelling;
+            least = still ? least : samples;
+        }
+        // Few rays may all go the same way where many would not.
+        const bool by_chance = dst.rms == 0 && samples < kFirst && !still;
+        (dst.rms <= target && !by_chance ? reaches : misses) = dst;
+        if (reaches.samples && (reaches.samples == least || reaches.samples - 1 <= misses.samples * kNear)) {
+            dst = reaches;
+            return Outcome::Done;
+        }
+        if (misses.samples == kMost || (!reaches.samples && samples > kFirst && error_at(kMost, misses) > 2 * target))
+            return Outcome::OutOfReach;
+        if (!reaches.samples) // no farther at once than the rate is to be trusted
+            samples = to_count(samples_for(misses, target), samples * kNear, std::min(kMost, samples * kFirst));
+        else if (!misses.samples)
+            samples = reaches.rms > 0
+                ? std::min(to_count(samples_for(reaches, target), least, samples / kNear), samples - 1)
+                : least;
+        else
+            // Some counts are better than their neighbours: what follows the rate may never close in.
+            samples = between(misses, reaches, target, tries > 6);
+    }
+}
+
+// Seconds a texel and ray on all threads, from runs that grow until they are long enough to be timed.
+bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
+{
+    PilotError timed;
+    for (int samples = 16;; samples *= 4) {
+        if (!pilot.measure(samples, timed, true))
+            return false;
+        seconds = timed.seconds / double(2 * pilot.texels() * samples);
+        if (timed.seconds >= std::min(0.1, time_budget / 20) || samples >= kMost)
+            return true;
+    }
+}
+
+} // namespace
+
+bool settle_samples(VismapError& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
+                    double time_budget, int nthreads, const Progress& progress, std::string& error)
+{
+    dst = {};
+    dst.samples = params.samples;
+    const double target = params.target_error;
+    if (target <= 0 && time_budget <= 0 && !params.has("error"))
+        return true;
+    const auto stopped = [&] {
+        error = "interrupted";
+        return false;
+    };
+    // One ray does not scatter.
+    const int least = params.has("error") ? 2 : 1;
+    if (target <= 0 && time_budget <= 0 && params.samples < least) {
+        error = "samples: 1 is too few for the channel error, which takes 2";
+        return false;
+    }
+    const OIIO::Timer timer;
+    VismapPilot pilot(scene, params, nthreads, progress);
+    if (!pilot.pick(raster))
+        return stopped();
+    PilotError measured;
+    if (target > 0) {
+        const Outcome outcome = reach(measured, pilot, target, least);
+        if (outcome == Outcome::Stopped)
+            return stopped();
+        if (outcome == Outcome::OutOfReach) {
+            error = OIIO::Strutil::fmt::format("target_error: {:.6g} is out of reach: {} rays a texel come to {:.2g}",
+                                               target, kMost, error_at(kMost, measured));
+            return false;
+        }
+    } else {
+        int samples = params.samples;
+        if (time_budget > 0) {
+            double seconds = 0;
+            if (pilot.texels() > 0 && !time_rays(seconds, pilot, time_budget))
+                return stopped();
+            seconds *= double(pilot.covered());
+            samples = seconds > 0 ? std::max(least, int(std::min(time_budget / seconds, double(kMost)))) : least;
+            dst.bake_seconds = seconds * samples;
+        }
+        if (!pilot.measure(samples, measured))
+            return stopped();
+    }
+    dst.samples = measured.samples;
+    dst.rms = measured.rms;
+    dst.texels = pilot.texels();
+    dst.pilot_seconds = timer();
+    dst.lane_scale = measured.lane_rms > 0 ? measured.rms / measured.lane_rms : 1;
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/pilot.h>
+
+#include <vmlight/base/parallel.h>
+#include <vmlight/math/sampling.h>
+#include <vmlight/vismap/visibility.h>
+
+#include <OpenImageIO/timer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace vmlight {
+namespace {
+
+// Rays between two looks at the progress: few enough to stop in well under a second.
+constexpr int64_t kRaysPerItem = 1 << 14;
+
+} // namespace
+
+VismapPilot::VismapPilot(const BakeScene& scene, const VismapParams& params, int nthreads, const Progress& progress)
+    : m_scene(scene)
+    , m_params(params)
+    , m_threads(nthreads)
+    , m_progress([progress](double) { return !progress || progress(0); })
+{
+}
+
+bool VismapPilot::pick(const UvRaster& raster)
+{
+    struct Worker
+    {
+        TileCover cover;
+        std::unique_ptr<Surface> surface;
+    };
+    std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
+    for (Worker& worker : workers)
+        worker.surface = std::make_unique<Surface>(m_scene.mesh(), m_scene.frame());
+    // Covered texels before each tile.
+    std::vector<int64_t> before(size_t(raster.tiles_across()) * raster.tiles_down() + 1);
+    const auto count = [&](int64_t tile, int worker) {
+        raster.cover(int(tile), workers[size_t(worker)].cover);
+        before[size_t(tile) + 1] = workers[size_t(worker)].cover.covered;
+    };
+    if (!parallel_items(int64_t(before.size()) - 1, m_threads, count, m_progress))
+        return false;
+    for (size_t tile = 1; tile < before.size(); ++tile)
+        before[tile] += before[tile - 1];
+    m_covered = before.back();
+    m_texels.resize(size_t(std::min(m_covered, kTexels)));
+
+    // One of each run of equally many, by chance: at equal steps they might fall into one column.
+    std::vector<int64_t> ranks(m_texels.size());
+    const double run = double(m_covered) / double(std::max<int64_t>(1, texels()));
+    for (size_t i = 0; i < ranks.size(); ++i)
+        ranks[i] = std::min(m_covered - 1, int64_t((double(i) + texel_hash(uint32_t(i), 0, 0).u * 0x1p-32) * run));
+    const auto take = [&](int64_t tile, int worker) {
+        auto rank = std::lower_bound(ranks.begin(), ranks.end(), before[size_t(tile)]);
+        if (rank == ranks.end() || *rank >= before[size_t(tile) + 1])
+            return;
+        auto& [cover, surface] = workers[size_t(worker)];
+        raster.cover(int(tile), cover);
+        const int tile_x = int(tile) % raster.tiles_across() * kTileSize;
+        const int tile_y = int(tile) / raster.tiles_across() * kTileSize;
+        int64_t at = before[size_t(tile)];
+        for (int i = 0; i < kTileSize * kTileSize; ++i) {
+            if (cover.triangle[size_t(i)] == TileCover::kNone)
+                continue;
+            for (; rank != ranks.end() && *rank == at; ++rank) {
+                Texel& texel = m_texels[size_t(rank - ranks.begin())];
+                texel = { surface->at(cover.triangle[size_t(i)], cover.weight1[size_t(i)], cover.weight2[size_t(i)]),
+                          tile_x + i % kTileSize, tile_y + i / kTileSize };
+                settle_origins(&texel.point, 1, m_scene.occluder());
+            }
+            ++at;
+        }
+    };
+    return parallel_items(int64_t(before.size()) - 1, m_threads, take, m_progress);
+}
+
+bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
+{
+    const OIIO::Timer timer;
+    const SamplePattern pattern(m_params.sampler, samples, m_params.measure == "uniform");
+    const Point32 hash = texel_hash(uint32_t(samples), 0, uint32_t(m_params.seed));
+    std::array<VismapParams, 2> params { m_params, m_params };
+    // The highest bit is set in no seed that can be asked for.
+    params[0].seed = int(hash.u | 0x80000000u);
+    params[1].seed = int((hash.v == hash.u ? ~hash.v : hash.v) | 0x80000000u);
+
+    struct Worker
+    {
+        std::array<std::unique_ptr<Eye>, 2> eyes;
+        std::vector<float> basis;
+    };
+    std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
+    for (Worker& worker : workers) {
+        for (size_t k = 0; k < 2; ++k)
+            worker.eyes[k] = std::make_unique<Eye>(m_scene.occluder(), pattern, params[k], m_scene.frame().scale);
+        worker.basis.resize(basis_channels(m_params).size());
+    }
+    std::vector<std::array<Visibility, 2>> seen(m_texels.size());
+    const int64_t step = std::max<int64_t>(1, kRaysPerItem / samples);
+    const auto bake = [&](int64_t item, int worker) {
+        auto& [eyes, basis] = workers[size_t(worker)];
+        for (int64_t i = item * step; i < std::min(texels(), (item + 1) * step); ++i)
+            for (size_t k = 0; k < 2; ++k) {
+                const Texel& texel = m_texels[size_t(i)];
+                seen[size_t(i)][k] = eyes[k]->see(texel.point, texel.x, texel.y, with_basis ? basis.data() : nullptr);
+            }
+    };
+    if (!parallel_items((texels() + step - 1) / step, m_threads, bake, m_progress))
+        return false;
+
+    double variance = 0, lane_variance = 0;
+    for (const auto& [one, other] : seen) {
+        variance += std::pow(one.visibility - other.visibility, 2) / 2;
+        lane_variance += (std::pow(one.error, 2) + std::pow(other.error, 2)) / 2;
+    }
+    const double count = double(std::max<int64_t>(1, texels()));
+    dst = { samples, std::sqrt(variance / count), std::sqrt(lane_variance / count), timer() };
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A visibility map by the tile, margin included: bit for bit the texels of make_vismap(), at the cost of the tiles
+/// that are asked for and of those whose texels reach into their margin.
+#pragma once
+
+#include <vmlight/base/cache.h>
+#include <vmlight/vismap/baker.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstdint>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+namespace vmlight {
+
+/// A tile of kTileSize x kTileSize texels.
+struct MapTile
+{
+    /// Rows without padding; empty if all is 0.
+    std::vector<float> texels;
+    /// Covered by a triangle: the margin is not.
+    TileBits covered {};
+
+    size_t bytes() const { return sizeof(*this) + texels.size() * sizeof(float); }
+};
+using MapTilePointer = std::shared_ptr<const MapTile>;
+
+class VismapTiles
+{
+public:
+    /// @param baker    prepared; must outlive this
+    /// @param margin   as in VismapParams
+    VismapTiles(const VismapBaker& baker, int margin);
+    ~VismapTiles();
+    VismapTiles(const VismapTiles&) = delete;
+    VismapTiles& operator=(const VismapTiles&) = delete;
+
+    /// Tile number `tile` (row by row). Any thread; a tile is baked once while the cache has room for it.
+    MapTilePointer tile(int tile);
+
+    /// Texels of `roi`, all channels, rows without padding.
+    void read(OIIO::ROI roi, float* dst);
+
+    /// Whether the margin reaches so far that the first read bakes all, and this keeps it.
+    bool is_whole() const { return m_whole; }
+
+    /// The process's cache of tiles, shared by all maps: 512 MiB unless set.
+    static void set_cache_limit(size_t bytes);
+
+private:
+    struct Window;
+    MapTilePointer baked(int tile);
+    MapTilePointer filled(int tile);
+    MapTilePointer copied(int tile);
+    bool add_tile(Window& window, int tile, VismapBaker::Scratch& scratch);
+
+    const VismapBaker& m_baker;
+    const int m_margin;
+    const bool m_whole; // the margin reaches too far: all is baked at once
+    const uint64_t m_id;
+    Once m_bake_map;
+    std::vector<float> m_map;
+};
+
+} // namespace vmlight

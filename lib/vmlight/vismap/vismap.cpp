@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/vismap.h>
+
+#include <vmlight/base/fail.h>
+#include <vmlight/base/memory_need.h>
+#include <vmlight/uv/margin.h>
+#include <vmlight/vismap/baker.h>
+
+#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/timer.h>
+
+namespace vmlight {
+namespace {
+
+OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
+{
+    OIIO::ImageSpec spec = describe_vismap(scene.mesh().name, baker.params());
+    spec.attribute("vmlight:samples", std::to_string(baker.params().samples));
+    if (baker.error().texels > 0)
+        spec.attribute("vmlight:error", float(baker.error().rms));
+    spec.attribute("vmlight:meshHash", scene.mesh_hash());
+    if (!scene.occluder_hashes().empty())
+        spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
+    return spec;
+}
+
+} // namespace
+
+bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
+                 VismapReport* report, int nthreads, const Progress& progress)
+{
+    const OIIO::Timer timer;
+    std::string error;
+    auto scene = std::make_shared<BakeScene>();
+    if (!check_params(params, error) || !scene->build(borrowed(mesh), occluders, nthreads, error))
+        return fail(dst, error);
+    const double build_seconds = timer();
+    const bool made = make_vismap(dst, scene, params, report, nthreads, progress);
+    if (made && report)
+        report->build_seconds += build_seconds;
+    return made;
+}
+
+bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
+                 int nthreads, const Progress& progress, double time_budget)
+{
+    VismapReport counts;
+    OIIO::Timer timer;
+    std::string error;
+    if (check_params(params, error))
+        error = memory_fault(describe_vismap("", params));
+    VismapBaker baker;
+    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget))
+        return fail(dst, error);
+    const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
+    dst.reset(spec, OIIO::InitializePixels::Yes);
+    float* pixels = static_cast<float*>(dst.localpixels());
+    if (!pixels)
+        return fail(dst, OIIO::Strutil::fmt::format("no memory for {} x {} texels", spec.width, spec.height));
+    counts.uv = baker.uv_report();
+    counts.tiny = scene->tiny();
+    counts.rounding = scene->rounding();
+    if (report)
+        baker.count_islands(counts.uv);
+    counts.build_seconds = timer.lap() - baker.error().pilot_seconds;
+
+    Coverage coverage(spec.width, spec.height);
+    BakeCounts baked;
+    if (!baker.bake_all(pixels, coverage, baked, nthreads, progress))
+        return fail(dst, "interrupted");
+    counts.bake_seconds = timer.lap();
+    fill_margin(pixels, spec.nchannels, coverage, params.margin, baker.margin_channels());
+    counts.margin_seconds = timer.lap();
+
+    counts.texels = int64_t(spec.width) * spec.height;
+    counts.covered = baked.covered;
+    counts.overlapping = baked.overlapping;
+    counts.dark = baked.dark;
+    counts.rays = baked.rays;
+    counts.samples = baker.error().samples;
+    counts.error = baker.error().rms;
+    counts.error_texels = baker.error().texels;
+    counts.expected_seconds = baker.error().bake_seconds;
+    counts.pilot_seconds = baker.error().pilot_seconds;
+    if (report)
+        *report = counts;
+    return true;
+}
+
+} // namespace vmlight
