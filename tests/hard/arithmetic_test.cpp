@@ -71,24 +71,24 @@ TEST(Arithmetic, RowsNearThePole)
     const double truth = 4 * latlong::pi * std::pow(std::sin(latlong::pi / (2 * height)), 2);
     const float naive = 2 * float(latlong::pi) * (1 - std::cos(float(latlong::pi) / height));
     EXPECT_GT(std::abs(naive / truth - 1), 0.1);
-    row.naive("a difference of cosines in float: more than 10 % off");
+    row.naive("a difference of cosines in float: more than 10 % error");
     EXPECT_NEAR(latlong::row_solid_angle(0, height) / truth, 1, 1e-14);
     double sum = 0;
     for (int y = 0; y < height; ++y)
         sum += latlong::row_solid_angle(y, height);
     EXPECT_NEAR(sum, 4 * latlong::pi, 1e-12);
-    row.ours("as a product: to 1e-14, and all rows make a sphere to 1e-13 of it");
+    row.ours("as a product: accurate to 1e-14; the rows sum to the sphere within 1e-13");
 }
 
 TEST(Arithmetic, LargeSumsLoseNothing)
 {
-    HardCase row("134 million texels of light .1 are added up");
+    HardCase row("The sum of 134 million texels of 0.1");
     const int width = 16384, height = 8192;
     float naive = 0;
     for (int64_t i = 0; i < int64_t(width) * height; ++i)
         naive += 0.1f;
     EXPECT_LT(naive / (0.1 * width * height), 0.2);
-    row.naive("in float: 16 % of them");
+    row.naive("in float: 16 % of the sum");
     const OIIO::ImageSpec spec(width, height, 3, OIIO::TypeFloat);
     const Environment environment(spec, [&](int, float* pixels, std::string&) {
         std::fill_n(pixels, size_t(3) * width, 0.1f);
@@ -100,12 +100,12 @@ TEST(Arithmetic, LargeSumsLoseNothing)
     ASSERT_TRUE(make_cfem(cfem, environment, params)) << cfem.geterror();
     for (OIIO::ImageBuf::ConstIterator<float> p(cfem); !p.done(); ++p)
         EXPECT_NEAR(p[0], 0.1f, 7.5e-9f);
-    row.ours(".1, to 1 ulp of float");
+    row.ours("a mean of 0.1, to 1 ulp of float");
 }
 
 TEST(Arithmetic, InstructionSetsAgree)
 {
-    HardCase row("The same maps on processors with SSE2, SSE4, AVX2 and AVX-512");
+    HardCase row("The same images on processors with SSE2, SSE4, AVX2 and AVX-512");
     std::mt19937 random(4);
     std::normal_distribution<float> normal;
     int apart = 0;
@@ -139,12 +139,12 @@ TEST(Arithmetic, InstructionSetsAgree)
     EXPECT_GT(tested, 0);
     // Sums of directions are made lane by lane.
     EXPECT_LE(worst, 4 * 0x1p-23);
-    row.ours("filters and models to the last bit; bakes to 4 ulps of 1, packed numbers exactly");
+    row.ours("filters and models are bit-equal; bakes agree to 4 ulps of 1, packed numbers exactly");
 }
 
 TEST(Arithmetic, DenormalsOfTheHost)
 {
-    HardCase row("A reader bakes on a host's thread, where Embree wants denormals flushed to 0", "OIIO PR#2048");
+    HardCase row("A reader bakes on a host's thread; Embree wants denormals flushed to 0 there", "OIIO PR#2048");
 #if defined(__SSE__)
     const volatile float tiny = 1e-40f;
     const unsigned before = _mm_getcsr() & 0xffc0; // but for the flags of what happened
@@ -156,7 +156,7 @@ TEST(Arithmetic, DenormalsOfTheHost)
     stage_scene::all_pixels(*OIIO::ImageInput::open(folder / "hero.lightmap"));
     EXPECT_EQ(_mm_getcsr() & 0xffc0, before);
     EXPECT_GT(tiny * 0.5f, 0);
-    row.ours("the thread's mode is as it was, whatever was read");
+    row.ours("the thread's floating-point mode is restored after every read");
 #else
     GTEST_SKIP() << "no such mode is set on this processor";
 #endif

@@ -30,12 +30,12 @@ V3f naive_lookup(const OIIO::ImageBuf& cfem, const V3f& b)
 
 TEST(Arithmetic, ATexelThatSeesAlikeOnAllSides)
 {
-    HardCase row("A slot open at both ends: the directions cancel, and what is left of them is rounding",
-                 "all formats of unit normals: a bent normal that is noise");
+    HardCase row("A slot open at both ends: the directions cancel, leaving only rounding",
+                 "all formats that store unit bent normals: noise");
     const auto stack = scene::random_stack(16, 8);
     const V3f noise[] = { V3f(1e-8f, 0, 0), V3f(-1e-8f, 3e-9f, 0), V3f(0, 1e-9f, -1e-8f) };
     EXPECT_NE(naive_lookup(stack[0], noise[0]), naive_lookup(stack[0], noise[1]));
-    row.naive("light from wherever rounding points, another for each seed");
+    row.naive("light from a random direction, different for each seed");
     for (const char* name : { "paper", "lobe" }) {
         const V3f expected = color(lit(one_texel(0.4f, V3f(0)), stack, model(name)));
         EXPECT_GT(expected.length(), 0.1f);
@@ -59,7 +59,7 @@ TEST(Arithmetic, ATexelThatSeesNothing)
 
 TEST(Arithmetic, VisibilitiesThatAreNone)
 {
-    HardCase row("V of -3, 2.1 or 255: a map that was graded, stored as whole numbers, or another picture");
+    HardCase row("V of -3, 2.1 or 255: a map that was graded or stored as integers, or the wrong image");
     const auto stack = scene::random_stack(16, 8);
     row.naive("255 times the light, exit code 0");
     for (const char* name : { "paper", "lobe" }) {
@@ -73,17 +73,17 @@ TEST(Arithmetic, VisibilitiesThatAreNone)
         const V3f rung = color(lit(one_texel(1.2f, V3f(0, 0.4f, 0)), stack, model(name))); // by a filter
         EXPECT_LT((rung - 1.2f * light).length(), 1e-5f * light.length());
     }
-    row.ours("refused beyond [-2, 2], with the place; what a filter rang is lit");
+    row.ours("refused outside [-2, 2], with the pixel; ringing from a filter is accepted");
 }
 
 TEST(Arithmetic, LookupsWhereTheMapEnds)
 {
-    HardCase row("A lookup exactly at a pole, on the seam, at the corners of texels, with directions of any length");
+    HardCase row("Lookups exactly at a pole, on the seam and at texel corners, with directions of any length");
     EXPECT_TRUE(std::isnan(std::acos(std::nextafter(1.0f, 2.0f))));
     // A hair's breadth before the seam, in float.
     const float s = std::atan2(1e-9f, -1.0f) / float(2 * latlong::pi) + 0.5f;
     EXPECT_EQ(int(s * 16), 16);
-    row.naive("acos(1 + 1e-7) is NaN; column 16 of 16 is another row's, or no memory at all");
+    row.naive("acos(1 + 1e-7) is NaN; column 16 of 16 reads the next row, or past the end");
     for (const auto& [w, h] : { std::pair { 16, 8 }, { 5, 3 }, { 2, 1 }, { 1, 7 }, { 1, 1 } }) {
         const OIIO::ImageBuf map = scene::random_cfem(w, h);
         float low = 1, high = 0;
@@ -104,7 +104,7 @@ TEST(Arithmetic, LookupsWhereTheMapEnds)
             EXPECT_LT((seam - across).length(), 1e-6f * float(w + h) + 1e-6f);
         }
     }
-    row.ours("finite, within the map's own range, continuous over the seam");
+    row.ours("finite, within the map's range, continuous across the seam");
 }
 
 TEST(Arithmetic, AnglesNearThePole)
@@ -117,7 +117,7 @@ TEST(Arithmetic, AnglesNearThePole)
         ours = std::max(ours, std::abs(latlong::position(d).y * latlong::pi - angle));
     }
     EXPECT_GE(naive, 0.99);
-    row.naive("acos(y) in float: up to 100 % off");
+    row.naive("acos(y) in float: up to 100 % error");
     EXPECT_LT(ours, 3e-7);
-    row.ours("by atan2: to 3e-7 of a radian");
+    row.ours("atan2: within 3e-7 radians");
 }

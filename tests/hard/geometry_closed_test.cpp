@@ -34,8 +34,8 @@ const V3d kAskew(0.61, -0.33, 0.72);
 
 TEST(Geometry, InsideABoxNothingIsSeen)
 {
-    HardCase row("Inside boxes, a flat one among them", "embree#387, #174, #188: vertex and edge misses");
-    row.naive("6.5 % of rays at edges leak by Embree's default flags (measured)");
+    HardCase row("Inside boxes, including a flat one", "embree#387, #174, #188: vertex and edge misses");
+    row.naive("6.5 % of rays at edges leak with Embree's default flags (measured)");
     EXPECT_EQ(texels_that_see(box(V3d(-1), V3d(1), true), 96, 128), 0);
     EXPECT_EQ(texels_that_see(box(V3d(-1), V3d(1), true, 0), 97, 128), 0);
     EXPECT_EQ(texels_that_see(box(V3d(-3, -0.01, -1), V3d(0.2, 0.02, 1.3), true, 0), 97, 128), 0);
@@ -44,8 +44,8 @@ TEST(Geometry, InsideABoxNothingIsSeen)
 
 TEST(Geometry, InsideABoxOnItsEdges)
 {
-    HardCase row("Texels on the very edges and corners of a box, from inside");
-    row.naive("starts in the walls' own planes");
+    HardCase row("Texels exactly on the edges and corners of a box, from inside");
+    row.naive("rays start in the planes of the walls");
     for (bool mirrored : { false, true }) {
         const int texels = 20;
         const Mesh mesh = box_with_texels_on_its_edges(texels, mirrored);
@@ -60,7 +60,7 @@ TEST(Geometry, AMillionRaysInACorner)
 {
     HardCase row("A million rays from each corner of a box, from inside",
                  "embree#387, #174, #188: vertex and edge misses");
-    row.naive("66 of 4 million leak even by robust flags, from anywhere (measured)");
+    row.naive("66 of 4 million leak even with robust flags, wherever they start (measured)");
     for (bool mirrored : { false, true }) {
         const BakedMap map(box_with_texels_on_its_edges(1, mirrored), {}, map_params(6, 4, 1 << 20));
         EXPECT_EQ(map.report.covered, 6); // the corners of the box alone
@@ -72,9 +72,9 @@ TEST(Geometry, AMillionRaysInACorner)
 
 TEST(Geometry, InsideABallNothingIsSeen)
 {
-    HardCase row("Inside balls, vertices and edges on centres of texels",
+    HardCase row("Inside spheres, with vertices and edges on texel centres",
                  "embree#387, #174, #188: vertex and edge misses");
-    row.naive("6.5 % of rays at edges leak by Embree's default flags (measured)");
+    row.naive("6.5 % of rays at edges leak with Embree's default flags (measured)");
     EXPECT_EQ(texels_that_see(sphere(V3d(0), 1, 16, true), 96, 128), 0);
     EXPECT_EQ(texels_that_see(sphere(kAskew, 3, 61, true), 95, 128), 0); // vertices and edges on texel centres
     row.ours("V = 0 exactly");
@@ -82,8 +82,9 @@ TEST(Geometry, InsideABallNothingIsSeen)
 
 TEST(Geometry, OutsideAConvexBodyAllIsSeen)
 {
-    HardCase row("Outside boxes and balls, texels on their very edges", "VertexOven#1, BakeLab2#12: black blobs");
-    row.naive("without an offset half of the rays meet the surface they come from (measured)");
+    HardCase row("Outside boxes and spheres, with texels exactly on the edges",
+                 "VertexOven#1, BakeLab2#12: black blobs");
+    row.naive("without an offset half of the rays hit the surface they start from (measured)");
     EXPECT_EQ(texels_that_see_less_than_all(box(V3d(-1), V3d(1), false, 0), 97, 64), 0);
     EXPECT_EQ(texels_that_see_less_than_all(sphere(V3d(0), 1, 8), 96, 64), 0);
     EXPECT_EQ(texels_that_see_less_than_all(sphere(kAskew, 0.3, 47), 97, 64), 0);
@@ -92,8 +93,8 @@ TEST(Geometry, OutsideAConvexBodyAllIsSeen)
 
 TEST(Geometry, TJunctions)
 {
-    HardCase row("A closed box whose walls meet at T-junctions, turned out of all planes that floats favour");
-    row.naive("cracks one rounding wide: a ray of millions leaks");
+    HardCase row("A closed box whose walls meet at T-junctions, rotated off the coordinate planes");
+    row.naive("cracks one rounding error wide: one ray in millions leaks");
     // A box one of whose walls is cut in three where its neighbour is whole, at places that float rounds.
     int64_t seen = 0;
     for (double cut : { 1.0 / 3, 0.1, 0.77 }) {

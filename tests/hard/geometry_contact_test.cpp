@@ -79,7 +79,7 @@ template <class Wanted> int64_t wrong_from_afar(const Mesh& mesh, int size, cons
 
 TEST(Geometry, ACoincidentSheet)
 {
-    HardCase row("Two sheets in one place, cut along different diagonals, facing the same or opposite ways",
+    HardCase row("Two coincident sheets, split along different diagonals, facing the same or opposite ways",
                  "VertexOven#9: parallel faces back to back");
     row.naive("without an offset 45 % of the rays are blocked (measured)");
     for (bool opposed : { false, true })
@@ -97,13 +97,13 @@ TEST(Geometry, ACoincidentSheet)
             sheets.normals.assign(sheets.positions.size(), V3f(z));
             EXPECT_EQ(texels_that_see_less_than_all(sheets, 64, 64), 0) << opposed << ", " << scale;
         }
-    row.ours("neither hides the other: V = 1");
+    row.ours("neither occludes the other: V = 1");
 }
 
 TEST(Geometry, ATwoSidedSheet)
 {
-    HardCase row("A sheet of two sides back to back");
-    row.naive("one side's normal for both");
+    HardCase row("A two-sided sheet: two faces back to back");
+    row.naive("both sides use the normal of one");
     Mesh sheets;
     add_quad(sheets, V3d(-1, -1, 0), V3d(1, -1, 0), V3d(1, 1, 0), V3d(-1, 1, 0), V2f(0, 0), V2f(0.5f, 1));
     add_quad(sheets, V3d(-1, 1, 0), V3d(1, 1, 0), V3d(1, -1, 0), V3d(-1, -1, 0), V2f(0.5f, 0), V2f(1, 1));
@@ -116,12 +116,12 @@ TEST(Geometry, ATwoSidedSheet)
 
 TEST(Geometry, SheetsAMillionthApart)
 {
-    HardCase row("Four sheets of two sides, a millionth to 1e-4 of their size apart, turned out of all planes");
+    HardCase row("Four two-sided sheets, 1e-6 to 1e-4 of their size apart, rotated off the coordinate planes");
     // Triangles 0, 1 are the underside of the lowest sheet, the last two the top of the highest.
     const Mesh naive = turned(stack_of_sheets(2e-6));
     const auto is_open = [](uint32_t triangle) { return triangle < 2 || triangle >= 14; };
     EXPECT_GT(wrong_from_afar(naive, 64, is_open), 2048);
-    row.naive("rays from 1.5e-5 above see over the stack: more than half of the texels are wrong");
+    row.naive("rays from 1.5e-5 above start beyond the stack: more than half of the texels are wrong");
     for (double gap : { 2e-6, 2e-5, 2e-4 })
         for (double scale : { 1.0, 1.01, 1e-6 }) {
             const BakedMap map(turned(placed(stack_of_sheets(gap), scale)), {}, map_params(32, 16, 64));
@@ -136,8 +136,8 @@ TEST(Geometry, SheetsAMillionthApart)
 
 TEST(Geometry, InsideAWedge)
 {
-    HardCase row("A closed wedge of 1 to 30 degrees, from inside, texels on its sharp edge");
-    row.naive("rays from 1.5e-5 above one side start beyond the other: all texels of the edge see out, at 2 degrees");
+    HardCase row("A closed wedge of 1 to 30 degrees, from inside, with texels on its sharp edge");
+    row.naive("rays from 1.5e-5 above one side start beyond the other: at 2 degrees all texels of the edge see out");
     EXPECT_GT(wrong_from_afar(turned(wedge(2)), 64, [](uint32_t) { return false; }), 100);
     for (double degrees : { 30.0, 5.0, 2.0, 1.0 })
         EXPECT_EQ(texels_that_see(turned(wedge(degrees)), 64, 64), 0) << degrees;
@@ -146,7 +146,7 @@ TEST(Geometry, InsideAWedge)
 
 TEST(Geometry, InsideAThinBox)
 {
-    HardCase row("Closed boxes of 1e-2 to 1e-6 of their width, from inside");
+    HardCase row("Closed boxes with a height of 1e-2 to 1e-6 of their width, from inside");
     EXPECT_GT(
         wrong_from_afar(turned(box(V3d(-1, -1, -1e-6), V3d(1, 1, 1e-6), true)), 49, [](uint32_t) { return false; }),
         400);
@@ -158,8 +158,8 @@ TEST(Geometry, InsideAThinBox)
 
 TEST(Geometry, SliversMeetThemselves)
 {
-    HardCase row("200 quads of all directions, as wide as long down to 1e-7 of that");
-    row.naive("floats say of rays 5e-7 above a sliver that they start below it: V = 0");
+    HardCase row("200 quads in all orientations, from square to slivers 1e-7 as wide as long");
+    row.naive("in float, rays that start 5e-7 above a sliver seem to start below it: V = 0");
     // Quads as wide as long down to 1e-7 of that, each alone in its mesh.
     std::mt19937 random(1);
     std::uniform_real_distribution<double> in(-1, 1);
@@ -175,5 +175,5 @@ TEST(Geometry, SliversMeetThemselves)
         wrong += count_covered_unless(BakedMap(mesh, {}, map_params(24, 24, 64)), sees_all);
     }
     EXPECT_EQ(wrong, 0);
-    row.ours("V = 1 exactly: near a surface, its sides are told apart in double");
+    row.ours("V = 1 exactly: near a surface, the side is computed in double");
 }

@@ -35,8 +35,8 @@ Mesh upright_triangle(V3f n0, V3f n1, V3f n2)
 
 TEST(Geometry, ACoarseBallWithSmoothNormals)
 {
-    HardCase row("Balls of 20, 80 and 320 triangles with smooth normals",
-                 "Bakery, glim, Cycles: the terminator's steps");
+    HardCase row("Spheres of 20, 80 and 320 triangles with smooth normals",
+                 "Bakery, glim, Cycles: stepped shadow terminator");
     // The mean share of the hemisphere of the smooth normal that lies above the facet: V, where rays below it are
     // blocked.
     const Mesh coarse = icosphere(0);
@@ -46,7 +46,7 @@ TEST(Geometry, ACoarseBallWithSmoothNormals)
         share += (1 + facet.dot(V3d(coarse.normals[triangle[0]]))) / 2 / double(coarse.triangles.size());
     }
     EXPECT_LT(share, 0.91);
-    row.naive("the hemisphere dips under the facets: V is below 0.91 at the corners of 20 triangles");
+    row.naive("the hemisphere dips below the facets: V is below 0.91 at the corners of 20 triangles");
     // The hemisphere of a smooth normal dips under the facets: rays that start so are no rays.
     for (int cuts : { 0, 1, 2 })
         for (int samples : { 1, 4, 64 }) {
@@ -57,8 +57,8 @@ TEST(Geometry, ACoarseBallWithSmoothNormals)
 
 TEST(Geometry, TheDirectionOfACoarseBall)
 {
-    HardCase row("The mean direction on the same balls");
-    row.naive("the facet's normal, off by up to 37 degrees");
+    HardCase row("The mean direction on the same spheres");
+    row.naive("the facet normal: wrong by up to 37 degrees");
     // Measured: 6.9, 2.4 and 0.7 degrees at most for 20, 80 and 320 triangles, where the normals lean by 37, 20, 10.
     const double most[] = { 7.5, 2.8, 1.0 };
     for (int cuts : { 0, 1, 2 }) {
@@ -78,12 +78,12 @@ TEST(Geometry, TheDirectionOfACoarseBall)
         EXPECT_LT(worst, most[cuts]) << cuts;
         EXPECT_GT(worst, most[cuts] / 4) << cuts;
     }
-    row.ours("off by less than 7.5, 2.8 and 1 degrees");
+    row.ours("wrong by less than 7.5, 2.8 and 1 degrees");
 }
 
 TEST(Geometry, WindingIsNotWhatSaysOutside)
 {
-    HardCase row("A ball and a box whose triangles are wound the other way round");
+    HardCase row("A sphere and a box with reversed winding");
     row.naive("sees the inside: V = 0");
     Mesh scene = sphere(V3d(0), 1, 12);
     append(scene, box(V3d(0.9, -1, -1), V3d(1.4, 1, 1), true));
@@ -92,12 +92,12 @@ TEST(Geometry, WindingIsNotWhatSaysOutside)
     EXPECT_TRUE(BakedMap(rewound(scene), {}, params) == map);
     EXPECT_EQ(texels_that_see(rewound(box(V3d(-1), V3d(1), true)), 48, 64), 0);
     EXPECT_EQ(texels_that_see_less_than_all(rewound(box(V3d(-1), V3d(1), false)), 48, 64), 0);
-    row.ours("the normals say which side is outside: the same map");
+    row.ours("the normals decide which side is outside: the same map");
 }
 
 TEST(Geometry, NoUsableNormal)
 {
-    HardCase row("Normals that are zero, NaN, opposed, or some of them",
+    HardCase row("Normals that are zero, NaN or opposed, or only partly there",
                  "Filament's rays: interpolated, not renormalised");
     EXPECT_TRUE(std::isnan((V3f(0) / V3f(0).length()).x));
     row.naive("0 / 0: NaN");
@@ -118,13 +118,13 @@ TEST(Geometry, NoUsableNormal)
         EXPECT_EQ(t.visibility, 1);
         EXPECT_NEAR(t.direction.z, -2.0 / 3, 1e-6);
     });
-    row.ours("the triangle's own: V = 1, B = 2/3 of it");
+    row.ours("the triangle's normal n is used: V = 1, B = (2/3) n");
 }
 
 TEST(Geometry, NormalsOfAnyLength)
 {
-    HardCase row("Normals of a quarter of their length");
-    row.naive("a quarter of B");
+    HardCase row("Normals of length 1/4");
+    row.naive("B is a quarter as long");
     const VismapParams params = map_params(16, 16, 64);
     const V3f up(0, 0, 1), lean = V3f(0.5f, 0, 0.8f).normalized();
     const BakedMap map(upright_triangle(up, lean, up), {}, params);
@@ -136,9 +136,9 @@ TEST(Geometry, NormalsOfAnyLength)
 
 TEST(Geometry, InterpolatedNormals)
 {
-    HardCase row("Normals 90 degrees apart, between which the sum is 0.7 long",
+    HardCase row("Corner normals 90 degrees apart, whose interpolation is only 0.7 long",
                  "Filament's rays: interpolated, not renormalised");
-    row.naive("directions 0.7 long, and B");
+    row.naive("directions and B are 0.7 as long");
     // Half way between normals 90 degrees apart the sum has length 0.7.
     const BakedMap map(upright_triangle(V3f(1, 0, 1).normalized(), V3f(-1, 0, 1).normalized(), V3f(0, 0, 1)), {},
                        map_params(33, 33, 4096));
@@ -152,8 +152,8 @@ TEST(Geometry, InterpolatedNormals)
 
 TEST(Geometry, ALoneRayAtTheHorizon)
 {
-    HardCase row("One ray a texel of the measure `uniform`, 2^-24 above the horizon");
-    row.naive("rounds to below it: 0 rays of 0, NaN");
+    HardCase row("One ray a texel with the measure `uniform`, 2^-24 above the horizon");
+    row.naive("rounded below the horizon: 0 of 0 rays, NaN");
     // A texel and a seed whose one ray is the lowest there is.
     VismapParams params = map_params(1, 1, 1);
     params.measure = "uniform";
@@ -174,5 +174,5 @@ TEST(Geometry, ALoneRayAtTheHorizon)
         }
     }
     EXPECT_EQ(found, 3);
-    row.ours("the ray along the normal stands in: V = 1");
+    row.ours("a ray along the normal replaces it: V = 1");
 }

@@ -46,13 +46,13 @@ double farthest_corner(const Mesh& mesh, const Mesh& truth)
 
 TEST(Geometry, AFileAtTenMillion)
 {
-    HardCase row("A ball of unit size lies at 1e7 in its file (OBJ; PLY of doubles in three formats)",
-                 "assimp keeps floats");
+    HardCase row("A unit sphere at 1e7 from the origin (OBJ; PLY with doubles, in three encodings)",
+                 "assimp stores floats");
     const TemporaryFolder folder;
     const V3d place(1e7, -2e7, 0.5e7);
     const Mesh out = placed(sphere(V3d(0), 1, 16), 1, place), in = placed(sphere(V3d(0), 1, 16, true), 1, place);
     EXPECT_LT(BakedMap(through_float(out), {}, map_params(64, 64, 1)).report.covered, 4096 / 20);
-    row.naive("as floats, hardly a triangle has area left: less than 5 % of the ball is baked");
+    row.naive("as floats, most triangles lose their area: less than 5 % of the sphere is baked");
     const auto expect_kept = [&](const char* name, const auto& bytes_of) {
         const Mesh outside = read(folder.write(name, bytes_of(out))), inside = read(folder.write(name, bytes_of(in)));
         EXPECT_EQ(farthest_corner(outside, out), 0) << name;
@@ -68,10 +68,10 @@ TEST(Geometry, AFileAtTenMillion)
 
 TEST(Geometry, BallsOfAllSizes)
 {
-    HardCase row("Balls scaled by 1e-30 to 1e30, or moved by up to 1e7 (in memory, where positions are double)",
+    HardCase row("Spheres scaled by 1e-30 to 1e30, or moved by up to 1e7 (in memory, with positions in double)",
                  "aobaker, Godot, Arnold: bias in the scene's units");
-    row.naive("with tnear = 1e-4: half of the rays blocked at 1e6, all leak at 1e-6; an offset in ulps leaks all at "
-              "1e-6 and at 1e7 (measured)");
+    row.naive("with tnear = 1e-4: half of the rays blocked at 1e6, all leak at 1e-6; with an offset in ulps: all leak "
+              "at 1e-6 and at 1e7 (measured)");
     // Positions are double: what survives of a unit ball at 1e7 in double (2e-9) is more than float keeps of it at 0.
     const std::pair<double, double> table[] = { { 1, 0 },   { 1e-6, 0 },   { 1e6, 0 },   { 1, 1e3 }, { 1, 1e5 },
                                                 { 1, 1e7 }, { 1e-3, 1e3 }, { 1e-30, 0 }, { 1e30, 0 } };
@@ -85,9 +85,9 @@ TEST(Geometry, BallsOfAllSizes)
 
 TEST(Geometry, UnitsDoNotMatter)
 {
-    HardCase row("A bowl under a lid, scaled by 2^-20, 2^20, 2^-100, then by what floats round",
+    HardCase row("A bowl under a lid, scaled by 2^-20, 2^20, 2^-100, then by factors that round",
                  "Arnold: depends on scene scale");
-    row.naive("rays start at a distance in the mesh's units");
+    row.naive("the ray offset is in the mesh's units");
     // A bowl under a lid: every texel is partly blocked. Powers of two round nothing, so that maps are bit-equal.
     Mesh scene = sphere(V3d(0), 1, 16, true);
     scene.triangles.resize(scene.triangles.size() / 2);
@@ -112,13 +112,13 @@ TEST(Geometry, UnitsDoNotMatter)
         EXPECT_LE(worst, 2.0 / 64) << scale << ", " << offset; // two rays of 64
         EXPECT_LT(changed, 0.002 * map.report.covered) << scale << ", " << offset;
     }
-    row.ours("maps are equal bit for bit; where scaling rounds, within two rays of 64");
+    row.ours("maps are bit-equal; where scaling rounds, they agree within two rays of 64");
 }
 
 TEST(Geometry, AMillionthAndAMillionInOneMesh)
 {
     HardCase row("Squares of 1e-6, 1 and 1e6 in one mesh");
-    row.naive("floats hold no more than 1e-7 of its size: small triangles are points");
+    row.naive("floats resolve 1e-7 of its size: small triangles become points");
     // A unit square a millionth of which, and a piece a million times as large, are squares of their own.
     Mesh mesh;
     for (double size : { 1e-6, 1.0, 1e6 }) {
@@ -131,13 +131,13 @@ TEST(Geometry, AMillionthAndAMillionInOneMesh)
     map.each([](const Texel& t, int, int) { EXPECT_TRUE(is_finite(t) && t.visibility >= 0 && t.visibility <= 1); });
     map.each_covered([](const Texel& t, int, int y) { EXPECT_TRUE(y >= 13 || sees_all(t)) << y; }); // what is on top
     EXPECT_EQ(map.report.tiny, 4);
-    row.ours("finite; what is on top sees all; triangles below 4e-6 of the mesh are counted, and warned of");
+    row.ours("finite; the top is fully open; triangles smaller than 4e-6 of the mesh are counted, with a warning");
 }
 
 TEST(Geometry, AnOccluderAtTheEndOfFloat)
 {
-    HardCase row("Walls 1e17 and 1e20 times as large as what they stand on");
-    row.naive("Embree leaves out what reaches beyond 1.8e18, without a word: V = 1");
+    HardCase row("Walls 1e17 and 1e20 times as large as the mesh beside them");
+    row.naive("Embree silently drops geometry beyond 1.8e18: V = 1");
     const Mesh floor = floor_facing_z(1);
     std::string error;
     OIIO::ImageBuf image;
@@ -147,13 +147,13 @@ TEST(Geometry, AnOccluderAtTheEndOfFloat)
     EXPECT_FALSE(make_vismap(image, floor, { placed(wall, 1e3) }, map_params(8, 8, 64)));
     EXPECT_EQ(image.geterror(),
               "\"quad\": vertex 0 is 1e+20 times as far away as the baked mesh is large; at most 1e+18 can be traced");
-    row.ours("V = 1/2 beside the first; the second is refused with its vertex");
+    row.ours("V = 1/2 beside the first; the second is refused, naming the vertex");
 }
 
 TEST(Geometry, FloatsFarFromTheOrigin)
 {
-    HardCase row("A ball at 1e5 in a file of floats, which is all that some formats have");
-    row.naive("steps of 1/128 of its size, in silence");
+    HardCase row("A sphere at 1e5 in a file of floats, the only numbers that some formats have");
+    row.naive("steps of 1/128 of its size, without a warning");
     const Mesh ball = through_float(placed(sphere(V3d(0), 1, 16), 1, V3d(1e5, 0, 0)));
     EXPECT_NEAR(BakedMap(ball, {}, map_params(32, 32, 1)).report.rounding, 3e-3, 1e-4);
     EXPECT_LT(BakedMap(through_float(sphere(V3d(0), 1, 16)), {}, map_params(32, 32, 1)).report.rounding, 6e-8);
@@ -175,5 +175,5 @@ TEST(Geometry, FloatsFarFromTheOrigin)
     EXPECT_EQ(lines.back(),
               "the mesh lies so far from the origin that floats, which its coordinates are, round them to "
               "0.003 of its size");
-    row.ours("baked, with a warning that tells the size of the steps");
+    row.ours("baked, with a warning that gives the size of the steps");
 }

@@ -11,9 +11,9 @@ using namespace vmlight::scenes;
 
 TEST(Geometry, SliversBesideAWall)
 {
-    HardCase row("A square as a fan of slivers, the thinnest 1e-7 wide, at the foot of a wall",
+    HardCase row("A square made of a fan of slivers, the thinnest 1e-7 wide, at the foot of a wall",
                  "embree#387: false hits at grazing slivers");
-    row.naive("the normal of a sliver is mostly rounding");
+    row.naive("the normal of a sliver is mostly rounding error");
     // A unit square as a fan of slivers, the thinnest 1e-7 wide, beside a wall whose foot they touch.
     Mesh scene;
     scene.name = "slivers";
@@ -37,7 +37,7 @@ TEST(Geometry, SliversBesideAWall)
 
 TEST(Geometry, TrianglesWithoutArea)
 {
-    HardCase row("A needle and a point among triangles", "Gaffer PR#2998: a crash");
+    HardCase row("A needle and a point among the triangles", "Gaffer PR#2998: a crash");
     EXPECT_TRUE(std::isnan((V3f(0) / V3f(0).length()).x));
     row.naive("their normal is 0 / 0: NaN");
     Mesh scene = floor_facing_z(1);
@@ -61,13 +61,13 @@ TEST(Geometry, TrianglesWithoutArea)
         else
             EXPECT_TRUE(t.is_zero());
     });
-    row.ours("counted, neither baked nor cast");
+    row.ours("counted; neither baked nor traced");
 }
 
 TEST(Geometry, Noise)
 {
-    HardCase row("Triangles, normals and texture coordinates at random, in space and in a plane");
-    row.naive("NaN wherever something is divided by 0");
+    HardCase row("Random triangles, normals and texture coordinates, in space and in a plane");
+    row.naive("NaN from every division by 0");
     std::mt19937 random(7);
     std::uniform_real_distribution<double> in(-1, 1);
     for (int run = 0; run < 8; ++run) {
@@ -99,8 +99,8 @@ TEST(Geometry, Noise)
 
 TEST(Geometry, DuplicateFaces)
 {
-    HardCase row("A ball each of whose triangles is there three times", "VertexOven#9");
-    row.naive("hides itself from itself");
+    HardCase row("A sphere with every triangle three times", "VertexOven#9");
+    row.naive("it occludes itself");
     Mesh mesh = sphere(V3d(0), 1, 12);
     const Mesh once = mesh;
     append(mesh, once);
@@ -109,13 +109,13 @@ TEST(Geometry, DuplicateFaces)
     EXPECT_EQ(count_covered_unless(map, sees_all), 0);
     EXPECT_EQ(map.report.overlapping, map.report.covered);
     EXPECT_TRUE(map == BakedMap(once, {}, map_params(64, 64, 64)));
-    row.ours("the map of one ball; the overlap is counted");
+    row.ours("the map of a single sphere; the overlap is counted");
 }
 
 TEST(Geometry, NoneAndOne)
 {
-    HardCase row("A mesh of no triangle, and of one");
-    row.naive("bounds of nothing: infinite; an empty buffer crashes the ray tracer");
+    HardCase row("A mesh of no triangle, and of one triangle");
+    row.naive("empty bounds are infinite; an empty buffer crashes the ray tracer");
     std::string error;
     OIIO::ImageBuf image;
     Mesh none = floor_facing_z(1);
@@ -132,7 +132,7 @@ TEST(Geometry, NoneAndOne)
 
 TEST(Geometry, MeshesThatAreNone)
 {
-    HardCase row("Meshes in memory with NaN, infinity, vertices that are not there", "xatlas#54: freezes, NaN");
+    HardCase row("Meshes in memory with NaN, infinity or vertex indices out of range", "xatlas#54: freezes, NaN");
     row.naive("reads past the end, or traces NaN");
     const auto refusal = [](const auto& spoil) {
         Mesh mesh = floor_facing_z(1);
@@ -149,13 +149,13 @@ TEST(Geometry, MeshesThatAreNone)
     EXPECT_EQ(refusal([](Mesh& m) { m.positions[0].x = NAN; }), "\"floor\": vertex 0 is not finite: (nan, -1, 0)");
     EXPECT_EQ(refusal([](Mesh& m) { m.normals.pop_back(); }), "\"floor\": 3 normals for 4 vertices");
     EXPECT_EQ(refusal([](Mesh& m) { m.uvs.pop_back(); }), "\"floor\": 3 texture coordinates for 4 vertices");
-    row.ours("refused, the first fault named; occluders too");
+    row.ours("refused, naming the first; occluders too");
 }
 
 TEST(Geometry, TenMillionTriangles)
 {
-    HardCase row("A ball of ten million triangles (a million under sanitizers)");
-    row.naive("an index in a float channel is off by one from the 16777217th corner on");
+    HardCase row("A sphere of ten million triangles (a million under sanitizers)");
+    row.naive("an index stored in a float is off by one from the 16777217th corner on");
     EXPECT_EQ(float((1 << 24) + 1), float(1 << 24));
     const Mesh mesh = sphere(V3d(0), 1, VMLIGHT_HARD_RINGS);
     const BakedMap map(mesh, {}, map_params(256, 256, 4));

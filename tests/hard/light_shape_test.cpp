@@ -49,7 +49,7 @@ constexpr bool kMemoryIsOurs = true;
 
 TEST(Light, ConstantLightOfEverySize)
 {
-    HardCase row("Constant light in every size from 1x1 to 12x12, and 2x1, 1xN, odd, portrait ones");
+    HardCase row("Constant light in every size from 1x1 to 12x12, and in 2x1, 1xN, odd and portrait sizes");
     double naive = 0, ours = 0;
     for (int h = 1; h <= 12; ++h)
         for (int w = 1; w <= 12; ++w) {
@@ -67,14 +67,14 @@ TEST(Light, ConstantLightOfEverySize)
         ours = std::max(ours,
                         largest_error(filtered(Map(w, h, 0.3f), 5, 4), [](const V3d&) { return V3d(0.3f); }) / 0x1p-25);
     EXPECT_GT(naive, 0.75);
-    row.naive("texels as points: off by 75 % and more; prefix sums of whole rows by .96 at 1x1 (measured)");
+    row.naive("texels as points: an error of 75 % and more; prefix sums of whole rows: .96 at 1x1 (measured)");
     EXPECT_LE(ours, 1);
     row.ours("the constant, to 1 ulp of float");
 }
 
 TEST(Light, MapsStoredFlippedOrTurned)
 {
-    HardCase row("A Radiance picture that begins with its lowest row, or its right-most column");
+    HardCase row("A Radiance image stored bottom row first, or rightmost column first");
     const vmlight::TemporaryFolder folder;
     const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n", dark(8 * 4, '\0');
     std::string bright;
@@ -107,12 +107,12 @@ TEST(Light, MapsStoredFlippedOrTurned)
     albedo.specmod().attribute("Orientation", 6);
     EXPECT_FALSE(make_lightmap(lit, scene::random_vismap(8, 8), scene::random_cfem(8, 4), {}, &albedo));
     EXPECT_NE(lit.geterror().find("oiiotool --reorient"), std::string::npos);
-    row.ours("refused, naming what sets it upright; an albedo too");
+    row.ours("refused, naming the command that reorients it; an albedo too");
 }
 
 TEST(Light, AFewPixelsInALargeWindow)
 {
-    HardCase row("64x32 pixels in a display window of 65536x32768");
+    HardCase row("A crop of 64x32 pixels in a display window of 65536x32768");
     row.naive("two billion black pixels are filtered: 2 minutes (measured)");
     OIIO::ImageSpec spec(64, 32, 3, OIIO::TypeFloat);
     spec.full_width = 65536;
@@ -125,13 +125,13 @@ TEST(Light, AFewPixelsInALargeWindow)
     OIIO::ImageBufAlgo::fill(cropped, { 1.0f, 1.0f, 1.0f });
     OIIO::ImageBuf cfem;
     EXPECT_TRUE(make_cfem(cfem, cropped, exact(8, 4))) << cfem.geterror();
-    row.ours("refused at once beyond 2^27 pixels; a crop of any sensible window is black outside its pixels");
+    row.ours("refused at once beyond 2^27 pixels; a crop of any reasonable window is black outside its pixels");
 }
 
 TEST(Light, MapsThatAreNotTwiceAsWideAsHigh)
 {
     HardCase row("A cube map, or a square light probe, given as an environment");
-    row.naive("light from everywhere, without a word");
+    row.naive("wrong light, without a warning");
     OIIO::ImageBuf cube = image(random_map(24, 16, 3));
     cube.specmod().attribute("textureformat", "CubeFace Environment");
     EXPECT_EQ(refusal(cube), "environment is a cube map, not a lat-long map");
@@ -150,7 +150,7 @@ TEST(Light, MapsThatAreNotTwiceAsWideAsHigh)
         ASSERT_TRUE(make_image(cfem, recipe, options)) << cfem.geterror();
         EXPECT_EQ(warnings.find("not twice as wide as high") != std::string::npos, warned) << w << "x" << h;
     }
-    row.ours("refused where the file says that it is a cube; warned about by its shape");
+    row.ours("refused if the file is tagged as a cube map; otherwise a warning about its shape");
 }
 
 TEST(Light, LargeMapsAreReadInStrips)
@@ -179,7 +179,7 @@ TEST(Light, LargeMapsAreReadInStrips)
     Map map(16, 8);
     ASSERT_TRUE(cfem.get_pixels(cfem.roi(), OIIO::TypeFloat, map.rgb.data()));
     EXPECT_EQ(map.rgb, Map(16, 8, 0.25f).rgb);
-    row.naive("1.5 GiB of floats before the first is looked at");
+    row.naive("1.5 GiB of floats in memory before filtering starts");
     if (kMemoryIsOurs) {
         EXPECT_LT(taken, 450 * 1024);
     }

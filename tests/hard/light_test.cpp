@@ -64,8 +64,8 @@ OIIO::ImageBuf half_of(const OIIO::ImageBuf& image)
 
 TEST(Light, AnInfiniteTexel)
 {
-    HardCase row("One texel of an environment is infinite",
-                 "OIIO PR#2301, PR#2892: such pixels mis-flagged, or clamped");
+    HardCase row("An environment with one infinite texel",
+                 "OIIO PR#2301, PR#2892: such pixels misreported, or clamped");
     Map map(64, 32, 1);
     map.at(20, 9)[0] = INFINITY;
     row.naive(
@@ -76,12 +76,12 @@ TEST(Light, AnInfiniteTexel)
     CfemParams mend = exact(32, 16);
     mend.sanitize = true;
     EXPECT_LE(worst_ulps(filtered(image(map), mend), 1), 1);
-    row.ours("refused with count and place; `--sanitize` mends it from its neighbours");
+    row.ours("refused, with the count and the first pixel; `--sanitize` repairs it from its neighbours");
 }
 
 TEST(Light, TexelsThatAreNoNumbers)
 {
-    HardCase row("A row of an environment is NaN");
+    HardCase row("An environment with one row of NaN");
     Map map(64, 32, 1);
     std::fill_n(map.at(0, 31), 3 * 64, NAN);
     EXPECT_EQ(naive_texels_not_finite<double>(map), 512);
@@ -91,22 +91,22 @@ TEST(Light, TexelsThatAreNoNumbers)
     CfemParams mend = exact(32, 16);
     mend.sanitize = true;
     EXPECT_LE(worst_ulps(filtered(image(map), mend), 1), 1);
-    row.ours("refused with count and place; mended when asked");
+    row.ours("refused, with the count and the first pixel; `--sanitize` repairs it");
 }
 
 TEST(Light, NegativeTexels)
 {
-    HardCase row("A resampled environment rings below 0 beside its sun",
+    HardCase row("A resampled environment with negative ringing around its sun",
                  "SH light goes negative: filament#744, godot PR#58164");
     Map map(64, 32, 0);
     std::fill_n(map.at(12, 10), 3, -5.0f);
     EXPECT_LT(naive_light<double>(map, center(12, 10, 64, 32)), 0);
-    row.naive("surfaces of negative light");
+    row.naive("negative light on surfaces");
     EXPECT_NE(refusal(image(map)).find("3 values that are negative, the first at pixel (12, 10)"), std::string::npos);
     CfemParams mend = exact(32, 16);
     mend.sanitize = true;
     EXPECT_EQ(filtered(image(map), mend).rgb, Map(32, 16).rgb);
-    row.ours("refused with count and place; taken as 0 when asked");
+    row.ours("refused, with the count and the first pixel; `--sanitize` sets it to 0");
 }
 
 TEST(Light, AsFaintAsFloatsGet)
@@ -114,7 +114,7 @@ TEST(Light, AsFaintAsFloatsGet)
     HardCase row("Light of 1e-42, a denormal");
     const Map map(512, 256, 1e-42f);
     EXPECT_EQ(naive_light<float>(map, V3d(0, 0, 1)), 0);
-    row.naive("black: each float product is rounded to 0");
+    row.naive("black: every float product underflows to 0");
     EXPECT_LE(worst_ulps(filtered(map, 32, 16), 1e-42f), 1);
     row.ours("1e-42, to 1 ulp");
 }
@@ -130,7 +130,7 @@ TEST(Light, AsBrightAsFloatsGet)
             irradiance
                 += map.at(x, y)[0] * float(brute::solid_angle(y, 64, 32) * std::max(0.0, center(x, y, 64, 32).z));
     EXPECT_TRUE(std::isinf(irradiance));
-    row.naive("irradiance in float is infinite, and so is what is left of it by pi");
+    row.naive("irradiance overflows float, and so does irradiance / pi");
     EXPECT_EQ(texels_not_finite(filtered(map, 32, 16)), 0);
     for (const float value : { 1e30f, FLT_MAX })
         EXPECT_LE(worst_ulps(filtered(Map(64, 32, value), 32, 16), value), 1);
@@ -144,7 +144,7 @@ TEST(Light, AsBrightAsFloatsGet)
 
 TEST(Light, ASunInHalfFloats)
 {
-    HardCase row("A sun of 1e6 goes into half floats, whose largest is 65504",
+    HardCase row("A sun of 1e6 written as half, whose maximum is 65504",
                  "half clamped or infinite: OIIO PR#2892, #4171; cmft#6");
     Map map(64, 32, 1);
     std::fill_n(map.at(20, 9), 3, 1e6f);
@@ -152,7 +152,7 @@ TEST(Light, ASunInHalfFloats)
     Map clamped = map;
     std::fill_n(clamped.at(20, 9), 3, 65504.0f);
     const double kept = brute::mean(clamped)[0] / brute::mean(map)[0];
-    row.naive(format("infinite; or clamped, and {:.0f} % of all light is lost", 100 * (1 - kept)));
+    row.naive(format("infinite; or clamped, losing {:.0f} % of all light", 100 * (1 - kept)));
     EXPECT_LT(kept, 0.2);
 
     const vmlight::TemporaryFolder folder;
@@ -164,12 +164,12 @@ TEST(Light, ASunInHalfFloats)
     ASSERT_TRUE(write_image(image(Map(64, 32, 65504)), folder / "brightest.exr", "half", {}, error)) << error;
     // Where half has clipped already, infinity is told, not filtered.
     EXPECT_NE(refusal(half_of(image(map))).find("3 values that are NaN or infinite"), std::string::npos);
-    row.ours("refused with the value and what to do; environments and CFEM are float unless asked");
+    row.ours("refused, with the value and what to do; environments and CFEMs are float by default");
 }
 
 TEST(Light, ASunOfOneTexelAnywhere)
 {
-    HardCase row("A one-texel sun, 1e6 times the rest: at a pole, on the seam, cut by the horizon of what it lights");
+    HardCase row("A sun of one texel, 1e6 times as bright as the rest: at a pole, on the seam, cut by the horizon");
     double naive = 0, ours = 0;
     const int places[][2] = { { 0, 0 }, { 40, 0 }, { 0, 15 }, { 63, 20 }, { 17, 16 }, { 5, 31 } };
     for (const auto& place : places)
@@ -179,14 +179,14 @@ TEST(Light, ASunOfOneTexelAnywhere)
             ours = std::max(ours, std::abs(light.filtered - light.truth) / light.mean);
         });
     EXPECT_GT(naive, 1e-2);
-    row.naive("texels as points: off by more than 1 % of the mean light at the horizon");
+    row.naive("texels as points: an error of more than 1 % of the mean light at the horizon");
     EXPECT_LT(ours, 6e-5);
     row.ours("within 6e-5 of the mean light");
 }
 
 TEST(Light, FaintLightBesideASun)
 {
-    HardCase row("A surface that faces away from a sun of 1e8 sees a sky of 1e-3");
+    HardCase row("A surface facing away from a sun of 1e8, lit by a sky of 1e-3");
     Map map(256, 128, 1e-3f);
     std::fill_n(map.at(37, 50), 3, 1e8f);
     const V3d away = -center(37, 50, 256, 128);
@@ -205,13 +205,13 @@ TEST(Light, FaintLightBesideASun)
             if (away.dot(center(x, y, 32, 16)) > 0.05)
                 worst = std::max(worst, std::abs(cfem.at(x, y)[0] / 1e-3 - 1));
     EXPECT_LT(worst, 1e-5);
-    row.ours("1e-3, to 1e-5 of it");
+    row.ours("1e-3, within a relative error of 1e-5");
 }
 
 TEST(Light, WhatIsNoLight)
 {
-    HardCase row("An environment that is a depth or an alpha channel alone; a CFEM that was cropped");
-    row.naive("one channel is taken for grey light; the crop is drawn over the whole sphere");
+    HardCase row("An environment with only a depth or an alpha channel; a cropped CFEM");
+    row.naive("the channel is taken for grey light; the crop is stretched over the whole sphere");
     std::string error;
     for (const char* channel : { "Z", "A" }) {
         OIIO::ImageSpec spec(16, 8, 1, OIIO::TypeFloat);
@@ -229,8 +229,8 @@ TEST(Light, WhatIsNoLight)
 
 TEST(Light, Blackness)
 {
-    HardCase row("An environment without light");
-    row.naive("0/0 = NaN wherever something is divided by the light there is");
+    HardCase row("A black environment");
+    row.naive("0/0 = NaN from every division by the mean light");
     std::vector<OIIO::ImageBuf> stack;
     std::string error;
     ASSERT_TRUE(make_cfem_stack(stack, image(Map(64, 32)), exact(32, 16), error)) << error;
@@ -248,5 +248,5 @@ TEST(Light, Blackness)
         for (OIIO::ImageBuf::ConstIterator<float> p(dst); !p.done(); ++p)
             EXPECT_TRUE(p[0] == 0 && p[1] == 0 && p[2] == 0);
     }
-    row.ours("0 at every texel of all ten images of a stack and of what they light");
+    row.ours("0 at every texel of all ten images of a stack and of the lightmap");
 }

@@ -44,7 +44,7 @@ std::vector<double> numbers_of(const Rotation& r)
 
 TEST(Arithmetic, TenThousandTurnsAreOne)
 {
-    HardCase row("Ten thousand turns of 0.036 degrees are composed, as a turntable's are");
+    HardCase row("Ten thousand rotations of 0.036 degrees composed, as a turntable might");
     const Rotation step = rotation_from_angles(0, 0.036, 0);
     Imath::M33f in_float;
     Rotation in_double, mended;
@@ -53,14 +53,14 @@ TEST(Arithmetic, TenThousandTurnsAreOne)
         in_double = step * in_double;
     }
     EXPECT_GT(distance_from_orthonormal(Rotation(in_float)), 2e-4);
-    row.naive("in float, stretches directions by more than 1e-4");
+    row.naive("in float, directions stretch by more than 1e-4");
     std::string error;
     EXPECT_FALSE(rotation_from_matrix(mended, numbers_of(Rotation(in_float)), error));
     EXPECT_NE(error.find("not a rotation: R R^T differs from the identity by"), std::string::npos) << error;
     ASSERT_TRUE(rotation_from_matrix(mended, numbers_of(in_double), error)) << error;
     EXPECT_LT(distance_from_orthonormal(mended), 1e-15);
     EXPECT_LT(distance(mended, Rotation()), 1e-9);
-    row.ours("such a matrix is refused with its error; one from double is made orthonormal to 1e-15");
+    row.ours("such a matrix is refused, with its error; a matrix composed in double is orthonormalised to 1e-15");
 }
 
 TEST(Arithmetic, RotationsNearTheIdentity)
@@ -71,7 +71,7 @@ TEST(Arithmetic, RotationsNearTheIdentity)
     const Imath::M33f rounded(truth);
     const double angle = std::acos((rounded[0][0] + rounded[1][1] + rounded[2][2] - 1) / 2);
     EXPECT_EQ(angle, 0);
-    row.naive("its angle by acos of the trace, in float: 0, or NaN");
+    row.naive("its angle as acos of the trace, in float: 0 or NaN");
     Rotation matrix, quaternion;
     std::string error;
     const double half = degrees / 2 * latlong::pi / 180;
@@ -79,17 +79,17 @@ TEST(Arithmetic, RotationsNearTheIdentity)
     ASSERT_TRUE(rotation_from_quaternion(quaternion, { std::cos(half), 0, std::sin(half), 0 }, error)) << error;
     EXPECT_NEAR(matrix[0][2], truth[0][2], 1e-7 * truth[0][2]);
     EXPECT_LT(distance(quaternion, truth), 1e-16);
-    row.ours("kept to float's rounding of the nine numbers; no angle is ever taken of them");
+    row.ours("kept to float rounding of the nine numbers; no angle is ever computed");
 }
 
 TEST(Arithmetic, HalfATurn)
 {
-    HardCase row("Half a turn, about each axis and about (1, 2, 2)/3");
+    HardCase row("A rotation by 180 degrees, about each axis and about (1, 2, 2)/3");
     EXPECT_NE(std::sin(latlong::pi), 0);
     const Rotation about(1 - 16.0 / 9, 4.0 / 9, 4.0 / 9, 4.0 / 9, 8.0 / 9 - 1, 8.0 / 9, 4.0 / 9, 8.0 / 9, 8.0 / 9 - 1);
     const double trace = about[0][0] + about[1][1] + about[2][2];
     EXPECT_LT(std::abs(1 + trace), 1e-15);
-    row.naive("sin 180 is 1.2e-16; a quaternion of the matrix divides by sqrt(1 + trace) = 0");
+    row.naive("sin 180 is 1.2e-16; converting the matrix to a quaternion divides by sqrt(1 + trace) = 0");
     EXPECT_EQ(distance(rotation_from_angles(180, 0, 0), Rotation(1, 0, 0, 0, -1, 0, 0, 0, -1)), 0);
     EXPECT_EQ(distance(rotation_from_angles(0, -180, 0), Rotation(-1, 0, 0, 0, 1, 0, 0, 0, -1)), 0);
     EXPECT_EQ(distance(rotation_from_angles(0, 0, 540), Rotation(-1, 0, 0, 0, -1, 0, 0, 0, 1)), 0);
@@ -99,7 +99,7 @@ TEST(Arithmetic, HalfATurn)
     ASSERT_TRUE(rotation_from_quaternion(quaternion, { 0, 1, 2, 2 }, error)) << error;
     EXPECT_LT(distance(matrix, about), 1e-15);
     EXPECT_LT(distance(quaternion, about), 1e-15);
-    row.ours("exact about the axes, 1e-15 elsewhere");
+    row.ours("exact about the axes, within 1e-15 elsewhere");
 }
 
 TEST(Arithmetic, MatricesThatAreNoRotations)
@@ -109,7 +109,7 @@ TEST(Arithmetic, MatricesThatAreNoRotations)
     const std::vector<double> table[]
         = { { 1, 0, 0, 0, 1, 0, 0, 0, -1 }, { 2, 0, 0, 0, 2, 0, 0, 0, 2 },   { 1, 0.1, 0, 0, 1, 0, 0, 0, 1 },
             { 0, 0, 0, 0, 0, 0, 0, 0, 0 },  { 1, 0, 0, 0, NAN, 0, 0, 0, 1 }, { 1, 0, 0, 0, INFINITY, 0, 0, 0, 1 } };
-    row.naive("a mirrored world, light of the wrong length, or NaN, without a word");
+    row.naive("a mirrored world, wrong brightness or NaN, without a warning");
     for (const auto& numbers : table) {
         LightmapParams params;
         params.matrix = numbers;
@@ -121,5 +121,5 @@ TEST(Arithmetic, MatricesThatAreNoRotations)
     std::string error;
     for (const auto& wxyz : { std::vector<double> { 0, 0, 0, 0 }, { NAN, 0, 0, 1 }, { 1, 2, 3 } })
         EXPECT_FALSE(rotation_from_quaternion(unused, wxyz, error));
-    row.ours("refused, saying how far from a rotation it is");
+    row.ours("refused, with its distance from a rotation");
 }

@@ -85,7 +85,7 @@ const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\
 
 TEST(Uv, SharedEdgesOfAllPairs)
 {
-    HardCase row("Every pair of triangles that share a side, corners on a lattice of half texels",
+    HardCase row("Every pair of triangles sharing an edge, with corners on a half-texel lattice",
                  "Cycles, MoonRay, Godot: texels nudged or missed");
     const auto corner = [](int i) { return Point { (i & 3) / 2.0, (i >> 2 & 3) / 2.0 }; };
     int64_t pairs = 0, naive_twice = 0;
@@ -111,8 +111,8 @@ TEST(Uv, SharedEdgesOfAllPairs)
         ++pairs;
     }
     EXPECT_GT(naive_twice, 1000);
-    row.naive("with >= 0 the texels of a shared side come twice; with > 0 never");
-    row.ours(OIIO::Strutil::fmt::format("each once, in all {} pairs", pairs));
+    row.naive("with >= 0 the texels on the shared edge are covered twice; with > 0 never");
+    row.ours(OIIO::Strutil::fmt::format("each once, for all {} pairs", pairs));
 }
 
 TEST(Uv, TexturesOfAllShapes)
@@ -137,39 +137,38 @@ TEST(Uv, TexturesOfAllShapes)
 
 TEST(Uv, Overlap)
 {
-    HardCase row("Two islands in one place", "Cycles, MoonRay, Arnold: the last writer wins");
-    row.naive("whichever comes last, or whichever thread does");
+    HardCase row("Two overlapping islands", "Cycles, MoonRay, Arnold: the last writer wins");
+    row.naive("the last one wins, or the last thread");
     Mesh mesh = floor_facing_z(1, V3d(0, 0, 5));
     append(mesh, floor_facing_z(1));
     const BakedMap map(mesh, {}, map_params(32, 32, 16));
     EXPECT_EQ(map.report.overlapping, 1024);
     EXPECT_EQ(count_covered_unless(map, sees_all), 0); // the floor's, which comes first
     EXPECT_TRUE(map == BakedMap(mesh, {}, map_params(32, 32, 16), 3));
-    row.ours("the first triangle of the file, for any number of threads; counted, and warned of");
+    row.ours("the first triangle of the file wins, for any number of threads; counted, with a warning");
 }
 
 TEST(Uv, MirroredIslands)
 {
-    HardCase row("An island that is mirrored in the texture", "Cycles, MoonRay, Arnold: say nothing");
+    HardCase row("A mirrored island", "Cycles, MoonRay, Arnold: say nothing");
     Mesh mesh = floor_facing_z(1);
     for (V2f& uv : mesh.uvs)
         uv.x = 1 - uv.x;
     const V2f e1 = mesh.uvs[1] - mesh.uvs[0], e2 = mesh.uvs[2] - mesh.uvs[0];
     EXPECT_LT(e1.x * e2.y - e1.y * e2.x, 0);
-    row.naive("a normal from the texture's winding points inwards: V = 0");
+    row.naive("a normal from the UV winding points inwards: V = 0");
     const BakedMap map(mesh, {}, map_params(16, 16, 64));
     EXPECT_EQ(map.report.uv.mirrored, 2);
     map.each([](const Texel& t, int, int) {
         EXPECT_EQ(t.visibility, 1);
         EXPECT_NEAR(t.direction.z, 2.0 / 3, 1e-6);
     });
-    row.ours("seen from the same side, every texel once; counted");
+    row.ours("the same as not mirrored, every texel once; counted");
 }
 
 TEST(Uv, OutOfTheTexture)
 {
-    HardCase row("Triangles that reach out of [0,1], lie elsewhere, at 1e8 or 1e30, or are no numbers",
-                 "xatlas#54: freezes, NaN");
+    HardCase row("UVs partly or fully outside [0,1], at 1e8 or 1e30, or NaN", "xatlas#54: freezes, NaN");
     const double far = 1e8, farther = 1e30;
     const std::vector<std::array<Point, 3>> triangles {
         { { { 0, 0 }, { 0, 8 }, { 8, 8 } } }, // inside
@@ -182,7 +181,7 @@ TEST(Uv, OutOfTheTexture)
         { { { 4, 4 }, { 4, INFINITY }, { 8, 8 } } },
     };
     // 1e30 to a whole number of 64 bits is anything.
-    row.naive("1e30 becomes any whole number: texels out of the map, or a loop of years");
+    row.naive("1e30 converts to an arbitrary integer: writes outside the map, or an endless loop");
     const BakedMap map(flat(triangles, 16, 16), {}, map_params(16, 16, 16));
     const UvReport& uv = map.report.uv;
     EXPECT_EQ(uv.outside, 5);
@@ -190,26 +189,26 @@ TEST(Uv, OutOfTheTexture)
     EXPECT_EQ(uv.without_uv, 2);
     EXPECT_EQ(uv.lost_islands, 2); // those that reach across, but too far to be drawn
     map.each([](const Texel& t, int, int) { EXPECT_TRUE(is_finite(t)); });
-    row.ours("what lies in the texture is baked; each kind is counted, and warned of");
+    row.ours("the part inside the texture is baked; each kind is counted, with a warning");
 }
 
 TEST(Uv, NotANumberInAFile)
 {
-    HardCase row("Texture coordinates of an OBJ that are not numbers");
+    HardCase row("UVs in an OBJ that are not numbers");
     const TemporaryFolder folder;
     const std::string path
         = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt nan 1\nvt 0 -inf\nf 1/1 2/2 3/3\n");
-    row.naive("assimp takes them for 0: another texture");
+    row.naive("assimp reads them as 0: wrong UVs");
     Mesh mesh;
     std::string error;
     EXPECT_FALSE(read_mesh(mesh, path, {}, error));
     EXPECT_EQ(error, "\"" + path + "\": line 5 has texture coordinates that are not finite: \"vt nan 1\"");
-    row.ours("refused, with the line");
+    row.ours("refused, with the line number");
 }
 
 TEST(Uv, NoArea)
 {
-    HardCase row("All corners in one point of the texture, or on a line", "Gaffer PR#2998: a crash");
+    HardCase row("Triangles whose UVs are all in one point, or on a line", "Gaffer PR#2998: a crash");
     row.naive("weights are 0 / 0: NaN");
     const std::vector<std::string> one
         = warnings_of(kSquare + "v 5 5 5\nv 6 5 5\nv 5 6 5\nvt 0.5 0.5\nf 5/5 6/5 7/5\n", 16);
@@ -220,13 +219,13 @@ TEST(Uv, NoArea)
     const BakedMap map(flat({ { { { 2, 2 }, { 5, 5 }, { 8, 8 } } } }, 16, 16), {}, map_params(16, 16, 4));
     EXPECT_EQ(map.report.uv.degenerate_uv, 1);
     EXPECT_EQ(map.report.covered, 0);
-    row.ours("cast, and are not baked; counted, and warned of");
+    row.ours("they cast and are not baked; counted, with a warning");
 }
 
 TEST(Uv, IslandsThinnerThanATexel)
 {
-    HardCase row("Islands that run between the centres of texels", "xatlas#50: tiny is taken for zero area");
-    row.naive("the map has no trace of them, and nobody is told");
+    HardCase row("Islands that pass between texel centres", "xatlas#50: tiny triangles are treated as zero area");
+    row.naive("they vanish from the map without a warning");
     // Ten ribbons, of which those at whole texels miss all centres; one of them is of two triangles.
     std::vector<std::array<Point, 3>> triangles;
     for (int i = 0; i < 10; ++i) {
@@ -241,5 +240,5 @@ TEST(Uv, IslandsThinnerThanATexel)
     // Finer, they are all there.
     EXPECT_EQ(BakedMap(flat(triangles, 16, 16), {}, map_params(160, 160, 1)).report.uv.lost_islands, 0);
     EXPECT_EQ(warnings_of(kSquare, 8), std::vector<std::string>());
-    row.ours("islands are counted, and a warning says how many cover no texel");
+    row.ours("a warning says how many islands cover no texel");
 }
