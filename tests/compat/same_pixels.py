@@ -8,6 +8,9 @@ Both builds run the same command lines, each in a folder of its own. Then all im
 data formats, channels, tiles, and all metadata except versions. Command lines that one build refuses, the other must refuse
 as well, with the same exit code. Prints a table and exits with 1 on any difference.
 
+Build both with the same options, -O2 or -O3: GCC 12's vectoriser changes the last bit of some normals
+(trace/surface.cpp), so that a build with -O1 differs from one with -O2 by an ulp here and there in most vismaps.
+
 Needs oiiotool, maketx, and Debian's python3-openimageio and python3-numpy (run it with /usr/bin/python3).
 """
 import argparse
