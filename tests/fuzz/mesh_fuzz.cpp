@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as what the mesh importer might hand over: refused in one line, or baked to a map that the contract allows,
-// the same one on two threads. The importer itself is not ours; bytes that
-// begin with "ply" or "obj" are files, looked at as before they are given to it.
+// Any bytes as what assimp might import: refused in one line, or baked to a map that the contract allows, the same on
+// one thread and on two. Assimp itself is not fuzzed; bytes that begin with "ply" or "obj" are files to inspect, as
+// before assimp is given them.
 //   mesh_fuzz -max_total_time=60 NEW_CORPUS tests/fuzz/mesh_corpus
+#include "imported_of_bytes.h"
 #include "law.h"
-#include "scene_of_bytes.h"
 
-#include <vmlight/mesh/import/mesh_of_scene.h>
-#include <vmlight/mesh/import/ply.h>
+#include <vmlight/mesh/import/assimp_importer.h>
+#include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/vismap/vismap.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
-
-#include <unistd.h>
 
 using namespace vmlight;
 using namespace vmlight::fuzz;
@@ -27,20 +24,20 @@ std::string said(const Imath::V3d& v)
 }
 
 // Vertices that no float holds.
-ExactPositions exact_of(const aiScene& scene)
+ExactPositions exact_of(const aiScene& imported)
 {
     ExactPositions exact;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    for (unsigned m = 0; m < imported.mNumMeshes; ++m) {
         exact.emplace_back();
-        for (unsigned i = 0; i < scene.mMeshes[m]->mNumVertices; ++i) {
-            const aiVector3D& v = scene.mMeshes[m]->mVertices[i];
+        for (unsigned i = 0; i < imported.mMeshes[m]->mNumVertices; ++i) {
+            const aiVector3D& v = imported.mMeshes[m]->mVertices[i];
             exact.back().emplace_back(1e9 + double(v.x), 1e-300 * double(v.y), 1e250 * double(v.z));
         }
     }
     return exact;
 }
 
-bool read_scene(Mesh& mesh, Bytes& bytes)
+bool read_imported(Mesh& mesh, Bytes& bytes)
 {
     MeshParams params;
     params.normals = bytes.choice(std::array<const char*, 3> { "file", "smooth", "flat" });
@@ -49,9 +46,11 @@ bool read_scene(Mesh& mesh, Bytes& bytes)
     params.up = bytes.choice(std::array<const char*, 3> { "file", "y", "z" });
     mesh.name = "fuzz";
     const bool has_exact = bytes.flag();
-    const std::unique_ptr<aiScene> scene = scene_of(bytes);
+    const std::unique_ptr<aiScene> imported = imported_of(bytes);
+    MeshBuilder builder(mesh, params);
+    append_imported(builder, *imported, has_exact ? exact_of(*imported) : ExactPositions());
     std::string error;
-    if (!mesh_of_scene(mesh, *scene, has_exact ? exact_of(*scene) : ExactPositions(), params, error)) {
+    if (!builder.finish(error)) {
         require_reason(error);
         return false;
     }
@@ -107,15 +106,15 @@ void require_contract(const OIIO::ImageBuf& map, const VismapParams& params)
             "a map has the size that was asked for", format("{}x{}", map.spec().width, map.spec().height));
 }
 
-void try_scene(Bytes& bytes)
+void try_bake(Bytes& bytes)
 {
     std::vector<Mesh> meshes(1);
     const VismapParams params = params_of(bytes);
     const bool has_occluder = bytes.flag();
-    if (!read_scene(meshes[0], bytes))
+    if (!read_imported(meshes[0], bytes))
         return;
     std::vector<Mesh> occluders(has_occluder ? 1 : 0);
-    if (has_occluder && !read_scene(occluders[0], bytes))
+    if (has_occluder && !read_imported(occluders[0], bytes))
         return;
     OIIO::ImageBuf map, again;
     VismapReport report;
@@ -130,20 +129,12 @@ void try_scene(Bytes& bytes)
     require(pixels_of(again) == pixels_of(map), "two threads bake what one does", "");
 }
 
-void require_file(const MeshFile& file)
+void require_sound(const Inspection& inspection)
 {
-    if (!file.fault.empty())
-        require_reason(file.fault);
-    for (const Imath::V3d& p : file.positions)
+    if (!inspection.error.empty())
+        require_reason(inspection.error);
+    for (const Imath::V3d& p : inspection.exact_positions)
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "positions are finite", said(p));
-}
-
-void try_obj(const std::string& text)
-{
-    const std::string path = format("/tmp/mesh_fuzz.{}.obj", ::getpid());
-    require(OIIO::Filesystem::write_text_file(path, text), "a file can be written", path);
-    require_file(inspect_mesh_file(path));
-    OIIO::Filesystem::remove(path);
 }
 
 } // namespace
@@ -153,10 +144,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     Bytes bytes(data, size);
     const std::string start = std::string(data, data + std::min<size_t>(size, 3));
     if (start == "ply")
-        require_file(inspect_ply(bytes.rest()));
+        require_sound(inspect_ply(bytes.rest()));
     else if (start == "obj")
-        try_obj(bytes.rest().substr(3));
+        require_sound(inspect_obj(bytes.rest().substr(3)));
     else
-        try_scene(bytes);
+        try_bake(bytes);
     return 0;
 }

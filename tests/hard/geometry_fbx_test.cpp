@@ -80,7 +80,7 @@ TEST(Geometry, FbxModelsInARing)
     HardCase row("An FBX, text or binary, with Models in a ring, whatever the file is called");
     row.naive("assimp 5.2 goes round the ring by recursion: a crash (measured)");
     const TemporaryFolder folder;
-    const std::string says = "its node \"A\" is under itself";
+    const std::string says = "node \"A\" is its own ancestor";
     for (const int version : kForms) {
         const std::string ring = fbx(2, { { 1, 0 }, { 2, 1 }, { 1, 2 } }, version);
         for (const char* name : { "a.fbx", "a.FBX", "a.gltf", "a" })
@@ -110,8 +110,7 @@ TEST(Geometry, FbxModelsUnderTwoOthers)
     const TemporaryFolder folder;
     for (const int version : kForms) {
         EXPECT_EQ(outcome(folder, fbx(5, chain(5, 2), version)), "16 triangles") << version;
-        EXPECT_EQ(outcome(folder, fbx(40, chain(40, 2), version)),
-                  "its nodes, each put where others name it, are more than 50080")
+        EXPECT_EQ(outcome(folder, fbx(40, chain(40, 2), version)), "node instances expand to more than 50080 nodes")
             << version;
     }
     row.ours("16 triangles of 5 Models; of 40 refused, with why");
@@ -123,15 +122,15 @@ TEST(Geometry, FbxThatIsDeep)
     row.naive("assimp 5.2 goes down by recursion, a dozen nodes for a Model that has pivots: a crash (both measured)");
     const TemporaryFolder folder;
     for (const int version : kForms) {
-        EXPECT_EQ(outcome(folder, fbx(50000, chain(50000, 1), version)), "its nodes are more than 5000 deep")
+        EXPECT_EQ(outcome(folder, fbx(50000, chain(50000, 1), version)), "nodes are nested more than 5000 deep")
             << version;
         EXPECT_EQ(outcome(folder, fbx(4000, chain(4000, 1), version)), "1 triangle") << version;
         FbxRecord nested { "Nested", {}, {} };
         for (int depth = 1; depth < 1002; ++depth)
             nested = FbxRecord { "Nested", {}, { nested } };
-        EXPECT_EQ(outcome(folder, fbx_of({ nested }, version)), "its brackets are more than 1000 deep") << version;
+        EXPECT_EQ(outcome(folder, fbx_of({ nested }, version)), "brackets are nested more than 1000 deep") << version;
     }
-    EXPECT_EQ(outcome(folder, OIIO::Strutil::repeat("a:{", 2000000)), "its brackets are more than 1000 deep");
+    EXPECT_EQ(outcome(folder, OIIO::Strutil::repeat("a:{", 2000000)), "brackets are nested more than 1000 deep");
     row.ours("refused beyond 5000 Models or 1000 brackets");
 }
 
@@ -194,7 +193,7 @@ TEST(Geometry, FbxCutOrDamaged)
                                       { 43, ~0ull - 40 },
                                       { 43, 1u << 20 } })
         EXPECT_EQ(outcome(folder, std::string(bytes).replace(at, 8, little_endian(number))),
-                  "its record at byte 27 does not fit into what holds it")
+                  "record at byte 27 extends past the record that contains it")
             << number << " at " << at;
     row.ours("its triangle, or refused");
 }

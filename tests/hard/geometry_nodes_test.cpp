@@ -71,15 +71,15 @@ TEST(Geometry, NodesUnderTwoOthers)
         return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" + nodes
             + "]}";
     };
-    EXPECT_EQ(refusal(folder, "a.gltf", gltf(twice + "{}")), "its node 1 is under two others: 0 and 0");
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(twice + "{}")), "node 1 has two parents: 0 and 0");
     EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[2]},{"children":[2]},{})")),
-              "its node 2 is under two others: 0 and 1");
-    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "its node 0 is under itself");
+              "node 2 has two parents: 0 and 1");
+    EXPECT_EQ(refusal(folder, "a.gltf", gltf(R"({"children":[1]},{"children":[0]})")), "node 0 is its own ancestor");
     EXPECT_EQ(refusal(folder, "a.gltf",
                       gltf(R"({"children":[1)" + numbers(2, 1200) + "]}" + OIIO::Strutil::repeat(",{}", 1200),
                            "0" + OIIO::Strutil::repeat(",0", 1000))),
-              "its nodes, each put where others name it, are more than 1000000");
-    EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "its JSON has brackets more than 1000 deep");
+              "node instances expand to more than 1000000 nodes");
+    EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "JSON is nested more than 1000 deep");
     row.ours("refused, with the node");
 }
 
@@ -133,10 +133,9 @@ TEST(Geometry, ColladaNodesThatNameOthers)
     EXPECT_EQ(mesh.triangles.size(), 16u);
     ASSERT_TRUE(read_mesh(mesh, folder.write("a.dae", collada(2000, named)), {}, error)) << error;
     EXPECT_EQ(mesh.triangles.size(), 1u);
-    EXPECT_EQ(refusal(folder, "a.dae", collada(40, twice)),
-              "its nodes, each put where others name it, are more than 1000000");
+    EXPECT_EQ(refusal(folder, "a.dae", collada(40, twice)), "node instances expand to more than 1000000 nodes");
     for (const char* name : { "a.dae", "a.xml", "noname" }) // assimp looks into the file
-        EXPECT_EQ(refusal(folder, name, collada(3, [](int) { return named(0); })), "its node \"n0\" is under itself");
+        EXPECT_EQ(refusal(folder, name, collada(3, [](int) { return named(0); })), "node \"n0\" is its own ancestor");
     const auto in_scene = [](const char* attributes, const char* inner) {
         return OIIO::Strutil::replace(collada(3, named), "<node><instance_node url=\"#n0\"/>",
                                       OIIO::Strutil::fmt::format("<node {}>{}", attributes, inner));
@@ -145,14 +144,14 @@ TEST(Geometry, ColladaNodesThatNameOthers)
         EXPECT_NE(refusal(folder, "a.dae",
                           in_scene("id=\"a\" name=\"b\"",
                                    OIIO::Strutil::fmt::format("<node><instance_node url=\"{}\"/></node>", url).c_str()))
-                      .find("is under itself"),
+                      .find("is its own ancestor"),
                   std::string::npos)
             << url;
     EXPECT_EQ(refusal(folder, "a.dae", in_scene("id=\"a\" name=\"n0\"", "<instance_node url=\"#n0\"/>")), "")
         << "named as what it shows";
     EXPECT_EQ(refusal(folder, "a.dae", in_scene("", "<node id=\"n0\" name=\"n0\"/><instance_node url=\"#n0\"/>")), "");
     EXPECT_EQ(refusal(folder, "a.dae", "<COLLADA>" + OIIO::Strutil::repeat("<node>", 500000)),
-              "its elements are more than 100000 deep");
+              "XML elements are nested more than 100000 deep");
     row.ours("refused, with why");
 }
 
@@ -161,7 +160,7 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
     HardCase row("An X3D whose group is in itself; a glTF 1.0 whose nodes are in a ring; a zip archive");
     row.naive("assimp 5.2 goes round until its stack is full: a crash, by 209 bytes (measured)");
     const TemporaryFolder folder;
-    const std::string none = "not a mesh that can be read: none of OBJ, PLY, STL, glTF 2.0, Collada, FBX";
+    const std::string none = "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX";
     EXPECT_EQ(
         refusal(
             folder, "a.x3d",
@@ -169,7 +168,7 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
         none);
     const std::string first = R"({"asset":{"version":"1.0"},"scene":"s","scenes":{"s":{"nodes":["a"]}},)"
                               R"("nodes":{"a":{"children":["b"]},"b":{"children":["a"]}}})";
-    EXPECT_EQ(refusal(folder, "a.gltf", first), "not a mesh that can be read: GLTF: Unsupported glTF version: 1.0");
-    EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive, not a mesh: unpack it");
+    EXPECT_EQ(refusal(folder, "a.gltf", first), "cannot read as glTF 2.0: Unsupported glTF version: 1.0");
+    EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive: unpack it, and give the mesh in it");
     row.ours("refused; README says which formats are read");
 }

@@ -121,7 +121,7 @@ TEST(Geometry, NoneAndOne)
     Mesh none = floor_facing_z(1);
     none.triangles.clear();
     EXPECT_FALSE(make_vismap(image, none));
-    EXPECT_EQ(image.geterror(), "\"floor\": no triangle in it");
+    EXPECT_EQ(image.geterror(), "\"floor\": no triangles");
     Mesh one = floor_facing_z(1);
     one.triangles.pop_back();
     const BakedMap map(one, {}, map_params(16, 16, 16));

@@ -214,7 +214,7 @@ TEST(Vismap, RefusesWhatItCannotBake)
     EXPECT_EQ(refusal(mesh, {}),
               "\"floor\": no texture coordinates: unwrap the mesh first, or choose another set of them");
     mesh.triangles.clear();
-    EXPECT_EQ(refusal(mesh, {}), "\"floor\": no triangle in it");
+    EXPECT_EQ(refusal(mesh, {}), "\"floor\": no triangles");
 }
 
 TEST(Vismap, RefusesParametersOutOfRange)

@@ -67,7 +67,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     using OIIO::Strutil::fmt::format;
     const std::string& path = mesh->path.empty() ? mesh->name : mesh->path;
     if (mesh->triangles.empty()) {
-        error = format("\"{}\": no triangle in it", path);
+        error = format("\"{}\": no triangles", path);
         return false;
     }
     if (mesh->uvs.empty()) {

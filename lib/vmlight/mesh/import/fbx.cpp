@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/mesh/import/fbx.h>
-
 #include <vmlight/base/words.h>
 #include <vmlight/mesh/import/fbx_records.h>
+#include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/node_graph.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -19,10 +17,10 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr int kDeepestModels = 5000; // assimp makes up to 18 nodes of each
-constexpr size_t kMoreModels = 50000; // that come of Models under several others, which no exporter is known to write
+constexpr int kMaxModelDepth = 5000; // assimp makes up to 18 nodes of each Model
+constexpr size_t kMaxExtraModels = 50000; // copies under several parents, which no exporter is known to write
 
-// The digits at its start, as assimp has them: what is beyond 64 bits is 0 or wraps.
+// The leading digits, as assimp reads them: beyond 64 bits they are 0 or wrap.
 int64_t id_of(const std::string& text)
 {
     uint64_t id = 0;
@@ -35,11 +33,11 @@ int64_t id_of(const std::string& text)
     return int64_t(id);
 }
 
-// The Models, and what is connected.
+// Models and connections.
 class Models
 {
 public:
-    /// @param list     the top-level record that `record` is in
+    /// @param list     the top-level record that contains `record`
     void add(const std::string& list, const std::string& record, const std::vector<std::string>& properties)
     {
         if (list == "Objects" && record == "Model" && !properties.empty()) {
@@ -47,23 +45,23 @@ public:
         } else if (list == "Connections" && record == "C" && properties.size() > 2) {
             const std::string& type = properties[0];
             const bool is_of_property = type == "OP" && properties.size() > 3 && !properties[3].empty();
-            if (type != "PP" && !is_of_property) // of other types assimp takes any for "OO"
+            if (type != "PP" && !is_of_property) // assimp treats every other type as "OO"
                 m_children_and_parents.emplace_back(id_of(properties[1]), id_of(properties[2]));
         }
     }
 
-    std::string fault() const
+    std::string hierarchy_error() const
     {
         constexpr int64_t kRoot = 0;
-        MeshNodeGraph<int64_t> graph(m_children_and_parents.size() + kMoreModels, kDeepestModels);
+        NodeGraph<int64_t> graph(m_children_and_parents.size() + kMaxExtraModels, kMaxModelDepth);
         for (const auto& [child, parent] : m_children_and_parents)
             if (m_names.count(child) && (parent == kRoot || m_names.count(parent)))
                 graph.add(parent, child);
-        return graph.fault(kRoot, [&](int64_t id) { return name_of(id); });
+        return graph.error(kRoot, [&](int64_t id) { return name_of(id); });
     }
 
 private:
-    // Text has "Model::A", binary "A", zero, one, "Model".
+    // "Model::A" in text, "A\0\1Model" in binary.
     std::string name_of(int64_t id) const
     {
         const auto known = m_names.find(id);
@@ -80,28 +78,25 @@ private:
 
 } // namespace
 
-std::string fbx_fault(const std::string& bytes)
+bool is_fbx(const FileHead& head)
+{
+    using namespace OIIO::Strutil;
+    const OIIO::string_view text = first_text(head);
+    return starts_with(text, kFbxMagic) || istarts_with(text, "FBXHeaderExtension")
+        || (starts_with(text, ";") && icontains(text.substr(0, 200), "fbx"));
+}
+
+Inspection inspect_fbx(const std::string& bytes)
 {
     Models models;
-    const std::string fault = read_fbx_records(
+    Inspection result;
+    result.error = read_fbx_records(
         bytes, [&](const std::string& list, const std::string& record, const std::vector<std::string>& properties) {
             models.add(list, record, properties);
         });
-    return fault.empty() ? models.fault() : fault;
-}
-
-MeshFile inspect_fbx(const std::string& path)
-{
-    using namespace OIIO;
-    MeshFile file;
-    std::string bytes(200, '\0');
-    bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    if (!Strutil::iends_with(path, ".fbx") && !Strutil::icontains(bytes, "fbx"))
-        return file;
-    bytes.resize(Filesystem::file_size(path));
-    bytes.resize(Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    file.fault = fbx_fault(bytes);
-    return file;
+    if (result.error.empty())
+        result.error = models.hierarchy_error();
+    return result;
 }
 
 } // namespace vmlight

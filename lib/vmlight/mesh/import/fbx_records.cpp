@@ -11,16 +11,15 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr char kMagic[] = "Kaydara FBX Binary"; // as much of it as assimp looks at
-constexpr size_t kDeepest = 1000; // brackets; an FBX has about six
-constexpr size_t kProperties = 4; // of a record, that are of use
+constexpr size_t kMaxDepth = 1000; // of brackets; an FBX has about six
+constexpr size_t kProperties = 4; // the first ones of a record: no more are needed
 
 std::string too_deep()
 {
-    return format("its brackets are more than {} deep", kDeepest);
+    return format("brackets are nested more than {} deep", kMaxDepth);
 }
 
-// Words and strings, as assimp cuts them: a word before a colon is the name of a record, others are its properties.
+// Words and strings, tokenized as assimp does: a word before a colon names a record, others are its properties.
 std::string read_text(const std::string& text, const FbxVisitor& visit)
 {
     const size_t end = std::min(text.size(), text.find('\0'));
@@ -57,7 +56,7 @@ std::string read_text(const std::string& text, const FbxVisitor& visit)
             end_record();
             if (c == '}' && depth-- == 0)
                 return ""; // assimp reads no further
-            if (c == '{' && ++depth > kDeepest)
+            if (c == '{' && ++depth > kMaxDepth)
                 return too_deep();
             record.clear();
         } else if (c == ';') {
@@ -72,7 +71,7 @@ std::string read_text(const std::string& text, const FbxVisitor& visit)
     return "";
 }
 
-// Records, one in the other, that tell where they end.
+// Nested records, each with the offset of its end.
 class BinaryReader
 {
 public:
@@ -84,10 +83,10 @@ public:
     std::string read(const FbxVisitor& visit)
     {
         constexpr size_t kVersion = 23, kFirst = 27;
-        const size_t whole = m_bytes.size() + 1; // assimp puts a zero behind
+        const size_t whole = m_bytes.size() + 1; // assimp appends a zero
         m_at = kVersion;
-        const size_t word = number(4, whole) < 7500 ? 4 : 8, last = 3 * word + 1; // of a list: a record of zeros
-        std::vector<size_t> ends; // of the lists that it is in, less their last
+        const size_t word = number(4, whole) < 7500 ? 4 : 8, last = 3 * word + 1; // a record of zeros ends a list
+        std::vector<size_t> ends; // of the open lists, without their last record
         std::string list;
         for (size_t start = m_at = kFirst;; start = m_at) {
             if (!ends.empty() && m_at == ends.back()) {
@@ -102,15 +101,15 @@ public:
             if (m_good && end == 0 && ends.empty())
                 return "";
             if (m_good && end == 0)
-                continue; // assimp takes zeros within a list one word at a time
-            number(word, limit); // how many properties
+                continue; // assimp reads zeros within a list one word at a time
+            number(word, limit); // count of properties
             const uint64_t length = number(word, limit);
             const std::string record = text(number(1, limit), limit);
             const size_t first = m_at;
             m_good = m_good && end <= limit && first <= end && length <= end - first
                 && (length == end - first || end - first - length >= last);
             if (!m_good)
-                return format("its record at byte {} does not fit into what holds it", start);
+                return format("record at byte {} extends past the record that contains it", start);
             if (ends.size() == 1)
                 visit(list, record, properties(first + length));
             m_at = first + length;
@@ -119,13 +118,13 @@ public:
             if (ends.empty())
                 list = record;
             ends.push_back(end - last);
-            if (ends.size() > kDeepest)
+            if (ends.size() > kMaxDepth)
                 return too_deep();
         }
     }
 
 private:
-    // The first few. Of all types of them only numbers and texts are those of a Model or a connection.
+    // The first few, up to one that is neither a 64-bit integer nor a string: Models and connections have no others.
     std::vector<std::string> properties(size_t end)
     {
         std::vector<std::string> result;
@@ -138,7 +137,7 @@ private:
             else
                 break;
         }
-        m_good = true; // that they fit is for assimp to see
+        m_good = true; // whether they fit is left to assimp
         return result;
     }
 
@@ -157,7 +156,7 @@ private:
         if (!m_good)
             return "";
         m_at += size;
-        return std::string(m_bytes.data() + m_at - size, size); // with the zero behind, where asked for
+        return std::string(m_bytes.data() + m_at - size, size); // may include the zero past the end
     }
 
     const std::string& m_bytes;
@@ -169,7 +168,7 @@ private:
 
 std::string read_fbx_records(const std::string& bytes, const FbxVisitor& visit)
 {
-    return OIIO::Strutil::starts_with(bytes, kMagic) ? BinaryReader(bytes).read(visit) : read_text(bytes, visit);
+    return OIIO::Strutil::starts_with(bytes, kFbxMagic) ? BinaryReader(bytes).read(visit) : read_text(bytes, visit);
 }
 
 } // namespace vmlight

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+/// The records of FBX files, text and binary.
 #pragma once
 
 #include <functional>
@@ -7,16 +8,19 @@
 
 namespace vmlight {
 
-/// What is called for each record within a top-level record `list` of an FBX.
-/// @param properties   the first four at most: strings without their quotes, numbers in decimal; of a binary file as
-///                     many as are strings and 64-bit integers, taken as unsigned
+/// How a binary FBX starts, as far as assimp compares.
+constexpr char kFbxMagic[] = "Kaydara FBX Binary";
+
+/// Called for each record directly within a top-level record `list`.
+/// @param properties   the first four at most: strings without quotes, numbers in decimal; of a binary file only those
+///                     before the first that is neither a string nor a 64-bit integer, read as unsigned
 using FbxVisitor = std::function<void(const std::string& list, const std::string& record,
                                       const std::vector<std::string>& properties)>;
 
-/// Visit the records of an FBX file, text or binary, in its order, cut from each other as assimp 5.2 does.
+/// Visit the records of an FBX file in file order, tokenized as assimp 5.2 does.
 ///
-/// Returns why the importer must not be given the file, or "": brackets more than 1000 deep, a record of a binary file
-/// that does not fit into what holds it. Of what else is wrong it sees nothing, and visits what it takes for records.
+/// Returns why assimp must not read the file, or "": brackets nested more than 1000 deep, or a record of a binary file
+/// that extends past the one that contains it. Other errors are not detected: what looks like a record is visited.
 /// Sources: assimp 5.2, FBXTokenizer.cpp and FBXBinaryTokenizer.cpp; Blender Foundation, "FBX binary file format
 /// specification" (2013).
 std::string read_fbx_records(const std::string& bytes, const FbxVisitor& visit);

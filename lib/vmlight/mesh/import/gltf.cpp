@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/mesh/import/gltf.h>
-
+#include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/node_graph.h>
 
 #include <OpenImageIO/strutil.h>
@@ -17,10 +16,10 @@ namespace {
 using nlohmann::json;
 using OIIO::Strutil::fmt::format;
 
-constexpr int kDeepest = 1000; // brackets; a glTF has about ten
+constexpr int kMaxDepth = 1000; // of brackets; a glTF has about ten
 
-// The JSON: all of a .gltf, the first chunk of a GLB. The importer stops at a zero, and takes any bytes in a string:
-// what is not ASCII, which only strings hold, is made a question mark.
+// The JSON: all of a .gltf, the first chunk of a GLB. Assimp stops at a zero, and accepts any bytes in a string: bytes
+// that are not ASCII, which only strings hold, become question marks.
 std::string json_of(const std::string& bytes)
 {
     constexpr size_t kHeader = 20;
@@ -39,12 +38,12 @@ std::string json_of(const std::string& bytes)
     return text;
 }
 
-// The nodes that nodes and scenes name, collected as the JSON goes by. (A tree of all of it, with a callback that drops
-// the rest, takes time by the square of the nodes in nlohmann 3.11.)
-class NodeReader : public nlohmann::json_sax<json>
+// Collects the children of nodes and the roots of scenes from a stream of JSON. (Parsing to a tree with a callback that
+// drops the rest takes quadratic time in nlohmann 3.11.)
+class NodeCollector : public nlohmann::json_sax<json>
 {
 public:
-    bool is_too_deep() const { return m_depth > kDeepest; }
+    bool is_too_deep() const { return m_depth > kMaxDepth; }
     size_t node_count() const { return m_node_count; }
     const std::vector<std::pair<size_t, size_t>>& parents_and_children() const { return m_parents_and_children; }
     const std::vector<std::pair<size_t, size_t>>& scenes_and_roots() const { return m_scenes_and_roots; }
@@ -83,11 +82,11 @@ public:
     }
 
 private:
-    // Depths: 1 in the root, 2 in its "nodes" or "scenes", 3 in one, 4 in its "children" or "nodes".
+    // Depth 1 is the root, 2 its "nodes" or "scenes", 3 one of them, 4 its "children" or "nodes".
     bool open()
     {
         value();
-        return ++m_depth <= kDeepest;
+        return ++m_depth <= kMaxDepth;
     }
 
     bool close()
@@ -109,14 +108,13 @@ private:
     std::vector<std::pair<size_t, size_t>> m_parents_and_children, m_scenes_and_roots;
 };
 
-} // namespace
-
-std::string gltf_fault(const std::string& bytes)
+// Why the node hierarchy of a glTF or GLB must not be read, or "".
+std::string hierarchy_error(const std::string& bytes)
 {
-    NodeReader nodes;
+    NodeCollector nodes;
     const bool is_json = json::sax_parse(json_of(bytes), &nodes);
     if (nodes.is_too_deep())
-        return format("its JSON has brackets more than {} deep", kDeepest);
+        return format("JSON is nested more than {} deep", kMaxDepth);
     if (!is_json)
         return "";
     const size_t none = nodes.node_count();
@@ -125,16 +123,32 @@ std::string gltf_fault(const std::string& bytes)
         if (child >= none)
             continue;
         if (parents[child] != none)
-            return format("its node {} is under two others: {} and {}", child, parents[child], parent);
+            return format("node {} has two parents: {} and {}", child, parents[child], parent);
         parents[child] = parent;
     }
-    MeshNodeGraph<size_t> graph;
+    NodeGraph<size_t> graph;
     for (const auto& [parent, child] : nodes.parents_and_children())
         graph.add(parent, child);
     for (const auto& [scene, root] : nodes.scenes_and_roots())
         if (scene == nodes.scene())
-            graph.add(none, root); // `none` stands for the scene
-    return graph.fault(none, [](size_t node) { return format("{}", node); });
+            graph.add(none, root); // `none` is the scene
+    return graph.error(none, [](size_t node) { return format("{}", node); });
+}
+
+} // namespace
+
+bool is_gltf(const FileHead& head)
+{
+    const OIIO::string_view text = first_text(head);
+    return OIIO::Strutil::starts_with(head.bytes, "glTF")
+        || (OIIO::Strutil::starts_with(text, "{") && OIIO::Strutil::contains(text, "\"asset\""));
+}
+
+Inspection inspect_gltf(const std::string& bytes)
+{
+    Inspection result;
+    result.error = hierarchy_error(bytes);
+    return result;
 }
 
 } // namespace vmlight

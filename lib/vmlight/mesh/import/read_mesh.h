@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Mesh files, of every format that there is an importer for.
+/// Mesh files of every supported format.
 #pragma once
 
 #include <vmlight/base/export.h>
-#include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/mesh.h>
 
 #include <functional>
@@ -11,20 +10,21 @@
 
 namespace vmlight {
 
-/// Read every mesh of a file (OBJ, PLY, glTF, GLB, FBX, and what else assimp reads), at its place in the scene graph.
+/// Read all meshes of an OBJ, PLY, STL, glTF 2.0 (.gltf, .glb), Collada or FBX file, each at its place in the node
+/// hierarchy. The format is detected by content, and by the extension only where content cannot tell.
 ///
 /// Polygons are triangulated, points and lines dropped, vertices that agree bit for bit merged. Normals are of unit
-/// length; a zero or non-finite one is made as a smooth one. Triangles without area stay (they still occlude nothing).
-/// Coordinates are rounded to float, as assimp delivers them, but for an OBJ, or a PLY of `double` coordinates, whose
-/// greatest coordinate is more than 16 times its greatest side: those keep every bit of the file's doubles. Of an OBJ
-/// the vertices that faces use are counted, of a PLY all.
+/// length; one that is missing, zero or not finite is computed as a smooth one. Triangles without area are kept (they
+/// occlude nothing). Coordinates are rounded to float, unless an OBJ, or a PLY with `double` coordinates, has a
+/// coordinate more than 16 times the longest side of its bounding box: then every bit of the file's doubles is kept.
+/// An OBJ is measured by the vertices that faces use, a PLY by all.
 ///
-/// @param error    set to what is wrong, with the path in quotes, if the result is false
-/// @param opens    called with the path of each file before it is opened, the buffers of a glTF among them
+/// @param error        set to the reason, with the path in quotes, if the result is false
+/// @param before_open  called with the path of each file before it is opened, a glTF's buffers among them
 /// @returns false if the file cannot be read, ends early, has no triangle, a NaN or infinite vertex (the first is
-///          named), a face of a vertex that it has not, or, in an OBJ, texture coordinates that are not finite.
-///          A mesh without the asked-for texture coordinates is read: whether they are needed is the caller's matter.
+///          named), a face of a vertex that does not exist, or, in an OBJ, texture coordinates that are not finite.
+///          A mesh without the UV set that was asked for is read: the caller decides whether it needs one.
 VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
-                           const std::function<void(const std::string& path)>& opens = {});
+                           const std::function<void(const std::string& path)>& before_open = {});
 
 } // namespace vmlight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bytes as what a mesh importer might hand over.
+/// Bytes as what assimp might import from a mesh file.
 #pragma once
 
 #include "bytes.h"
@@ -23,8 +23,7 @@ inline std::unique_ptr<aiVector3D[]> vectors_of(Bytes& bytes, unsigned count)
     return vectors;
 }
 
-/// Up to 16 vertices, with or without normals and texture coordinates, and up to 31 faces, of which few are no
-/// triangles.
+/// Up to 16 vertices, with or without normals and texture coordinates, and up to 31 faces, most of them triangles.
 inline aiMesh* part_of(Bytes& bytes)
 {
     auto part = std::make_unique<aiMesh>();
@@ -53,22 +52,22 @@ inline aiMesh* part_of(Bytes& bytes)
     return part.release();
 }
 
-/// A chain of up to three nodes, each with all parts, turned and scaled if it says so.
-inline std::unique_ptr<aiScene> scene_of(Bytes& bytes)
+/// A chain of up to three nodes, each with all parts, with or without a transform.
+inline std::unique_ptr<aiScene> imported_of(Bytes& bytes)
 {
-    auto scene = std::make_unique<aiScene>();
-    scene->mNumMeshes = unsigned(1 + bytes.below(2));
-    scene->mMeshes = new aiMesh* [scene->mNumMeshes] {};
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m)
-        scene->mMeshes[m] = part_of(bytes);
-    scene->mRootNode = new aiNode;
-    aiNode* node = scene->mRootNode;
+    auto imported = std::make_unique<aiScene>();
+    imported->mNumMeshes = unsigned(1 + bytes.below(2));
+    imported->mMeshes = new aiMesh* [imported->mNumMeshes] {};
+    for (unsigned m = 0; m < imported->mNumMeshes; ++m)
+        imported->mMeshes[m] = part_of(bytes);
+    imported->mRootNode = new aiNode;
+    aiNode* node = imported->mRootNode;
     for (size_t depth = bytes.below(3);; --depth) {
         if (bytes.flag())
             for (unsigned i = 0; i < 4; ++i)
                 for (unsigned j = 0; j < 4; ++j)
                     node->mTransformation[i][j] = bytes.number();
-        node->mNumMeshes = scene->mNumMeshes;
+        node->mNumMeshes = imported->mNumMeshes;
         node->mMeshes = new unsigned[2] { 0, 1 };
         if (depth == 0)
             break;
@@ -77,10 +76,10 @@ inline std::unique_ptr<aiScene> scene_of(Bytes& bytes)
         node = child;
     }
     if (bytes.flag()) {
-        scene->mMetaData = aiMetadata::Alloc(1);
-        scene->mMetaData->Set(0, "UpAxis", int(bytes.below(4)));
+        imported->mMetaData = aiMetadata::Alloc(1);
+        imported->mMetaData->Set(0, "UpAxis", int(bytes.below(4)));
     }
-    return scene;
+    return imported;
 }
 
 } // namespace vmlight::fuzz

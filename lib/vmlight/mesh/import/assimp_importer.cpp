@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/mesh/import/assimp_importer.h>
+
+#include <vmlight/base/words.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace vmlight {
+namespace {
+
+using Imath::V3d;
+using OIIO::Strutil::fmt::format;
+
+// The format's usual extension, which assimp's importers list first, too.
+std::string extension_of(const ImportRequest& request)
+{
+    return OIIO::Strutil::splits(request.format.extensions).front();
+}
+
+// Leave `importer` the one importer of the format, which then reads only what was inspected as that. Of formats that
+// are not inspected (X3D, 3MF, glTF 1.0, ...) a short file can make assimp recurse for ever.
+void keep_importer_of(const ImportRequest& request, Assimp::Importer& importer)
+{
+    const std::string extension = extension_of(request);
+    for (size_t i = importer.GetImporterCount(); i-- > 0;) {
+        const aiImporterDesc& description = *importer.GetImporterInfo(i);
+        const std::vector<std::string> extensions = OIIO::Strutil::splits(description.mFileExtensions);
+        const bool is_gltf1 = OIIO::Strutil::starts_with(description.mName, "glTF Importer");
+        if (!extensions.empty() && extensions.front() == extension && !is_gltf1)
+            continue;
+        const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i)); // ours once it is not listed
+        importer.UnregisterLoader(other.get());
+    }
+}
+
+// The file under a name from which assimp guesses its format right. It knows a GLB by nothing else.
+std::string known_name(const ImportRequest& request)
+{
+    const bool is_glb = OIIO::Strutil::starts_with(request.head.bytes, "glTF");
+    const std::string ending = "." + (is_glb ? "glb" : extension_of(request));
+    return OIIO::Strutil::iends_with(request.path, ending) ? request.path : request.path + ending;
+}
+
+// Opens files for assimp: reports each, and gives the mesh's replacement for the mesh. Wraps assimp's own file system,
+// which cannot be derived from in assimp 6.
+class ReportedFiles : public Assimp::IOSystem
+{
+public:
+    /// @param name     what assimp knows the mesh by
+    ReportedFiles(const ImportRequest& request, std::string name)
+        : m_request(request)
+        , m_name(std::move(name))
+    {
+    }
+    Assimp::IOStream* Open(const char* name, const char* mode) override
+    {
+        const std::string path = path_of(name), &replacement = m_request.inspection.replacement;
+        if (m_request.before_open)
+            m_request.before_open(path);
+        if (!replacement.empty() && path == m_request.path)
+            return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(replacement.data()), replacement.size());
+        if (!OIIO::Filesystem::is_regular(path))
+            return nullptr; // a pipe among the files that a mesh names would block
+        return m_files.Open(path.c_str(), mode);
+    }
+    // Assimp's own would open the file.
+    bool Exists(const char* name) const override { return OIIO::Filesystem::is_regular(path_of(name)); }
+    char getOsSeparator() const override { return m_files.getOsSeparator(); }
+    void Close(Assimp::IOStream* file) override { m_files.Close(file); }
+
+private:
+    std::string path_of(const char* name) const { return name == m_name ? m_request.path : name; }
+
+    const ImportRequest& m_request;
+    const std::string m_name;
+    Assimp::DefaultIOSystem m_files;
+};
+
+// Set what kinds of faces each part says it has to what it has. assimp 5.2 takes a face without corners for a polygon,
+// and aborts when it finds no polygon to triangulate.
+void correct_primitive_types(aiScene& imported)
+{
+    // A face without corners counts as a point: no type at all would have assimp look for itself.
+    constexpr unsigned kTypes[] = { aiPrimitiveType_POINT, aiPrimitiveType_POINT, aiPrimitiveType_LINE,
+                                    aiPrimitiveType_TRIANGLE, aiPrimitiveType_POLYGON };
+    for (unsigned m = 0; m < imported.mNumMeshes; ++m) {
+        aiMesh& part = *imported.mMeshes[m];
+        part.mPrimitiveTypes = 0;
+        for (unsigned f = 0; f < part.mNumFaces; ++f)
+            part.mPrimitiveTypes |= kTypes[std::min(part.mFaces[f].mNumIndices, 4u)];
+    }
+}
+
+// A vertex that a face uses: others may be anywhere.
+V3d first_corner(const aiMesh& part, const std::vector<V3d>& positions)
+{
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+        if (part.mFaces[f].mNumIndices > 0)
+            return positions[part.mFaces[f].mIndices[0]];
+    return V3d(0);
+}
+
+// Set `exact` to the file's own vertices, and those of `imported` to their offsets from a corner, so that triangulation
+// sees the shape. False if assimp made vertices that are not in the file.
+bool restore_positions(aiScene& imported, const Inspection& inspection, ExactPositions& exact)
+{
+    const std::vector<V3d>& positions = inspection.exact_positions;
+    if (positions.empty())
+        return true;
+    for (unsigned m = 0; m < imported.mNumMeshes; ++m) {
+        aiMesh& part = *imported.mMeshes[m];
+        exact.emplace_back();
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D& v = part.mVertices[i];
+            const size_t number = inspection.has_numbered_vertices ? size_t(v.x) + (size_t(v.y) << 16) : i;
+            if (number >= positions.size())
+                return false;
+            exact.back().push_back(positions[number]);
+        }
+        const V3d centre = first_corner(part, exact.back());
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const V3d offset = exact.back()[i] - centre;
+            part.mVertices[i] = aiVector3D(ai_real(offset.x), ai_real(offset.y), ai_real(offset.z));
+        }
+    }
+    return true;
+}
+
+// Assimp 5.4 drops polygons of five and more corners whose ears have areas below 1e-6, and areas beyond float are
+// infinite: polygons are triangulated at a size of 2^30, scaled by powers of two, which lose no bit above 2^-149 of it.
+std::vector<int> triangulation_exponents(const aiScene& imported)
+{
+    std::vector<int> exponents;
+    for (unsigned m = 0; m < imported.mNumMeshes; ++m) {
+        const aiMesh& part = *imported.mMeshes[m];
+        float reach = 0;
+        for (unsigned i = 0; i < part.mNumVertices; ++i)
+            for (int k = 0; k < 3; ++k)
+                reach = std::max(reach, std::abs(part.mVertices[i][k]));
+        exponents.push_back(reach > 0 ? std::clamp(30 - std::ilogb(reach), -97, 126) : 0);
+    }
+    return exponents;
+}
+
+// Multiply the positions of each part by 2^(sign * its exponent).
+void scale_parts(aiScene& imported, const std::vector<int>& exponents, int sign)
+{
+    for (unsigned m = 0; m < imported.mNumMeshes; ++m) {
+        aiMesh& part = *imported.mMeshes[m];
+        for (unsigned i = 0; i < part.mNumVertices; ++i)
+            part.mVertices[i] *= std::ldexp(1.0f, sign * exponents[m]);
+    }
+}
+
+bool triangulate(Assimp::Importer& importer, aiScene& imported)
+{
+    const std::vector<int> exponents = triangulation_exponents(imported);
+    scale_parts(imported, exponents, 1);
+    if (!importer.ApplyPostProcessing(aiProcess_Triangulate) || !imported.mRootNode)
+        return false;
+    scale_parts(imported, exponents, -1);
+    return true;
+}
+
+} // namespace
+
+bool read_with_assimp(MeshBuilder& dst, const ImportRequest& request, std::string& error)
+{
+    // No post-processing but triangulation: assimp's merging of vertices and smoothing of normals compare positions
+    // within an absolute or a coarse relative distance, which collapses small meshes.
+    Assimp::Importer importer;
+    const auto fail = [&](const std::string& reason) {
+        error = format("cannot read as {}: {}", request.format.name, reason);
+        return false;
+    };
+    const auto fail_with_assimps_error = [&] {
+        OIIO::string_view reason = importer.GetErrorString();
+        if (OIIO::Strutil::istarts_with(reason, extension_of(request) + ": ")) // names the format once more
+            reason.remove_prefix(reason.find(' ') + 1);
+        return fail(reason_line(reason));
+    };
+    keep_importer_of(request, importer);
+    const std::string name = known_name(request);
+    ReportedFiles files(request, name);
+    importer.SetIOHandler(&files);
+    const bool read = importer.ReadFile(name, 0);
+    importer.SetIOHandler(nullptr); // gives it back
+    if (!read)
+        return fail_with_assimps_error();
+    aiScene& imported = const_cast<aiScene&>(*importer.GetScene());
+    if (const std::string reason = face_error(imported); !reason.empty())
+        return fail(reason);
+    correct_primitive_types(imported);
+    ExactPositions exact;
+    if (!restore_positions(imported, request.inspection, exact))
+        return fail("assimp made vertices that are not in the file");
+    if (!triangulate(importer, imported))
+        return fail_with_assimps_error();
+    append_imported(dst, imported, exact);
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Detection and inspection of the formats that assimp reads. Detection looks at the start of a file; inspection looks
+/// at all of it, for what is known to crash assimp 5.2, to hang it, or to come out of it as something else.
+#pragma once
+
+#include <vmlight/mesh/import/importer.h>
+
+#include <Imath/ImathVec.h>
+#include <OpenImageIO/string_view.h>
+
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// The text of a file's start, from its first character that is no blank, without a UTF-8 byte order mark.
+OIIO::string_view first_text(const FileHead& head);
+
+/// Beyond this many times the longest side of its bounding box from the origin, floats would round a mesh by more than
+/// 1e-6 of its size, which is about the smallest gap between surfaces that is resolved (surface.h).
+constexpr double kFarFromOrigin = 16;
+
+/// Is a coordinate of these vertices more than kFarFromOrigin times the longest side of their bounding box? False if
+/// one is not finite, or if all are equal.
+bool is_far_from_origin(const std::vector<Imath::V3d>& positions);
+
+/// OBJ: the first line that is neither blank nor a comment starts with a keyword of OBJ.
+bool is_obj(const FileHead& head);
+/// Refuses texture coordinates that are not finite. Keeps the vertices in double, if those that faces use are far from
+/// the origin. The replacement numbers them, or lacks what assimp misreads (a byte order mark, indents, continued
+/// lines, backslashes in comments). Lines end in LF, CR or both; one that ends in a backslash continues in the next.
+/// Source: Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1.
+Inspection inspect_obj(const std::string& text);
+
+/// PLY: starts with "ply", in any case.
+bool is_ply(const FileHead& head);
+/// Refuses a header or body that ends early, and faces of vertices that do not exist. Keeps vertices of type `double`,
+/// if they are far from the origin. The replacement holds vertices, faces and strips alone, without blank lines. Walks
+/// every element in all three encodings; in an ascii file each is one line, as assimp reads it.
+/// Source: G. Turk, "The PLY Polygon File Format", 1994.
+Inspection inspect_ply(const std::string& bytes);
+
+/// STL: starts with "solid", or has the size that the triangle count of a binary file asks for.
+bool is_stl(const FileHead& head);
+
+/// glTF: starts as a GLB does, or as a JSON object with "asset" near its start.
+bool is_gltf(const FileHead& head);
+/// Refuses JSON nested more than 1000 deep, a node with two parents (assimp 5.2 copies it, and doubles memory at each
+/// of a chain of them) or that is its own ancestor, and a scene that expands to more than a million nodes, since it may
+/// name a root many times. Invalid JSON is left to assimp. Source: Khronos, glTF 2.0 specification, 3.5.2 (node
+/// hierarchy) and 4.4 (GLB).
+Inspection inspect_gltf(const std::string& bytes);
+
+/// Collada: XML, in 8 or 16 bits, with "<collada" near its start, in any case.
+bool is_collada(const FileHead& head);
+/// Refuses elements nested more than 100000 deep, through which assimp recurses; a scene of more than a million nodes
+/// once each instance_node is expanded, as assimp 5.2 does, by the names it looks up; a node that is its own ancestor.
+/// Invalid XML is left to assimp: only what comes before the error is checked. Source: Khronos, Collada 1.4.1
+/// specification, `instance_node`.
+Inspection inspect_collada(const std::string& text);
+
+/// FBX: starts as a binary file does, or as text does: with a comment or a header that names FBX.
+bool is_fbx(const FileHead& head);
+/// Refuses what read_fbx_records() does; a Model that is its own ancestor; Models more than 5000 deep, or, once each is
+/// expanded under all its parents, as assimp does, more than the connections and 50000. Connections of other objects
+/// (skins, clusters, geometries) may be cyclic and are not checked. All else is left to assimp.
+/// Source: assimp 5.2, FBXDocument.cpp and FBXConverter.cpp.
+Inspection inspect_fbx(const std::string& bytes);
+
+} // namespace vmlight

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/mesh/import/assimp_importer.h>
+#include <vmlight/mesh/import/format_checks.h>
+#include <vmlight/mesh/import/importer.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+
+namespace vmlight {
+
+const std::vector<MeshFormat>& mesh_formats()
+{
+    static const std::vector<MeshFormat> formats {
+        { "OBJ", "obj", is_obj, inspect_obj, read_with_assimp },
+        { "PLY", "ply", is_ply, inspect_ply, read_with_assimp },
+        { "STL", "stl", is_stl, nullptr, read_with_assimp },
+        { "glTF 2.0", "gltf glb", is_gltf, inspect_gltf, read_with_assimp },
+        { "Collada", "dae xml", is_collada, inspect_collada, read_with_assimp },
+        { "FBX", "fbx", is_fbx, inspect_fbx, read_with_assimp },
+    };
+    return formats;
+}
+
+const MeshFormat* find_mesh_format(const std::vector<MeshFormat>& formats, const std::string& path,
+                                   const FileHead& head)
+{
+    const auto has_content = [&](const MeshFormat& format) { return format.has_content && format.has_content(head); };
+    const auto has_extension = [&](const MeshFormat& format) {
+        const std::vector<std::string> extensions = OIIO::Strutil::splits(format.extensions);
+        return std::any_of(extensions.begin(), extensions.end(),
+                           [&](const std::string& e) { return OIIO::Strutil::iends_with(path, "." + e); });
+    };
+    auto format = std::find_if(formats.begin(), formats.end(), has_content);
+    if (format == formats.end())
+        format = std::find_if(formats.begin(), formats.end(), has_extension);
+    return format == formats.end() ? nullptr : &*format;
+}
+
+} // namespace vmlight

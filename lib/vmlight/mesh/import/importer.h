@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The seam between mesh files and the libraries that read them. A format is one entry of mesh_formats() (formats.cpp)
+/// and a file of its own; which library reads it is that file's business.
+#pragma once
+
+#include <vmlight/mesh/import/mesh_builder.h>
+#include <vmlight/mesh/mesh.h>
+
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// The start of a file, which its format is detected by.
+struct FileHead
+{
+    static constexpr size_t kBytes = 4096;
+
+    std::string bytes; ///< the first kBytes of the file, or all of it
+    uint64_t size = 0; ///< of the whole file, in bytes
+};
+
+/// What a format's own check of a file found, before the library that reads it sees the file.
+struct Inspection
+{
+    /// Why the library must not see the file, on one line, or "".
+    std::string error;
+
+    /// The file's vertices in double precision, in file order, if floats would lose the shape of the mesh; else empty.
+    std::vector<Imath::V3d> exact_positions;
+
+    /// What the library must read instead of the file's bytes, or "" for the file as it is.
+    std::string replacement;
+
+    /// Vertex n of `replacement` is at (n % 2^16, n / 2^16, 0), which maps the library's vertices to exact_positions.
+    bool has_numbered_vertices = false;
+};
+
+/// Called with the path of a file before it is opened.
+using BeforeOpen = std::function<void(const std::string& path)>;
+
+struct MeshFormat;
+
+/// A file to read, once its format is known and its inspection has no error.
+struct ImportRequest
+{
+    std::string path;
+    const MeshFormat& format;
+    FileHead head;
+    Inspection inspection;
+    /// Call it for each file: the mesh itself, and what it refers to (buffers, materials). May be empty.
+    BeforeOpen before_open;
+};
+
+/// A mesh format.
+struct MeshFormat
+{
+    /// As messages and documentation name it: "glTF 2.0".
+    const char* name;
+    /// Lower case, separated by blanks, the usual one first: "gltf glb". They count only where content cannot tell.
+    const char* extensions;
+    /// Is a file that starts like this certainly of this format? nullptr if content cannot tell.
+    bool (*has_content)(const FileHead& head);
+    /// Check all bytes of a file before it is read. nullptr if the library can be given any file.
+    Inspection (*inspect)(const std::string& bytes);
+    /// Read every mesh of a file, each at its place in the node hierarchy, into `dst`. All that the library allocates
+    /// is freed before it returns. Runs on a deep stack: see on_deep_stack().
+    /// @returns false, with the reason in `error` (on one line, without the path), if the file cannot be read
+    bool (*read)(MeshBuilder& dst, const ImportRequest& request, std::string& error);
+};
+
+/// Every format that read_mesh() reads.
+const std::vector<MeshFormat>& mesh_formats();
+
+/// The format of a file: the first entry that recognises its content, else the first that lists its extension (in any
+/// case), else nullptr.
+const MeshFormat* find_mesh_format(const std::vector<MeshFormat>& formats, const std::string& path,
+                                   const FileHead& head);
+
+/// As read_mesh(), for a table of formats.
+bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
+                 const BeforeOpen& before_open = {}, const std::vector<MeshFormat>& formats = mesh_formats());
+
+} // namespace vmlight

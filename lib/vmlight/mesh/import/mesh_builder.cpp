@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/mesh/import/mesh_builder.h>
+
+#include <vmlight/base/words.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vmlight {
+
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+using OIIO::Strutil::fmt::format;
+
+namespace {
+
+bool is_finite(const V3d& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Areas and their squares still fit a double. Every float is in range.
+bool is_in_range(const V3d& v)
+{
+    constexpr double kFarthest = 1e70;
+    return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
+}
+
+} // namespace
+
+Imath::M44d MeshBuilder::root_transform(bool is_file_z_up) const
+{
+    Imath::M44d to_y_up;
+    if (m_params.up == "z" || (m_params.up == "file" && is_file_z_up))
+        to_y_up = Imath::M44d(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1); // (x, y, z) -> (x, z, -y)
+    return to_y_up;
+}
+
+void MeshBuilder::begin_part(const std::string& name, const Imath::M44d& to_object)
+{
+    m_part = name;
+    m_to_object = to_object;
+    m_normals_to_object = to_object.inverse().transposed();
+    m_is_mirrored = to_object.determinant() < 0;
+    m_first = m_mesh.positions.size();
+}
+
+void MeshBuilder::add_vertex(const V3d& position, const V3d& normal, const V2f* uv)
+{
+    V3d object_position, object_normal;
+    m_to_object.multVecMatrix(position, object_position);
+    if (!is_in_range(object_position) && m_error.empty()) {
+        const bool is_transform = is_in_range(position);
+        const V3d& bad = is_transform ? object_position : position;
+        m_error = format("vertex {} of \"{}\" is {}{}: ({}, {}, {})", m_mesh.positions.size() - m_first, m_part,
+                         is_finite(bad) ? "farther than 1e70 from the origin" : "not finite",
+                         is_transform ? " after its node's transform" : "", bad.x, bad.y, bad.z);
+    }
+    m_mesh.positions.push_back(object_position);
+
+    m_normals_to_object.multDirMatrix(normal, object_normal);
+    m_mesh.normals.push_back(V3f(is_finite(object_normal) ? object_normal.normalized() : V3d(0)));
+
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    m_mesh.uvs.push_back(uv ? *uv : V2f(nan, nan));
+    m_has_uvs |= uv != nullptr;
+}
+
+void MeshBuilder::add_triangle(std::array<uint32_t, 3> corners, uint32_t material)
+{
+    const size_t count = m_mesh.positions.size() - m_first;
+    for (uint32_t& corner : corners) {
+        if (corner >= count && m_error.empty())
+            m_error = format("a triangle of \"{}\" uses vertex {}, but there are only {}", m_part, corner, count);
+        corner += uint32_t(m_first);
+    }
+    if (m_is_mirrored)
+        std::swap(corners[1], corners[2]); // a mirror turns the winding inside out
+    m_mesh.triangles.push_back(corners);
+    m_mesh.materials.push_back(material);
+}
+
+bool MeshBuilder::finish(std::string& error)
+{
+    if (!m_error.empty() || m_mesh.triangles.empty()) {
+        error = m_error.empty() ? "no triangles" : reason_line(m_error);
+        return false;
+    }
+    if (!m_has_uvs)
+        m_mesh.uvs.clear();
+    if (m_params.normals == "flat")
+        make_flat_normals(m_mesh);
+    else if (m_params.normals == "smooth")
+        make_smooth_normals(m_mesh, m_params.crease_angle);
+    else
+        fill_missing_normals(m_mesh, m_params.crease_angle);
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From what a library read of a mesh file to a Mesh: the same for every format.
+#pragma once
+
+#include <vmlight/mesh/mesh.h>
+
+#include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace vmlight {
+
+/// Appends the parts of a file to a mesh, each with the transform of its node. No number is trusted to be finite.
+class MeshBuilder
+{
+public:
+    /// @param dst      empty but for its names
+    MeshBuilder(Mesh& dst, const MeshParams& params)
+        : m_mesh(dst)
+        , m_params(params)
+    {
+    }
+
+    const MeshParams& params() const { return m_params; }
+
+    /// The transform that every node hierarchy starts with: turns z up to y up, if params() or the file ask for it.
+    /// @param is_file_z_up     what the file's axis metadata says; false if it has none
+    Imath::M44d root_transform(bool is_file_z_up) const;
+
+    /// Start a part (a mesh under a node). As everywhere in Imath, `to_object` multiplies row vectors.
+    void begin_part(const std::string& name, const Imath::M44d& to_object);
+    /// @param normal   of any length; zero or not finite if the file has none: finish() computes it
+    /// @param uv       v up, of the set params().uv_set; nullptr if the part has no such set
+    void add_vertex(const Imath::V3d& position, const Imath::V3d& normal, const Imath::V2f* uv);
+    /// @param corners  vertices of this part, from 0, that add_vertex() has added
+    void add_triangle(std::array<uint32_t, 3> corners, uint32_t material);
+
+    /// The positions are the file's own, without rounding to float.
+    void set_exact_positions() { m_mesh.has_exact_positions = true; }
+
+    /// Compute the normals that are missing or asked for, and merge equal vertices.
+    /// @returns false, with the reason in `error`, if there is no triangle, a vertex is not finite or beyond 1e70 (the
+    ///          first is named), or a triangle has a vertex that does not exist
+    bool finish(std::string& error);
+
+private:
+    Mesh& m_mesh;
+    const MeshParams& m_params;
+    std::string m_part, m_error;
+    Imath::M44d m_to_object, m_normals_to_object;
+    bool m_is_mirrored = false, m_has_uvs = false;
+    size_t m_first = 0; // vertex of the part
+};
+
+} // namespace vmlight
