@@ -35,7 +35,7 @@ class Commands(unittest.TestCase):
     def run_all(self, lines, count):
         """Each line must succeed and write the file after its -o. There must be at least `count` lines."""
         self.assertGreaterEqual(len(lines), count)
-        setup = ["set -eu", f'PATH="{PREFIX}/bin:$PATH"']
+        setup = ["set -eu"]
         for host, program in ("oiiotool", "oiiotool"), ("maketx", "maketx"), ("python3", PYTHON):
             setup.append('%s() { LD_PRELOAD=$VMLIGHT_PRELOAD ASAN_OPTIONS=detect_leaks=0 command %s "$@"; }'
                          % (host, program))
