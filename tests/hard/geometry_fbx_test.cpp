@@ -77,8 +77,8 @@ std::vector<Connection> chain(int64_t count, int times)
 
 TEST(Geometry, FbxModelsInARing)
 {
-    HardCase row("An FBX, text or binary, with Models in a ring, whatever the file is called");
-    row.naive("assimp 5.2 goes round the ring by recursion: a crash (measured)");
+    HardCase row("An FBX, text or binary, with a cycle of Models, whatever the file is called");
+    row.naive("assimp 5.2 recurses endlessly: a crash (measured)");
     const TemporaryFolder folder;
     const std::string says = "node \"A\" is its own ancestor";
     for (const int version : kForms) {
@@ -99,27 +99,27 @@ TEST(Geometry, FbxModelsInARing)
     EXPECT_EQ(outcome(folder, text.substr(0, closes) + ";} : \"\f" + text.substr(closes)), says) << "a comment ended";
     EXPECT_EQ(outcome(folder, text.substr(0, closes) + "X: \"}{;\", 1\n" + text.substr(closes)), says) << "a string";
     EXPECT_EQ(outcome(folder, text.insert(closes, ";")), "1 triangle") << "a connection in a comment";
-    row.ours("refused, with a Model of the ring");
+    row.ours("refused, naming a Model of the cycle");
 }
 
 TEST(Geometry, FbxModelsUnderTwoOthers)
 {
-    HardCase row("An FBX of 40 Models, each of which is twice under the one before");
+    HardCase row("An FBX of 40 Models, each connected twice to its parent");
     EXPECT_GT(std::ldexp(1.0, 39), 5e11);
-    row.naive("assimp 5.2 puts each in both places: all memory (measured with 8 GB)");
+    row.naive("assimp 5.2 duplicates each: out of memory (measured with 8 GB)");
     const TemporaryFolder folder;
     for (const int version : kForms) {
         EXPECT_EQ(outcome(folder, fbx(5, chain(5, 2), version)), "16 triangles") << version;
         EXPECT_EQ(outcome(folder, fbx(40, chain(40, 2), version)), "node instances expand to more than 50080 nodes")
             << version;
     }
-    row.ours("16 triangles of 5 Models; of 40 refused, with why");
+    row.ours("5 Models give 16 triangles; 40 are refused, with the reason");
 }
 
 TEST(Geometry, FbxThatIsDeep)
 {
-    HardCase row("An FBX of 50000 Models, one in the other, or of two million brackets");
-    row.naive("assimp 5.2 goes down by recursion, a dozen nodes for a Model that has pivots: a crash (both measured)");
+    HardCase row("An FBX of 50000 nested Models, or of two million brackets");
+    row.naive("assimp 5.2 recurses, a dozen nodes for a Model with pivots: a crash (both measured)");
     const TemporaryFolder folder;
     for (const int version : kForms) {
         EXPECT_EQ(outcome(folder, fbx(50000, chain(50000, 1), version)), "nodes are nested more than 5000 deep")
@@ -136,9 +136,8 @@ TEST(Geometry, FbxThatIsDeep)
 
 TEST(Geometry, FbxMeshUnderTheBoneThatBendsIt)
 {
-    HardCase row(
-        "An FBX whose mesh is under the bone that bends it, so that connections, but not of Models, are a ring");
-    row.naive("one that looks for rings in all connections refuses it");
+    HardCase row("An FBX whose mesh is a child of the bone that deforms it: a cycle of connections, but not of Models");
+    row.naive("a check for cycles in all connections refuses it");
     const TemporaryFolder folder;
     const std::vector<double> unit { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
     const int64_t mesh = 1, bone = 2, skin = 11, cluster = 12;
@@ -169,8 +168,8 @@ TEST(Geometry, FbxMeshUnderTheBoneThatBendsIt)
 TEST(Geometry, FbxCutOrDamaged)
 {
     HardCase row(
-        "An FBX, text or binary, cut at every seventh byte, with a bit turned over, or with lengths beyond it");
-    row.naive("one that trusts the lengths reads elsewhere");
+        "An FBX, text or binary, truncated at every seventh byte, with one bit flipped, or with lengths past its end");
+    row.naive("trusting the lengths reads out of bounds");
     const TemporaryFolder folder;
     for (const int version : kForms) {
         const std::string whole = fbx(3, chain(3, 1), version);

@@ -26,8 +26,8 @@ std::string ply(int faces, const std::string& lines)
 
 TEST(Geometry, PlyFacesOfVerticesThatAreNot)
 {
-    HardCase row("A PLY whose faces have vertices that it has not: 3, -1, 2000000000 of 3");
-    row.naive("assimp 5.2 reads past the end: a crash, or a mesh of whatever lies there");
+    HardCase row("A PLY whose faces use vertices that do not exist: 3, -1, 2000000000 of 3");
+    row.naive("assimp 5.2 reads past the end: a crash, or a garbage mesh");
     const TemporaryFolder folder;
     EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 2")), "");
     EXPECT_EQ(refusal(folder, "a.ply", ply(1, "3 0 1 3")), "PLY face 0 uses vertex 3, but there are only 3");
@@ -46,7 +46,7 @@ TEST(Geometry, PlyFacesOfVerticesThatAreNot)
 
 TEST(Geometry, PlyThatEndsEarly)
 {
-    HardCase row("A PLY with fewer faces, corners or bytes than its header promises, cut at every byte");
+    HardCase row("A PLY with fewer faces, corners or bytes than its header promises, truncated at every byte");
     row.naive("assimp 5.2 repeats the last face, or crashes");
     const TemporaryFolder folder;
     EXPECT_EQ(refusal(folder, "a.ply", ply(2, "3 0 1 2")), "PLY ends before face 1 of 2");
@@ -61,8 +61,8 @@ TEST(Geometry, PlyThatEndsEarly)
 
 TEST(Geometry, PlyOfMoreThanVerticesAndFaces)
 {
-    HardCase row("A PLY with a camera before its vertices and edges behind them, and with blank lines");
-    row.naive("assimp 5.2 takes the camera for a vertex, waits for ever, or shifts the faces by the blank lines");
+    HardCase row("A PLY with a camera before the vertices, edges after them, and blank lines");
+    row.naive("assimp 5.2 takes the camera for a vertex, hangs, or shifts the faces by the blank lines");
     const TemporaryFolder folder;
     for (const char* format : { "ascii", "binary_little_endian", "binary_big_endian" }) {
         const bool is_ascii = format == std::string("ascii");
@@ -88,14 +88,14 @@ TEST(Geometry, PlyOfMoreThanVerticesAndFaces)
         mesh.positions[0].x += 1;
         EXPECT_NE(mesh_hash(mesh), mesh_hash(expected)) << "a hash that sees nothing";
     }
-    row.ours("bit for bit the mesh of the file without them");
+    row.ours("the same mesh, bit for bit, as without them");
 }
 
 TEST(Geometry, VerticesBeyondFloat)
 {
     HardCase row("A vertex at NaN, infinity or 1e39, in an OBJ and a PLY");
     EXPECT_TRUE(std::isinf(float(1e39 * std::ldexp(1.0, 0))));
-    row.naive("bounds of NaN or infinity: an empty map, or a black one");
+    row.naive("bounds of NaN or infinity: an empty or black map");
     const TemporaryFolder folder;
     for (const auto& [text, told] : { std::pair("nan", "nan"), { "inf", "inf" }, { "1e39", "inf" } }) {
         const std::string says = OIIO::Strutil::fmt::format(" is not finite: (0, {}, 0)", told);
@@ -106,26 +106,26 @@ TEST(Geometry, VerticesBeyondFloat)
         bytes.replace(bytes.find("0 1 0\n3"), 5, std::string("0 ") + text + " 0");
         EXPECT_EQ(refusal(folder, "a.ply", bytes), "vertex 2 of \"\"" + says);
     }
-    row.ours("refused, the first named");
+    row.ours("refused, naming the first");
 }
 
 TEST(Geometry, IndicesOfAnObj)
 {
-    HardCase row("Faces of an OBJ that count from 0, past the end, or from behind");
-    row.naive("vertex -1, vertex 99 of 3: reads elsewhere");
+    HardCase row("OBJ faces with index 0, past the end, or negative (counted from the end)");
+    row.naive("vertex -1, vertex 99 of 3: out-of-bounds reads");
     const TemporaryFolder folder;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     EXPECT_EQ(refusal(folder, "a.obj", vertices + "f -3 -2 -1\n"), "");
     for (const char* face : { "f 0 1 2\n", "f 1 2 99\n", "f -9 1 2\n", "f 1 2 99999999999999999999\n" })
         EXPECT_EQ(refusal(folder, "a.obj", vertices + face).find("cannot read as OBJ: "), 0u) << face;
-    row.ours("counted from behind; else refused");
+    row.ours("negative indices work; the others are refused");
 }
 
 TEST(Geometry, ConcavePolygonsAnySize)
 {
-    HardCase row("An L of six corners, one polygon, of sides from 1e-30 to 1e30");
+    HardCase row("An L-shaped polygon of six corners, with sides from 1e-30 to 1e30");
     EXPECT_TRUE(std::isinf(float(1e20) * float(1e20)));
-    row.naive("areas in float are infinite, or 0: cut as if it were convex");
+    row.naive("areas in float are infinite or 0: triangulated as if it were convex");
     const TemporaryFolder folder;
     for (const double size : { 1e-30, 1e-10, 1.0, 1e10, 1e18, 1e19, 1e20, 1e30, 1e37 })
         for (int first = 0; first < 6; ++first) {
@@ -143,5 +143,5 @@ TEST(Geometry, ConcavePolygonsAnySize)
             EXPECT_EQ(mesh.triangles.size(), 4u) << size;
             EXPECT_NEAR(area, 7, 1e-5) << size << ", from corner " << first;
         }
-    row.ours("four triangles, of its area");
+    row.ours("four triangles with the right area");
 }

@@ -34,8 +34,8 @@ size_t triangles_of_gltf(const TemporaryFolder& folder, const std::string& nodes
 
 TEST(Geometry, ATreeOfAHundredThousandNodes)
 {
-    HardCase row("A glTF whose one triangle hangs from 100000 nodes, one in the other");
-    row.naive("assimp goes down by recursion: a crash at 10000 nodes");
+    HardCase row("A glTF with one triangle under 100000 nested nodes");
+    row.naive("assimp recurses: a crash at 10000 nodes");
     const TemporaryFolder folder;
     const int count = 100000;
     std::string nodes;
@@ -60,9 +60,9 @@ std::string numbers(int first, int last)
 
 TEST(Geometry, NodesUnderTwoOthers)
 {
-    HardCase row("A glTF of 40 nodes, each of which names the next twice; or of nodes in a ring");
+    HardCase row("A glTF of 40 nodes, each listing the next twice as a child; or with a cycle of nodes");
     EXPECT_GT(std::ldexp(1.0, 40), 1e12);
-    row.naive("assimp copies what is named twice: all memory");
+    row.naive("assimp duplicates them: out of memory");
     const TemporaryFolder folder;
     std::string twice;
     for (int i = 1; i < 40; ++i)
@@ -80,17 +80,16 @@ TEST(Geometry, NodesUnderTwoOthers)
                            "0" + OIIO::Strutil::repeat(",0", 1000))),
               "node instances expand to more than 1000000 nodes");
     EXPECT_EQ(refusal(folder, "a.gltf", std::string(1000000, '[')), "JSON is nested more than 1000 deep");
-    row.ours("refused, with the node");
+    row.ours("refused, naming the node");
 }
 
 TEST(Geometry, AGltfOfAMillionNodes)
 {
-    HardCase row("A glTF of a million nodes, of which one is in the scene");
-    row.naive("nlohmann-json with a callback that drops what is of no use takes the square of their number: 1 s for "
-              "100000 (measured)");
+    HardCase row("A glTF of a million nodes, only one of them in the scene");
+    row.naive("nlohmann-json with a filtering callback takes quadratic time: 1 s for 100000 (measured)");
     const TemporaryFolder folder;
     EXPECT_EQ(triangles_of_gltf(folder, R"({"mesh":0})" + OIIO::Strutil::repeat(",{}", 999999)), 1u);
-    row.ours("its one triangle");
+    row.ours("its triangle");
 }
 
 namespace {
@@ -122,9 +121,10 @@ std::string named(int next)
 
 TEST(Geometry, ColladaNodesThatNameOthers)
 {
-    HardCase row("A Collada file of 40 nodes, each of which names the next twice; of nodes in a ring; of 500000 deep");
+    HardCase row(
+        "A Collada file of 40 nodes, each instancing the next twice; with a cycle of nodes; 500000 nodes deep");
     EXPECT_GT(std::ldexp(1.0, 40), 1e12);
-    row.naive("assimp 5.2 puts each in its place: all memory, or a crash (measured)");
+    row.naive("assimp 5.2 expands them all: out of memory, or a crash (measured)");
     const TemporaryFolder folder;
     const auto twice = [](int next) { return named(next) + named(next); };
     Mesh mesh;
@@ -152,13 +152,13 @@ TEST(Geometry, ColladaNodesThatNameOthers)
     EXPECT_EQ(refusal(folder, "a.dae", in_scene("", "<node id=\"n0\" name=\"n0\"/><instance_node url=\"#n0\"/>")), "");
     EXPECT_EQ(refusal(folder, "a.dae", "<COLLADA>" + OIIO::Strutil::repeat("<node>", 500000)),
               "XML elements are nested more than 100000 deep");
-    row.ours("refused, with why");
+    row.ours("refused, with the reason");
 }
 
 TEST(Geometry, FormatsThatNobodyLooksAt)
 {
-    HardCase row("An X3D whose group is in itself; a glTF 1.0 whose nodes are in a ring; a zip archive");
-    row.naive("assimp 5.2 goes round until its stack is full: a crash, by 209 bytes (measured)");
+    HardCase row("An X3D whose group contains itself; a glTF 1.0 with a cycle of nodes; a zip archive");
+    row.naive("assimp 5.2 recurses until its stack overflows: a crash from 209 bytes (measured)");
     const TemporaryFolder folder;
     const std::string none = "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX";
     EXPECT_EQ(
@@ -170,5 +170,5 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
                               R"("nodes":{"a":{"children":["b"]},"b":{"children":["a"]}}})";
     EXPECT_EQ(refusal(folder, "a.gltf", first), "cannot read as glTF 2.0: Unsupported glTF version: 1.0");
     EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive: unpack it, and give the mesh in it");
-    row.ours("refused; README says which formats are read");
+    row.ours("refused; README lists the formats that are read");
 }
