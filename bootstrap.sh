@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# From a bare Debian 12 (bookworm) to a built and proven vmlight. Installs the packages it needs with apt-get (sudo unless
-# root) when any is missing; all else stays in build/ and demo-out/ of this folder.
+# Builds and tests vmlight on a bare Debian 12 (bookworm). Installs missing packages with apt-get (through sudo unless root);
+# everything else stays in build/ and demo-out/ of this folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 usage() {
     cat <<'END'
 usage: ./bootstrap.sh demo|test [CMAKE_ARGUMENT...]
-  demo   build the three executables, light a mesh with them, leave pictures in demo-out/
+  demo   build the three executables, light the bundled mesh with them, write pictures to demo-out/
   test   build everything and run the test suite
-Further arguments go to cmake when it configures: -DVMLIGHT_WERROR=ON
+Further arguments are passed to cmake: -DVMLIGHT_WERROR=ON
 END
 }
 
-# What builds the library, what tests it, and what shows its pictures. (assimp's CMake files want zlib's, unsaid by Debian.)
+# For the library, its tests and its pictures. (zlib is needed by assimp's CMake files, but not a dependency of its package.)
 packages=(
     ca-certificates cmake g++ ninja-build
     libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
@@ -25,7 +25,7 @@ packages=(
 
 install_packages() {
     if ! command -v apt-get >/dev/null; then
-        echo "bootstrap: no apt-get here; building with what is installed. Debian's names of what is needed: ${packages[*]}"
+        echo "bootstrap: no apt-get; building with the installed libraries. Required Debian packages: ${packages[*]}"
         return
     fi
     local missing=() package

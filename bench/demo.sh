@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Light a real mesh with a real studio, by the three executables, and make pictures of what came out.
+# Lights a bundled mesh with a bundled studio, using the three executables, and makes pictures of the results.
 #   bench/demo.sh BUILD_FOLDER OUTPUT_FOLDER
 set -euo pipefail
 [[ $# == 2 ]] || { echo "usage: $0 BUILD_FOLDER OUTPUT_FOLDER" >&2; exit 2; }
@@ -9,16 +9,16 @@ config=$(cd "$(dirname "${BASH_SOURCE[0]}")/../configs/ocio" && pwd)/config.ocio
 bin=$(cd "$1/bin" && pwd)
 mkdir -p "$2"
 out=$(cd "$2" && pwd)
-unset OCIO # vmlight's own config, whatever the studio's is
+unset OCIO # use vmlight's own config
 
 mesh=spot environment=studio_small_03 resolution=512
 angles=(0 90 180 270)
-stops=-2.2      # exposure of diffuse light: the brightest side of the cow is just below white
-studio_stops=1.5 # and of the studio itself, whose lamps are a thousand times as bright as its walls
+stops=-2.2      # exposure of the diffuse light: the brightest side of the cow is just below white
+studio_stops=1.5 # exposure of the studio, whose lamps are a thousand times as bright as its walls
 
 command -v oiiotool >/dev/null || { echo "demo: oiiotool is missing: install openimageio-tools" >&2; exit 1; }
 
-# Run a stage, and say what it took.
+# Runs a stage and prints its time.
 stage() {
     local name=$1 start=$EPOCHREALTIME
     shift
@@ -37,14 +37,14 @@ for angle in "${angles[@]}"; do
         --rotate "0,$angle,0" -o "$out/${mesh}_lit_$angle.exr" --quiet
 done
 
-# Pictures. Light goes through the ACES view of an sRGB screen, all lit textures at one exposure. A visibility map is data and goes
-# through nothing: visibility in grey, directions from [-1,1] to colours.
+# Light is shown through the ACES view of an sRGB display, all lit textures at one exposure. Visibility maps are data and are not
+# converted: visibility as grey, directions mapped from [-1,1] to colours.
 gain=$(awk -v stops=$stops 'BEGIN { print 2 ^ stops }')
 studio_gain=$(awk -v stops=$studio_stops 'BEGIN { print 2 ^ stops }')
 tool=(oiiotool --colorconfig "$config" --nosoftwareattrib)
 show=(--ociodisplay:from=ACEScg "sRGB - Display" "ACES 1.0 - SDR Video" --ch R,G,B -d uint8)
 tagged=(--attrib oiio:ColorSpace sRGB -d uint8)
-square=(--create ${resolution}x${resolution} 3) # what a map that is half as high is centred in
+square=(--create ${resolution}x${resolution} 3) # canvas to centre lat-long maps in
 middle=+0+$((resolution / 4))
 
 make_pictures() {
@@ -70,7 +70,7 @@ stage "pictures" make_pictures
 
 cat <<END
 Pictures in $out
-  contact_sheet.png       all of them: above, visibility, directions, studio, filtered studio;
-                          below, the mesh's texture lit at ${angles[*]} degrees
-  ${mesh}_lit_*.exr          the lit textures themselves, scene-linear ACEScg
+  contact_sheet.png       all of them. Top: visibility, directions, studio, filtered studio.
+                          Bottom: the texture of the mesh, lit at ${angles[*]} degrees
+  ${mesh}_lit_*.exr          the lit textures, scene-linear ACEScg
 END

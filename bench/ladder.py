@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What each shading model errs by, on six scenes under four environments, as a markdown table:
+"""The error of each shading model on six scenes under four environments, as a Markdown table:
 
     bench/ladder.py OUT_FOLDER [FLAG_OF_VMCOST ...]      (executables in $VMLIGHT_BIN or build/release/bin)
 
-Makes the scenes (bench/scenes.py), runs vmcost on each (a run that was cut short goes on where it stopped) and prints
-the mean over the environments of the relative root mean square error of each model at its knee: the fewest rays beyond
-which it gains less than 2 %, in brackets. Leaves OUT_FOLDER/SCENE/report.html, and puts the plot of the first scene,
-which is tests/data/spot.obj, into bench/.
+Makes the scenes (bench/scenes.py), runs vmcost on each (an interrupted run resumes where it stopped) and prints the
+relative RMS error of each model, the mean over the environments, at its knee: the number of rays (in brackets) beyond
+which the model gains less than 2 %. Writes OUT_FOLDER/SCENE/report.html, and the plot of the first scene,
+tests/data/spot.obj, to bench/.
 """
 import json
 import os

@@ -4,7 +4,7 @@
 
     bench/memory.py MESH [RESOLUTION]        (executables in $VMLIGHT_BIN or build/release/bin)
 
-Prints the peak of makevismap at that size and at 64x64, where all of it is libraries, the mesh and its BVH.
+Prints makevismap's peak at that size and at 64x64, where libraries, the mesh and its BVH take all of it.
 """
 import os
 import resource

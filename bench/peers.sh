@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Whole processes against whole processes, in turn: makevismap against Cycles' ambient occlusion bake, makecfem against
-# exrenvmap -b. What is not installed is left out.
+# Times whole processes: makevismap against Cycles' ambient occlusion bake, makecfem against exrenvmap -b. Programs that are not
+# installed are skipped.
 #     bench/peers.sh MESH.obj ENVIRONMENT [RESOLUTION] [THREADS]      (executables in $VMLIGHT_BIN or build/release/bin)
 set -euo pipefail
 if [ $# -lt 2 ]; then

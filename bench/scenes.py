@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Six meshes to measure shading models by, from open to closed, each with an atlas of its own:
+"""Six meshes for measuring shading models, from open to closed, each with its own atlas:
 
     bench/scenes.py OUT_FOLDER
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Build and test the working tree on another Debian: other versions of the compiler and of every library. Run by hand, as
-# root, on a Debian with debootstrap; takes some 5 GB in TMPDIR for as long as it runs.
+# Builds and tests the working tree on another Debian, with other versions of the compiler and of every library. Run it by hand,
+# as root, on a Debian with debootstrap. Needs about 5 GB in TMPDIR while it runs.
 set -euo pipefail
 
 usage() {
     cat <<'END'
 usage: tests/compat/debian.sh [SUITE]
-  SUITE   bookworm, trixie, sid, ... (default: sid), from the mirror that this machine's apt uses
-KEEP=1 in the environment keeps the system it built in, and says where.
+  SUITE   bookworm, trixie, sid, ... (default: sid), from the mirror that apt uses on this machine
+KEEP=1 in the environment keeps the chroot and prints its path.
 END
 }
 
@@ -26,11 +26,11 @@ source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 fail() { echo "debian.sh: $*" >&2; exit 1; }
 say() { echo "=== $suite: $* (${SECONDS} s)"; }
 
-((EUID == 0)) || fail "needs root, to make a root of its own"
+((EUID == 0)) || fail "must run as root: it builds in a chroot"
 command -v debootstrap >/dev/null || fail "debootstrap is missing: install debootstrap"
 mirror=$(apt-get indextargets --format '$(ORIGIN) $(LABEL) $(REPO_URI)' |
     awk '$1 == "Debian" && $2 == "Debian" && !found++ { print $3 }')
-[[ -n $mirror ]] || fail "apt knows no mirror of Debian here; has apt-get update run?"
+[[ -n $mirror ]] || fail "apt has no Debian mirror here; run apt-get update"
 
 root=$(mktemp -d "${TMPDIR:-/tmp}/vmlight-$suite.XXXXXX")
 chmod 755 "$root" # apt fetches as a user of its own

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Executables compiled for any x86-64 and for one with AVX2 and fused multiplication make the same files, bit for bit:
+# Executables built for any x86-64 and executables built for AVX2 and FMA must write the same files, bit for bit:
 #   tests/compat/instruction_sets.sh
-# The second are built in build/avx2 and need such a processor; the first are those of build/release.
+# Compares build/release with build/avx2, which it builds, and which needs a processor with AVX2.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

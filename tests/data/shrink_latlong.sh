@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Shrink a lat-long map by a whole number, keeping its light: pixels are averaged by the solid angle that they cover
-# (a plain box filter counts the row at a pole three times too much). Needs oiiotool.
+# Reduces a lat-long map by a whole factor and keeps its light: pixels are averaged with the solid angle that they cover (a plain
+# box filter weights the row at a pole three times too much). Needs oiiotool.
 #   shrink_latlong.sh IN.hdr OUT.hdr WIDTH
 set -euo pipefail
 [[ $# == 3 ]] || { echo "usage: $0 IN.hdr OUT.hdr WIDTH" >&2; exit 2; }
