@@ -64,7 +64,7 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
     for (const Environment& environment : inputs.environments)
         names.push_back(environment.name);
     return { { "mesh", scene.mesh().name },
-             { "triangles", format("{}, occluders among them", scene.triangles()) },
+             { "triangles", format("{}, occluders among them", scene.triangle_count()) },
              { "environments", OIIO::Strutil::join(names, ", ") },
              { "reference", format("{0}x{0} texels, {1} pairs of rays", params.side(), params.pairs()) },
              { "threads", format("{}", worker_count(options.threads)) },

@@ -127,8 +127,8 @@ class Tiles(Case):
         for words in vismap, one:
             self.refused(2, "udims: neither -o nor the name of an input holds <UDIM>", *words, "-o", "x.exr",
                          "--udims=1001")
-            self.refused(2, 'udims: "1001-" is not a list of tiles', *words, "-o", "x.<UDIM>.exr", "--udims=1001-")
-            self.refused(2, "udims: 1000 is no UDIM tile", *words, "-o", "x.<UDIM>.exr", "--udims=1000-1003")
+            self.refused(2, 'udims: "1001-" is not a list of UDIM tiles', *words, "-o", "x.<UDIM>.exr", "--udims=1001-")
+            self.refused(2, "udims: 1000 is not a UDIM tile", *words, "-o", "x.<UDIM>.exr", "--udims=1000-1003")
             self.refused(2, "udim: 1000 is not in [1001, 9999]", *words, "-o", "x.exr", "--udim=1000")
             self.refused(2, "only one of udim and udims", *words, "-o", "x.<UDIM>.exr", "--udim=1001", "--udims=1001")
         self.refused(2, 'vismap: "vm.<UDIM>.exr": which tile?', *light, "-o", "x.exr")

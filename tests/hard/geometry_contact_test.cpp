@@ -6,7 +6,7 @@
 #include "turned.h"
 
 #include <vmlight/trace/surface.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 
 #include <random>
 

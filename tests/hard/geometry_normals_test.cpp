@@ -5,7 +5,7 @@
 #include "scenes.h"
 
 #include <vmlight/math/sampling.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 #include <vmlight/vismap/visibility.h>
 
 using namespace vmlight;

@@ -7,7 +7,7 @@
 
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/stage/make_stage.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 
 using namespace vmlight;
 using namespace vmlight::scenes;
@@ -185,9 +185,9 @@ TEST(Uv, OutOfTheTexture)
     const BakedMap map(flat(triangles, 16, 16), {}, map_params(16, 16, 16));
     const UvReport& uv = map.report.uv;
     EXPECT_EQ(uv.outside, 5);
-    EXPECT_EQ(uv.elsewhere, 2);
+    EXPECT_EQ(uv.fully_outside, 2);
     EXPECT_EQ(uv.without_uv, 2);
-    EXPECT_EQ(uv.lost_islands, 2); // those that reach across, but too far to be drawn
+    EXPECT_EQ(uv.uncovered_islands, 2); // those that reach across, but too far to be drawn
     map.each([](const Texel& t, int, int) { EXPECT_TRUE(is_finite(t)); });
     row.ours("the part inside the texture is baked; each kind is counted, with a warning");
 }
@@ -235,10 +235,10 @@ TEST(Uv, IslandsThinnerThanATexel)
     triangles.push_back({ { { 1, 2 }, { 15, 2.2 }, { 15, 2 } } });
     const BakedMap map(flat(triangles, 16, 16), {}, map_params(16, 16, 4));
     EXPECT_EQ(map.report.uv.islands, 10);
-    EXPECT_EQ(map.report.uv.lost_islands, 5);
-    EXPECT_EQ(map.report.uv.lost_triangles, 6);
+    EXPECT_EQ(map.report.uv.uncovered_islands, 5);
+    EXPECT_EQ(map.report.uv.uncovered_triangles, 6);
     // Finer, they are all there.
-    EXPECT_EQ(BakedMap(flat(triangles, 16, 16), {}, map_params(160, 160, 1)).report.uv.lost_islands, 0);
+    EXPECT_EQ(BakedMap(flat(triangles, 16, 16), {}, map_params(160, 160, 1)).report.uv.uncovered_islands, 0);
     EXPECT_EQ(warnings_of(kSquare, 8), std::vector<std::string>());
     row.ours("a warning says how many islands cover no texel");
 }

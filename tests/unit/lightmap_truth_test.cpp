@@ -6,7 +6,7 @@
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/trace/occluder.h>
 #include <vmlight/trace/surface.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebufalgo.h>

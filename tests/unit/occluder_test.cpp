@@ -157,8 +157,9 @@ TEST(Occluder, OriginsAreOffTheSurfaceByWhatTheirNamesSay)
         const SceneFrame frame;
         const SurfacePoint point = Surface(mesh, frame).at(0, 0.3f, 0.6f);
         const V3d normal(point.geometric_normal), foot(frame.to_scene(corners[0]));
-        EXPECT_NEAR((V3d(point.origin) - foot).dot(normal), kOffset, 3e-7);
-        EXPECT_NEAR((V3d(point.near_origin) - foot).dot(normal), kNearOffset, 3e-7); // a coordinate's rounding is 6e-8
+        EXPECT_NEAR((V3d(point.origin) - foot).dot(normal), kRayOffset, 3e-7);
+        EXPECT_NEAR((V3d(point.near_origin) - foot).dot(normal), kNearRayOffset,
+                    3e-7); // a coordinate's rounding is 6e-8
     }
 }
 

@@ -49,21 +49,21 @@ TEST(Udim, TilesAreNumberedTenAcross)
 TEST(Udim, AListIsSortedAndEachTileComesOnce)
 {
     EXPECT_EQ(udims("1011,1001-1003,1002"), (std::vector<int> { 1001, 1002, 1003, 1011 }));
-    EXPECT_EQ(refusal("1001-"), "\"1001-\" is not a list of tiles such as 1001-1003,1011");
-    EXPECT_EQ(refusal("1001x"), "\"1001x\" is not a list of tiles such as 1001-1003,1011");
-    EXPECT_EQ(refusal("all"), "\"all\" is not a list of tiles such as 1001-1003,1011");
-    EXPECT_EQ(refusal(""), "\"\" is not a list of tiles such as 1001-1003,1011");
-    EXPECT_EQ(refusal("999-1001"), "999 is no UDIM tile: they are 1001 to 9999");
+    EXPECT_EQ(refusal("1001-"), "\"1001-\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(refusal("1001x"), "\"1001x\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(refusal("all"), "\"all\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(refusal(""), "\"\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(refusal("999-1001"), "999 is not a UDIM tile; expected 1001 to 9999");
 }
 
 TEST(Udim, AFilesNameSaysItsTileInItsLastPart)
 {
-    EXPECT_EQ(udim_of_name("hero.1011.lightmap"), 1011);
-    EXPECT_EQ(udim_of_name("/a.b/hero.v2.9999.lightmap"), 9999);
+    EXPECT_EQ(udim_from_name("hero.1011.lightmap"), 1011);
+    EXPECT_EQ(udim_from_name("/a.b/hero.v2.9999.lightmap"), 9999);
     for (const char* name : { "hero.lightmap", "1011.lightmap", ".1011.lightmap", "hero.1000.lightmap",
                               "hero.01011.lightmap", "hero.101a.lightmap", "hero_1011.lightmap",
                               "hero.1011.v2.lightmap", "hero.1011", "hero", "a.1011.b/hero.lightmap", "" })
-        EXPECT_EQ(udim_of_name(name), 0) << name;
+        EXPECT_EQ(udim_from_name(name), 0) << name;
 }
 
 TEST(Udim, APatternFindsTheFilesThatExist)
@@ -73,8 +73,8 @@ TEST(Udim, APatternFindsTheFilesThatExist)
                               "other.1003.exr", "hero.<UDIM>.exr" })
         folder.write(name, "x");
     const std::string pattern = folder / "hero.<UDIM>.exr";
-    EXPECT_TRUE(has_udim(pattern));
-    EXPECT_FALSE(has_udim("hero.1001.exr"));
+    EXPECT_TRUE(has_udim_pattern(pattern));
+    EXPECT_FALSE(has_udim_pattern("hero.1001.exr"));
     EXPECT_EQ(existing_udims(pattern), (std::vector<int> { 1001, 1011 }));
     EXPECT_EQ(udim_path("a.<UDIM>.exr", 1021), "a.1021.exr");
     EXPECT_TRUE(existing_udims(folder / "missing/hero.<UDIM>.exr").empty());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 
 #include <gtest/gtest.h>
 
@@ -295,7 +295,7 @@ TEST(UvRaster, TrianglesOfOtherTilesAreToldFromThoseThatReachOver)
     triangle(1e8, 4, 4); // no tile, far away
     const auto counts = [&](int udim) {
         const UvReport report = UvRaster(flat.mesh, 16, 16, udim).report();
-        return std::vector<int64_t> { report.outside, report.elsewhere, report.beyond };
+        return std::vector<int64_t> { report.outside, report.fully_outside, report.beyond_udims };
     };
     EXPECT_EQ(counts(1001), (std::vector<int64_t> { 5, 4, 2 }));
     EXPECT_EQ(counts(1002), (std::vector<int64_t> { 5, 4, 2 }));

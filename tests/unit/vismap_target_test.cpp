@@ -114,7 +114,7 @@ TEST(VismapError, ATimeIsTurnedIntoRaysAndTheirErrorIsTold)
     const Scene parts = ball_over_floor();
     auto scene = std::make_shared<BakeScene>();
     std::string error;
-    ASSERT_TRUE(scene->build(borrowed(parts.mesh), parts.occluders, 0, error)) << error;
+    ASSERT_TRUE(scene->build(non_owning(parts.mesh), parts.occluders, 0, error)) << error;
     VismapReport report;
     OIIO::ImageBuf timed, plain;
     const VismapParams params = map_params(32, 32, 77);

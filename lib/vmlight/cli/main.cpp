@@ -95,7 +95,7 @@ Exit StageMain::State::settle(int argc, const char** argv, bool& helped, std::st
         return Exit::Usage;
     if (helped)
         return Exit::Done;
-    if (line.given_recipe() && has_udim(recipe_path(line.operands[0]))) {
+    if (line.given_recipe() && has_udim_pattern(recipe_path(line.operands[0]))) {
         error = format("\"{}\": one recipe makes all tiles: <UDIM> goes into the paths within it", line.operands[0]);
         return Exit::Usage;
     }
@@ -209,7 +209,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
                 OIIO::attribute("threads", state.common.threads);
             catch_interrupts(state.line.name, int(Exit::Failed));
             exit = Exit::Failed;
-            if (!has_udim(state.output)) // else each tile's file is looked at
+            if (!has_udim_pattern(state.output)) // else each tile's file is looked at
                 error = state.output_fault();
             if (interrupted()) // which waited for the look at the folder
                 error = "interrupted";

@@ -60,7 +60,7 @@ template <class Recipe> auto UdimRun<Recipe>::inputs() const -> std::vector<Inpu
     std::vector<Input> found;
     for (const char* key : kInputs)
         for (const std::string& name : OIIO::Strutil::splits(recipe_value(m_recipe, key), "\n"))
-            if (has_udim(name))
+            if (has_udim_pattern(name))
                 found.push_back({ key, name });
     return found;
 }
@@ -72,9 +72,9 @@ template <class Recipe> std::string UdimRun<Recipe>::fault()
     const std::vector<Input> patterns = inputs();
     if (m_flag && !m_udims.empty())
         return "only one of udim and udims may be given";
-    if (!m_udims.empty() && !has_udim(output) && patterns.empty())
+    if (!m_udims.empty() && !has_udim_pattern(output) && patterns.empty())
         return "udims: neither -o nor the name of an input holds <UDIM>";
-    if (m_udims.size() > 1 && !has_udim(output))
+    if (m_udims.size() > 1 && !has_udim_pattern(output))
         return format("\"{}\": {} tiles need a name with <UDIM> for the number", output, m_udims.size());
     if (is_one() && !m_recipe.udim_given && !patterns.empty())
         return format("{}: \"{}\": which tile? --udim says one, <UDIM> in -o asks for all", patterns[0].key,
@@ -83,7 +83,7 @@ template <class Recipe> std::string UdimRun<Recipe>::fault()
     if (is_one())
         m_tiles = { udim_of(m_recipe) };
     if constexpr (std::is_same_v<Recipe, LightmapRecipe>)
-        if (m_tiles.size() != 1 && is_vismap_recipe(m_recipe.vismap) && !has_udim(m_recipe.vismap))
+        if (m_tiles.size() != 1 && is_vismap_recipe(m_recipe.vismap) && !has_udim_pattern(m_recipe.vismap))
             return format("vismap: \"{}\" is of one tile; did you mean \"{}{}udim=<UDIM>\"?", m_recipe.vismap,
                           m_recipe.vismap, m_recipe.vismap.find('?') == std::string::npos ? "?" : "&");
     if (!std::is_same_v<Recipe, VismapRecipe> && m_tiles.size() > 1 && patterns.empty())
@@ -98,7 +98,7 @@ template <class Recipe> std::string UdimRun<Recipe>::find_files()
         const std::string pattern = is_recipe ? recipe_path(input.name) : input.name;
         if (input.key == "occluder")
             continue; // the mesh tells
-        if (has_udim(pattern)) {
+        if (has_udim_pattern(pattern)) {
             m_tiles = existing_udims(pattern);
             return m_tiles.empty() ? format("{}: \"{}\": there is no such file for any tile", input.key, pattern) : "";
         }
@@ -124,7 +124,7 @@ template <class Recipe> bool UdimRun<Recipe>::find_tiles(const MakeOptions& opti
         inner.chain.push_back(name);
     else
         return false;
-    if (!has_udim(recipe.mesh))
+    if (!has_udim_pattern(recipe.mesh))
         return vismap_udims(m_tiles, recipe, inner, error);
     m_tiles = existing_udims(recipe.mesh);
     if (m_tiles.empty())

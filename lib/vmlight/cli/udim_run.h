@@ -40,7 +40,7 @@ private:
         std::string key, name;
     };
     std::vector<Input> inputs() const;
-    bool is_one() const { return m_udims.empty() && (m_recipe.udim_given || !has_udim(m_stage.output())); }
+    bool is_one() const { return m_udims.empty() && (m_recipe.udim_given || !has_udim_pattern(m_stage.output())); }
     std::string fault();
     std::string find_files();
     bool find_tiles(const MakeOptions& options, std::string& error);

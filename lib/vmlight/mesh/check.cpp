@@ -10,7 +10,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-std::string fault_of(const Mesh& mesh)
+std::string find_error(const Mesh& mesh)
 {
     const size_t count = mesh.positions.size();
     if (mesh.normals.size() != count)
@@ -20,7 +20,7 @@ std::string fault_of(const Mesh& mesh)
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
         for (uint32_t vertex : mesh.triangles[t]) {
             if (vertex >= count)
-                return format("triangle {} has vertex {}, of {}", t, vertex, count);
+                return format("triangle {} uses vertex {}, but there are only {}", t, vertex, count);
             const Imath::V3d& p = mesh.positions[vertex];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
                 return format("vertex {} is not finite: ({}, {}, {})", vertex, p.x, p.y, p.z);
@@ -32,10 +32,10 @@ std::string fault_of(const Mesh& mesh)
 
 bool check_mesh(const Mesh& mesh, std::string& error)
 {
-    const std::string fault = fault_of(mesh);
-    if (!fault.empty())
-        error = format("\"{}\": {}", mesh.path.empty() ? mesh.name : mesh.path, fault);
-    return fault.empty();
+    const std::string reason = find_error(mesh);
+    if (!reason.empty())
+        error = format("\"{}\": {}", mesh.path.empty() ? mesh.name : mesh.path, reason);
+    return reason.empty();
 }
 
 } // namespace vmlight

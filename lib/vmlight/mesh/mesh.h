@@ -14,71 +14,75 @@
 
 namespace vmlight {
 
-/// Triangles in object space (the file's own: right-handed, y up), counter-clockwise seen from outside.
-/// Every vertex has a position and a unit normal; vertices that the file gave no texture coordinates have NaN in `uvs`,
-/// and if none has any, `uvs` is empty.
+/// Triangles in object space (the file's own, right-handed, y up), counter-clockwise seen from outside. Every vertex
+/// has a position and a unit normal. Vertices without texture coordinates have NaN in `uvs`; if none has any, `uvs` is
+/// empty.
 struct Mesh
 {
     /// File name without its folder.
     std::string name;
-    /// The file as it was asked for, or "": for messages.
+    /// The path that the mesh was read from, for messages, or "".
     std::string path;
-    /// Double, because meshes far from the origin lose their shape in float; see read_mesh().
+    /// In double: meshes far from the origin lose their shape in float. See read_mesh().
     std::vector<Imath::V3d> positions;
-    /// Are the positions as the file has them, and not through float?
+    /// The positions are the file's own, without rounding to float.
     bool has_exact_positions = false;
     std::vector<Imath::V3f> normals;
-    /// v up: v = 0 is the bottom of the texture, whatever the file's own rule.
+    /// v = 0 is the bottom of the texture, whatever the file's convention.
     std::vector<Imath::V2f> uvs;
     std::vector<std::array<uint32_t, 3>> triangles;
-    /// One a triangle: the file's material index.
+    /// The file's material index of each triangle.
     std::vector<uint32_t> materials;
 };
 
 struct MeshParams
 {
-    /// `file` uses the normals of the file, and makes smooth ones where it has none.
+    /// `file` keeps the file's normals and computes smooth ones where they are missing; `smooth` and `flat` compute
+    /// all.
     std::string normals = "file";
-    /// Edges sharper than this, in degrees between the face normals, stay sharp under smooth normals.
+    /// Smooth normals keep edges hard whose face normals differ by more than this, in degrees.
     double crease_angle = 180;
+    /// 0 is the first UV set.
     int uv_set = 0;
-    /// `file` believes the file's axis metadata, where it has any, and else takes y as up.
+    /// `file` follows the file's axis metadata; y is up in files without any.
     std::string up = "file";
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("normals", normals, Choices { { "file", "smooth", "flat" } }, "Vertex normals: the file's own, or made");
+        field("normals", normals, Choices { { "file", "smooth", "flat" } },
+              "Vertex normals: file (from the mesh file, smooth where missing), smooth or flat");
         field("crease_angle", crease_angle, Range { 0, 180 },
-              "Smooth normals keep edges sharper than this many degrees");
-        field("uv_set", uv_set, Range { 0, 7 }, "Which set of texture coordinates");
-        field("up", up, Choices { { "file", "y", "z" } }, "The mesh's up axis; z is turned to y");
+              "Keep edges sharper than this hard in smooth normals, in degrees");
+        field("uv_set", uv_set, Range { 0, 7 }, "UV set to bake; 0 is the first");
+        field("up", up, Choices { { "file", "y", "z" } },
+              "Up axis: file (from the file's metadata, else y), y or z; z-up meshes are rotated to y-up");
     }
 };
 
-/// Is the mesh one that can be baked or cast? False, with the reason in `error`, if a triangle has a vertex that is not
-/// there or not finite (the first is named), or if there are not as many normals, or uvs, if any, as positions.
+/// Can the mesh be baked, or occlude? False, with the reason in `error`, if a triangle uses a vertex that does not
+/// exist or is not finite (the first is named), or if the counts of positions, normals and uvs (if any) differ.
 VMLIGHT_API bool check_mesh(const Mesh& mesh, std::string& error);
 
-/// Give `mesh` one normal a triangle. Splits vertices as needed.
+/// Give each triangle of `mesh` one normal. Splits vertices as needed.
 VMLIGHT_API void make_flat_normals(Mesh& mesh);
 
-/// Give `mesh` smooth normals: angle-weighted over all triangles that share a position (equal bit for bit) and meet at
-/// no more than `crease_angle` degrees. Splits vertices as needed. A vertex that only triangles without area use gets
-/// the zero vector.
+/// Give `mesh` smooth normals: angle-weighted over all triangles that share a position (equal bit for bit) and whose
+/// normals differ by at most `crease_angle` degrees. Splits vertices as needed. Vertices that only triangles without
+/// area use get the zero vector.
 /// Source: G. Thuermer, C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998.
 VMLIGHT_API void make_smooth_normals(Mesh& mesh, double crease_angle);
 
-/// As make_smooth_normals(), for the vertices whose normal is zero only.
+/// As make_smooth_normals(), but only for vertices whose normal is zero.
 VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle);
 
-/// Merge vertices whose position, normal and uv agree bit for bit; order of first use.
+/// Merge vertices whose position, normal and uv agree bit for bit, and order them by first use.
 VMLIGHT_API void merge_equal_vertices(Mesh& mesh);
 
-/// 64 bits over positions, normals, uvs and triangles, as 16 hexadecimal digits: equal meshes have equal hashes on
-/// every little-endian machine.
+/// A 64-bit hash of positions, normals, uvs and triangles, as 16 hexadecimal digits. The same on every little-endian
+/// machine.
 VMLIGHT_API std::string mesh_hash(const Mesh& mesh);
 
-/// Normal of a triangle times twice its area; zero if it has none.
+/// The normal of a triangle times twice its area; zero for a triangle without area.
 inline Imath::V3d triangle_area_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
 {
     const Imath::V3d& a = mesh.positions[triangle[0]];

@@ -19,17 +19,17 @@ struct Vertex
     V3d position;
     V3f normal;
     V2f uv;
-    float padding = 0; // named, so that all bytes of a key are known
+    float padding = 0; // initialised: all bytes of a key are compared
 };
 static_assert(sizeof(Vertex) == 48);
 
-// Rebuild the vertices: corner_normal(t, triangle, k) is the normal of corner k of triangle t.
+// Rebuild the vertices from corners: corner_normal(t, triangle, k) is the normal of corner k of triangle t.
 template <class CornerNormal> void rebuild(Mesh& mesh, const CornerNormal& corner_normal)
 {
     Numbering<Vertex> vertices(mesh.triangles.size() * 3);
     const bool has_uvs = !mesh.uvs.empty();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() looks at all three
+        const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() needs all three
         for (int k = 0; k < 3; ++k) {
             const uint32_t v = old[k];
             const Vertex vertex { mesh.positions[v], corner_normal(t, old, k), has_uvs ? mesh.uvs[v] : V2f(0) };
@@ -60,14 +60,14 @@ struct Corner
 };
 
 /// The corners at each position, and the unit normal of each triangle (zero without area).
-struct Fans
+struct TriangleFans
 {
     std::vector<V3f> triangle_normals;
     std::vector<uint32_t> position_of_vertex;
-    std::vector<uint32_t> first_corner; // of position p: first_corner[p] .. first_corner[p + 1]
+    std::vector<uint32_t> first_corner; // position p has corners first_corner[p] .. first_corner[p + 1]
     std::vector<Corner> corners;
 
-    explicit Fans(const Mesh& mesh)
+    explicit TriangleFans(const Mesh& mesh)
     {
         Numbering<V3d> positions(mesh.positions.size());
         for (const V3d& p : mesh.positions)
@@ -103,13 +103,13 @@ struct Fans
         for (uint32_t c = first_corner[position]; c < first_corner[position + 1]; ++c) {
             const V3f& other = triangle_normals[corners[c].triangle];
             const bool joins = crease_angle >= 180 || corners[c].triangle == triangle || own.length2() == 0
-                || own.dot(other) >= least_cosine - 1e-6; // a unit dot product's rounding
+                || own.dot(other) >= least_cosine - 1e-6; // rounding of a dot product of unit vectors
             if (joins) {
                 sum += V3d(other) * corners[c].angle;
                 weight += corners[c].angle;
             }
         }
-        // Faces back to back cancel: what is left of the sum is rounding, and the triangle's own normal is right.
+        // Faces back to back cancel out to rounding noise: use the triangle's own normal.
         return sum.length() > 1e-6 * weight ? V3f(sum.normalized()) : own;
     }
 };
@@ -135,7 +135,7 @@ void fill_missing_normals(Mesh& mesh, double crease_angle)
         merge_equal_vertices(mesh);
         return;
     }
-    const Fans fans(mesh);
+    const TriangleFans fans(mesh);
     rebuild(mesh, [&](size_t t, const auto& triangle, int k) {
         const uint32_t vertex = triangle[k];
         const V3f& normal = mesh.normals[vertex];

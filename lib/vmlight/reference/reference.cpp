@@ -8,7 +8,7 @@
 #include <vmlight/math/sampling.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/surface.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -154,7 +154,7 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
 {
     std::string error;
     BakeScene scene;
-    return scene.build(borrowed(mesh), occluders, nthreads, error)
+    return scene.build(non_owning(mesh), occluders, nthreads, error)
         ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
         : fail(dst, error);
 }
@@ -198,7 +198,7 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
             const int x = left + i % kTileSize, y = top + i / kTileSize;
             SurfacePoint point = worker.surface.at(worker.cover.triangle[size_t(i)], worker.cover.weight1[size_t(i)],
                                                    worker.cover.weight2[size_t(i)]);
-            settle_origins(&point, 1, scene.occluder());
+            adjust_ray_origins(&point, 1, scene.occluder());
             const Moments moments = worker.tracer.trace(point, Random(x, y, params.seed), params.samples);
             const double above = 0.5 * (1 + double(point.normal.dot(point.geometric_normal)));
             float* texel = pixels + (size_t(y) * size_t(width) + size_t(x)) * kChannels;

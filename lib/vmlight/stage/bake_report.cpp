@@ -22,31 +22,32 @@ double percent(int64_t part, int64_t whole)
 void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
 {
     const auto warn = [&](const std::string& line) { options.warn ? options.warn(line) : void(); };
-    const int64_t across = uv.outside - uv.elsewhere;
+    const int64_t across = uv.outside - uv.fully_outside;
     if (!recipe.udim_given && uv.outside > 0)
         warn(format("{} of {} {} out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
                     counted(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
-                    uv.outside > uv.beyond ? "; it is in other UDIM tiles, see udim" : ""));
+                    uv.outside > uv.beyond_udims ? "; it is in other UDIM tiles, see udim" : ""));
     if (recipe.udim_given && across > 0)
         warn(format("{} of {} {} out of tile {} in uv: what lies outside is not in its map", across,
                     counted(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
                     recipe.vismap_params.udim));
-    if (recipe.udim_given && uv.beyond > 0 && !options.again)
+    if (recipe.udim_given && uv.beyond_udims > 0 && !options.again)
         warn(format("{} of {} {} out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies there is not "
                     "baked",
-                    uv.beyond, counted(uv.triangles, "triangle", "triangles"), plural(uv.beyond, "reaches", "reach")));
+                    uv.beyond_udims, counted(uv.triangles, "triangle", "triangles"),
+                    plural(uv.beyond_udims, "reaches", "reach")));
 }
 
 // What is not baked although its triangles are in the tile, and what is baked from too far away.
 void report_lost(const MakeOptions& options, const VismapReport& report)
 {
     const UvReport& uv = report.uv;
-    if (uv.lost_islands > 0 && options.warn)
+    if (uv.uncovered_islands > 0 && options.warn)
         options.warn(
             format("{} of {} in uv ({}) {} no texel: {} thinner than one, without area or too far out, and not baked",
-                   uv.lost_islands, counted(uv.islands, "island", "islands"),
-                   counted(uv.lost_triangles, "triangle", "triangles"), plural(uv.lost_islands, "covers", "cover"),
-                   plural(uv.lost_islands, "it is", "they are")));
+                   uv.uncovered_islands, counted(uv.islands, "island", "islands"),
+                   counted(uv.uncovered_triangles, "triangle", "triangles"),
+                   plural(uv.uncovered_islands, "covers", "cover"), plural(uv.uncovered_islands, "it is", "they are")));
     if (report.tiny > 0 && options.warn && !options.again)
         options.warn(format("{} of {} {} smaller than 4e-6 of the mesh: what lies as near to {} as that is not seen",
                             report.tiny, counted(uv.triangles, "triangle", "triangles"),
@@ -88,8 +89,8 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         "{} without area in uv, {} in space, {} without uv",
         uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
         percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-        plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside - uv.elsewhere, tile, uv.elsewhere,
-        uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
+        plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside - uv.fully_outside, tile,
+        uv.fully_outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
     say(format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
                double(report.rays) * 1e-6, report.bake_seconds,
                double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,

@@ -12,7 +12,7 @@
 namespace vmlight {
 namespace {
 
-// Embree leaves out, without a word, what is farther away than 1.8e18.
+// Embree silently ignores geometry farther away than 1.8e18.
 constexpr double kFarthestCaster = 1e18;
 
 bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
@@ -22,10 +22,9 @@ bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
             const double reach = ((mesh.positions[vertex] - frame.centre) * frame.scale).length();
             if (reach <= kFarthestCaster)
                 continue;
-            error
-                = OIIO::Strutil::fmt::format("\"{}\": vertex {} is {:.2g} times as far away as the baked mesh is "
-                                             "large; at most {:g} can be traced",
-                                             mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
+            error = OIIO::Strutil::fmt::format(
+                "\"{}\": vertex {} is {:.2g} times the size of the baked mesh away; rays reach {:g} times at most",
+                mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
             return false;
         }
     return true;
@@ -42,7 +41,7 @@ int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
     return count;
 }
 
-// What rounding to float leaves of the mesh's shape. 0 if its coordinates are more than floats.
+// How far rounding to float moves the mesh's vertices, relative to its size. 0 if coordinates are more than floats.
 double rounding_of(const Mesh& mesh, const SceneFrame& frame)
 {
     if (mesh.has_exact_positions)
@@ -71,7 +70,8 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
         return false;
     }
     if (mesh->uvs.empty()) {
-        error = format("\"{}\": no texture coordinates: unwrap the mesh first, or choose another set of them", path);
+        error
+            = format("\"{}\": no texture coordinates in this UV set: unwrap the mesh, or choose another uv_set", path);
         return false;
     }
     std::vector<const Mesh*> casters { mesh.get() };
@@ -99,7 +99,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
 
 size_t BakeScene::bytes() const
 {
-    // The ray tracer takes about 100 bytes a triangle.
+    // Embree needs about 100 bytes per triangle.
     return 100 * size_t(m_triangles) + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What maps of one mesh share: the mesh, and the ray tracer's scene of it and of what casts on it.
+/// The ray-tracing scene of a bake: the baked mesh and its occluders.
 #pragma once
 
 #include <vmlight/base/file_stamp.h>
@@ -14,32 +14,33 @@
 
 namespace vmlight {
 
-/// Built once, then baked from by any number of bakers: neither UDIM tile nor resolution, samples or seed matter to it.
+/// Built once and shared by all maps of a mesh, whatever their UDIM tile, resolution, samples and seed. Thread-safe
+/// after build().
 class BakeScene
 {
 public:
-    /// @param mesh     kept; `occluders` are not
-    /// @returns false, with the reason in `error`, if the mesh has no triangle or no uvs, one of the meshes fails
-    ///          check_mesh() or reaches farther than the ray tracer does, or memory runs out
+    /// @param mesh     kept alive; `occluders` are not
+    /// @returns false, with the reason in `error`, if the mesh has no triangles or no uvs, a mesh fails check_mesh() or
+    ///          is too far away to be traced, or memory runs out
     bool build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads, std::string& error);
 
     // After build().
     const Mesh& mesh() const { return *m_mesh; }
     const SceneFrame& frame() const { return m_frame; }
     const Occluder& occluder() const { return m_occluder; }
-    /// mesh_hash() of the mesh, and of each occluder, parted by commas.
+    /// mesh_hash() of the mesh, and of each occluder, separated by commas.
     const std::string& mesh_hash() const { return m_mesh_hash; }
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
-    /// Triangles of the mesh and of all occluders.
-    int64_t triangles() const { return m_triangles; }
+    /// Triangles of the mesh and all occluders.
+    int64_t triangle_count() const { return m_triangles; }
     /// Triangles of the mesh that are smaller than kTinyTriangle.
-    int64_t tiny() const { return m_tiny; }
-    /// As VismapReport::rounding.
+    int64_t tiny_triangles() const { return m_tiny; }
+    /// See VismapReport::rounding.
     double rounding() const { return m_rounding; }
-    /// Memory held, about.
+    /// Approximate memory use.
     size_t bytes() const;
 
-    /// What the caller read to build it, kept here for those who share it.
+    /// The files that the caller read to build the scene, for those who share it.
     std::vector<FileStamp> files;
 
 private:
@@ -51,8 +52,8 @@ private:
     double m_rounding = 0;
 };
 
-/// A pointer to `mesh`, which must outlive what takes it.
-inline std::shared_ptr<const Mesh> borrowed(const Mesh& mesh)
+/// A non-owning pointer to `mesh`, which must outlive it.
+inline std::shared_ptr<const Mesh> non_owning(const Mesh& mesh)
 {
     return std::shared_ptr<const Mesh>(std::shared_ptr<const Mesh>(), &mesh);
 }

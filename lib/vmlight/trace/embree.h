@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The only place that includes Embree, and where versions 3 and 4 differ. Not installed.
+/// The only header that includes Embree, and the differences of versions 3 and 4.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -15,14 +15,14 @@
 namespace vmlight::embree {
 
 #if RTC_VERSION_MAJOR >= 4
-/// Needed by a scene whose queries bring a filter.
+/// Required by a scene whose queries have a filter.
 constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 
-/// What a query carries besides its rays; rays share nothing, so the traversal is told not to expect coherence.
+/// The arguments of a query besides its rays, which are marked incoherent.
 class Query
 {
 public:
-    /// @param filter   is asked about each meeting that would block a ray; nullptr lets all block
+    /// @param filter   called for each hit, which it can reject; nullptr accepts all
     explicit Query(RTCFilterFunctionN filter = nullptr)
     {
         rtcInitOccludedArguments(&m_arguments);
@@ -55,8 +55,8 @@ private:
 };
 #endif
 
-/// Denormals count as zero while this lives, as Embree advises; the thread's own setting comes back with its end, so
-/// that a host never sees the difference. Processors other than x86 stay as they are set.
+/// Flushes denormals to zero during its lifetime, as Embree recommends, then restores the thread's own setting, so that
+/// hosts never see a difference. No effect on CPUs other than x86.
 class FlushDenormals
 {
 #if defined(__SSE__)
@@ -75,7 +75,7 @@ private:
     unsigned m_saved;
 #else
 public:
-    FlushDenormals() { } // not defaulted: an object of this class is no unused variable
+    FlushDenormals() { } // not defaulted: avoids warnings of unused variables
 #endif
 };
 

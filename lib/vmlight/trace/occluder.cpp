@@ -40,15 +40,15 @@ SceneFrame SceneFrame::around(const Mesh& mesh)
 
 namespace {
 
-// What Embree has of a mesh.
+// Embree's buffers of a mesh.
 struct Buffers
 {
     const V3f* vertices;
     const std::array<uint32_t, 3>* triangles;
 };
 
-// Of each meeting that Embree's floats report: does it lie ahead of the ray's origin? In double, from the same floats.
-void keep_what_lies_ahead(const RTCFilterFunctionNArguments* arguments)
+// Embree's filter of hits: keep those ahead of the ray's origin, computed in double from the same floats.
+void reject_hits_behind_origin(const RTCFilterFunctionNArguments* arguments)
 {
     const Buffers& buffers = *static_cast<const Buffers*>(arguments->geometryUserPtr);
     RTCRayN* ray = arguments->ray;
@@ -66,7 +66,7 @@ void keep_what_lies_ahead(const RTCFilterFunctionNArguments* arguments)
     }
 }
 
-// All but its origin, direction and length.
+// Set all of a ray but its origin, direction and length.
 void prepare_lane(RTCRay8& rays, int lane)
 {
     rays.tnear[lane] = 0;
@@ -78,13 +78,13 @@ void prepare_lane(RTCRay8& rays, int lane)
 
 } // namespace
 
-struct Occluder::Scene
+struct Occluder::EmbreeScene
 {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::deque<Buffers> buffers; // stays where it is as it grows
+    std::deque<Buffers> buffers; // Embree keeps pointers to its elements
 
-    ~Scene()
+    ~EmbreeScene()
     {
         if (scene)
             rtcReleaseScene(scene);
@@ -95,10 +95,10 @@ struct Occluder::Scene
     bool attach(const Mesh& mesh, const SceneFrame& frame);
 };
 
-bool Occluder::Scene::attach(const Mesh& mesh, const SceneFrame& frame)
+bool Occluder::EmbreeScene::attach(const Mesh& mesh, const SceneFrame& frame)
 {
     if (mesh.triangles.empty())
-        return true; // Embree takes no empty buffer
+        return true; // Embree refuses empty buffers
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f),
                                              mesh.positions.size());
@@ -123,8 +123,8 @@ Occluder::~Occluder() = default;
 
 bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error)
 {
-    auto scene = std::make_unique<Scene>();
-    // A number of threads binds all that the process does by TBB, for good: only where the user gave one.
+    auto scene = std::make_unique<EmbreeScene>();
+    // A thread count limits all of the process's TBB work for good: set it only if the user did.
     const std::string threads = nthreads > 0 ? OIIO::Strutil::fmt::format("threads={},", nthreads) : "";
     scene->device = rtcNewDevice((threads + "set_affinity=0").c_str());
     bool good = scene->device != nullptr;
@@ -137,7 +137,7 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
         good = good && rtcGetDeviceError(scene->device) == RTC_ERROR_NONE;
     }
     if (!good) {
-        error = "the ray tracer cannot hold the mesh: out of memory, or no usable processor";
+        error = "Embree cannot build the ray-tracing scene: out of memory, or the CPU is not supported";
         return false;
     }
     m_scene = std::move(scene);
@@ -147,7 +147,7 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
 void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool is_near) const
 {
     const embree::FlushDenormals flush;
-    embree::Query query(is_near ? keep_what_lies_ahead : nullptr);
+    embree::Query query(is_near ? reject_hits_behind_origin : nullptr);
     RTCRay8 rays;
     for (int lane = 0; lane < kPacketSize; ++lane) {
         rays.org_x[lane] = origin.x;
@@ -179,7 +179,7 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
 uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length) const
 {
     const embree::FlushDenormals flush;
-    embree::Query query(keep_what_lies_ahead);
+    embree::Query query(reject_hits_behind_origin);
     RTCRay8 rays;
     alignas(32) int valid[kPacketSize];
     for (int lane = 0; lane < kPacketSize; ++lane) {

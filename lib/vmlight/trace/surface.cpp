@@ -9,14 +9,14 @@ namespace vmlight {
 using Imath::V3d;
 using Imath::V3f;
 
-void settle_origins(SurfacePoint* points, int count, const Occluder& occluder)
+void adjust_ray_origins(SurfacePoint* points, int count, const Occluder& occluder)
 {
     std::array<V3f, kPacketSize> origins, directions;
-    for (int i = 0; i < kPacketSize; ++i) { // lanes that are not asked about hold numbers too
+    for (int i = 0; i < kPacketSize; ++i) { // unused lanes must hold valid numbers too
         origins[size_t(i)] = points[std::min(i, count - 1)].near_origin;
         directions[size_t(i)] = points[std::min(i, count - 1)].geometric_normal;
     }
-    const uint8_t close = occluder.find_blocked(origins.data(), directions.data(), count, float(2 * kOffset));
+    const uint8_t close = occluder.find_blocked(origins.data(), directions.data(), count, float(2 * kRayOffset));
     for (int i = 0; i < count; ++i)
         if (close >> i & 1) {
             points[i].origin = points[i].near_origin;
@@ -27,7 +27,7 @@ void settle_origins(SurfacePoint* points, int count, const Occluder& occluder)
 SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
 {
     if (triangle != m_triangle)
-        take(triangle);
+        load_triangle(triangle);
     std::array<double, 3> weight { 1.0 - double(weight1) - double(weight2), weight1, weight2 };
     double total = 0;
     for (int k = 0; k < 3; ++k)
@@ -40,27 +40,27 @@ SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
     SurfacePoint point;
     point.geometric_normal = V3f(m_normal);
     point.normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
-    point.origin = V3f(position + m_normal * kOffset);
-    point.near_origin = V3f(position + m_normal * kNearOffset);
+    point.origin = V3f(position + m_normal * kRayOffset);
+    point.near_origin = V3f(position + m_normal * kNearRayOffset);
     return point;
 }
 
-void Surface::take(uint32_t triangle)
+void Surface::load_triangle(uint32_t triangle)
 {
     m_triangle = triangle;
     const auto& corners = m_mesh.triangles[triangle];
     V3d shading(0);
     for (int k = 0; k < 3; ++k) {
-        // From the same floats that are traced, so that the point lies in the plane of the traced triangle.
+        // The floats that are traced: the point must be in the plane of the traced triangle.
         m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
         const V3d normal(m_mesh.normals[corners[k]]);
         m_corner_normal[k] = std::isfinite(normal.length2()) ? normal : V3d(0);
         shading += m_corner_normal[k];
     }
     const double area = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]).length();
-    // Of the mesh itself: the floats of a sliver may lean anywhere.
+    // In double: the normal of a sliver rounded to floats may point anywhere.
     const V3d area_normal = triangle_area_normal(m_mesh, corners);
-    // Which side is outside is the normals' word, not the winding's: files disagree on winding far more often.
+    // Vertex normals decide which side is outside, not the winding, which is wrong in files far more often.
     m_normal = area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
     for (int k = 0; k < 3; ++k) {
         const double edge = (m_corner[(k + 1) % 3] - m_corner[(k + 2) % 3]).length();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Points of a mesh's surface that rays can start from.
+/// Points on a mesh's surface to trace rays from.
 #pragma once
 
 #include <vmlight/mesh/mesh.h>
@@ -10,32 +10,33 @@
 
 namespace vmlight {
 
-/// How far off the surface rays start, in units of a SceneFrame, in which the baked mesh fills [-1, 1] whatever its own
-/// units: 256 times the rounding of its coordinates, so that no ray meets the surface it comes from.
-constexpr double kOffset = 1.0 / (1 << 16);
-/// The same where something lies as near as that: 8 times the rounding, half of the least gap through which surfaces
-/// are told apart. Embree's floats may put it on the wrong side of a sliver: Occluder::clear_blocked() must be told.
-constexpr double kNearOffset = 1.0 / (1 << 21);
-/// How far from the edges of a triangle they start.
+/// Distance of ray origins from the surface, in units of SceneFrame, where the baked mesh fills [-1, 1]: 256 times the
+/// rounding of coordinates, so that no ray hits the surface it starts from.
+constexpr double kRayOffset = 1.0 / (1 << 16);
+/// The same where another surface is that near: 8 times the rounding, half of the smallest gap between surfaces that is
+/// resolved. Embree's floats may put it on the wrong side of a sliver: pass `is_near` to Occluder::clear_blocked().
+constexpr double kNearRayOffset = 1.0 / (1 << 21);
+/// Least distance of ray origins from the edges of their triangle.
 constexpr double kEdgeOffset = 1.0 / (1 << 14);
-/// Triangles with no side as long as this are points to what is traced from them.
-constexpr double kTinyTriangle = 8 * kNearOffset;
+/// Triangles whose sides are all shorter than this are too small to be resolved by rays that start nearby.
+constexpr double kTinyTriangle = 8 * kNearRayOffset;
 
 /// A point to bake, in scene space.
 struct SurfacePoint
 {
-    Imath::V3f origin; ///< where rays start: kOffset off the surface, until settle_origins() says otherwise
-    Imath::V3f near_origin; ///< kNearOffset off it
+    Imath::V3f origin; ///< where rays start: kRayOffset off the surface, until adjust_ray_origins() says otherwise
+    Imath::V3f near_origin; ///< kNearRayOffset off it
     Imath::V3f normal; ///< the interpolated normal, of unit length
     Imath::V3f geometric_normal; ///< the triangle's, on the side of its corner normals
-    bool is_near = false; ///< of `origin`: for Occluder::clear_blocked()
+    bool is_near = false; ///< `origin` is near_origin: for Occluder::clear_blocked()
 };
 
-/// Have rays start nearer to those of `count` points, at most kPacketSize, above which something lies within twice
-/// kOffset. One ray each, all asked about at once; each point's answer is its own.
-void settle_origins(SurfacePoint* points, int count, const Occluder& occluder);
+/// Move the origins of those points to near_origin that have another surface within twice kRayOffset above them. Traces
+/// one ray per point. Points do not depend on each other.
+/// @param count    at most kPacketSize
+void adjust_ray_origins(SurfacePoint* points, int count, const Occluder& occluder);
 
-/// A mesh in a scene frame. Keeps what it worked out for the last triangle: one to a thread.
+/// The surface of a mesh in a SceneFrame. Caches the last triangle: use one per thread.
 class Surface
 {
 public:
@@ -45,15 +46,14 @@ public:
     {
     }
 
-    /// The point with these weights of the triangle's second and third corners.
-    /// The normal is the interpolated one, or the triangle's where those of the corners cancel or lean under it.
-    /// The position is kept off the triangle's edges by kEdgeOffset (a quarter of a small triangle's height): rays
-    /// from an edge could slip behind a neighbour that meets it at a sharp angle.
-    /// Not checked: that the triangle has an area.
+    /// The point with these barycentric weights of the triangle's second and third corners. Its normal is interpolated,
+    /// or the triangle's where the corners' normals cancel or point below the surface. Its position is kept off the
+    /// triangle's edges by kEdgeOffset (or a quarter of a small triangle's height): rays from an edge could slip behind
+    /// a neighbour at a sharp angle. Not checked: that the triangle has area.
     SurfacePoint at(uint32_t triangle, float weight1, float weight2);
 
 private:
-    void take(uint32_t triangle);
+    void load_triangle(uint32_t triangle);
 
     const Mesh& m_mesh;
     const SceneFrame& m_frame;

@@ -8,12 +8,12 @@
 namespace vmlight {
 namespace {
 
-/// Sets of numbers, each told by one of them. Source: R. Tarjan, "Efficiency of a Good But Not Linear Set Union
-/// Algorithm", JACM 22(2), 1975; with paths halved.
-class Sets
+/// Disjoint sets of numbers, each identified by one of them. Source: R. Tarjan, "Efficiency of a Good But Not Linear
+/// Set Union Algorithm", JACM 22(2), 1975; with path halving.
+class DisjointSets
 {
 public:
-    explicit Sets(size_t count)
+    explicit DisjointSets(size_t count)
         : m_parent(count)
     {
         std::iota(m_parent.begin(), m_parent.end(), 0u);
@@ -40,30 +40,30 @@ struct Island
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    Numbering<Imath::V2f> places(mesh.uvs.size());
-    std::vector<uint32_t> place_of_vertex;
+    Numbering<Imath::V2f> points(mesh.uvs.size());
+    std::vector<uint32_t> point_of_vertex;
     for (const Imath::V2f& uv : mesh.uvs)
-        place_of_vertex.push_back(places.number(uv + Imath::V2f(0))); // -0 becomes 0
-    Sets sets(places.keys().size());
-    std::vector<uint32_t> here;
+        point_of_vertex.push_back(points.number(uv + Imath::V2f(0))); // -0 becomes 0
+    DisjointSets sets(points.keys().size());
+    std::vector<uint32_t> in_tile;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!raster.is_here(t))
+        if (!raster.is_in_tile(t))
             continue;
-        here.push_back(t);
+        in_tile.push_back(t);
         for (int k = 1; k < 3; ++k)
-            sets.join(place_of_vertex[mesh.triangles[t][0]], place_of_vertex[mesh.triangles[t][k]]);
+            sets.join(point_of_vertex[mesh.triangles[t][0]], point_of_vertex[mesh.triangles[t][k]]);
     }
-    std::vector<Island> islands(places.keys().size());
-    for (uint32_t t : here) {
-        Island& island = islands[sets.find(place_of_vertex[mesh.triangles[t][0]])];
+    std::vector<Island> islands(points.keys().size());
+    for (uint32_t t : in_tile) {
+        Island& island = islands[sets.find(point_of_vertex[mesh.triangles[t][0]])];
         ++island.triangles;
-        island.covers = island.covers || raster.covers_any(t);
+        island.covers = island.covers || raster.covers_any_texel(t);
     }
-    report.islands = report.lost_islands = report.lost_triangles = 0;
+    report.islands = report.uncovered_islands = report.uncovered_triangles = 0;
     for (const Island& island : islands) {
         report.islands += island.triangles > 0;
-        report.lost_islands += island.triangles > 0 && !island.covers;
-        report.lost_triangles += island.covers ? 0 : island.triangles;
+        report.uncovered_islands += island.triangles > 0 && !island.covers;
+        report.uncovered_triangles += island.covers ? 0 : island.triangles;
     }
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 
 namespace vmlight {
 
-/// Count the islands of the mesh in this raster's tile, and those that cover no texel of it. Triangles are of one
-/// island if they share texture coordinates, bit for bit, or a chain of triangles joins them so. Time grows with the
-/// triangles.
+/// Count the UV islands of the mesh in the raster's UDIM tile, and those that cover no texel. Triangles that share
+/// texture coordinates (equal bit for bit), directly or through others, are one island. Linear in the triangles.
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster);
 
 } // namespace vmlight

@@ -29,22 +29,22 @@ bool is_udim(int number)
 bool parse_udims(std::vector<int>& dst, const std::string& text, std::string& error)
 {
     std::vector<int> numbers;
-    // Steps are for frames: of tiles ten stand in a row.
+    // No steps: they are for frames.
     if (text.find('x') != std::string::npos || !parse_frames(numbers, text, error)) {
-        error = format("\"{}\" is not a list of tiles such as 1001-1003,1011", text);
+        error = format("\"{}\" is not a list of UDIM tiles; expected something like 1001-1003,1011", text);
         return false;
     }
     const std::set<int> unique(numbers.begin(), numbers.end());
     for (int number : unique)
         if (!is_udim(number)) {
-            error = format("{} is no UDIM tile: they are {} to {}", number, kFirstUdim, kLastUdim);
+            error = format("{} is not a UDIM tile; expected {} to {}", number, kFirstUdim, kLastUdim);
             return false;
         }
     dst.assign(unique.begin(), unique.end());
     return true;
 }
 
-int udim_of_name(const std::string& path)
+int udim_from_name(const std::string& path)
 {
     const std::string name = OIIO::Filesystem::filename(path);
     const size_t end = name.rfind('.'), begin = end == std::string::npos || end == 0 ? end : name.rfind('.', end - 1);
@@ -56,7 +56,7 @@ int udim_of_name(const std::string& path)
     return is_udim(number) ? number : 0;
 }
 
-bool has_udim(const std::string& path)
+bool has_udim_pattern(const std::string& path)
 {
     return path.find(kPattern) != std::string::npos;
 }

@@ -130,7 +130,7 @@ bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, 
                           int nthreads, std::string& error)
 {
     auto scene = std::make_shared<BakeScene>();
-    return check_params(params, error) && scene->build(borrowed(mesh), occluders, nthreads, error)
+    return check_params(params, error) && scene->build(non_owning(mesh), occluders, nthreads, error)
         && prepare(std::move(scene), params, error, nthreads);
 }
 
@@ -232,7 +232,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             columns[size_t(count++)] = x;
         }
         if (count > 0)
-            settle_origins(points.data(), count, m_scene->shared->occluder());
+            adjust_ray_origins(points.data(), count, m_scene->shared->occluder());
         for (int k = 0; k < count; ++k) {
             const int x = columns[size_t(k)];
             float* out = texels + size_t(y) * pitch + size_t(x) * channel_count;

@@ -7,7 +7,7 @@
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/uv/margin.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 #include <vmlight/vismap/error.h>
 #include <vmlight/vismap/vismap.h>
 

@@ -4,7 +4,7 @@
 
 #include <vmlight/base/progress.h>
 #include <vmlight/trace/bake_scene.h>
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>

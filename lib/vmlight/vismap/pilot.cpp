@@ -72,7 +72,7 @@ bool VismapPilot::pick(const UvRaster& raster)
                 Texel& texel = m_texels[size_t(rank - ranks.begin())];
                 texel = { surface->at(cover.triangle[size_t(i)], cover.weight1[size_t(i)], cover.weight2[size_t(i)]),
                           tile_x + i % kTileSize, tile_y + i / kTileSize };
-                settle_origins(&texel.point, 1, m_scene.occluder());
+                adjust_ray_origins(&texel.point, 1, m_scene.occluder());
             }
             ++at;
         }

@@ -47,7 +47,7 @@ public:
     {
     }
 
-    /// What `point`, the centre of texel (x, y), sees: see settle_origins(). `basis` is set to the numbers of
+    /// What `point`, the centre of texel (x, y), sees: see adjust_ray_origins(). `basis` is set to the numbers of
     /// basis_channels().
     Visibility see(SurfacePoint point, int x, int y, float* basis = nullptr);
 

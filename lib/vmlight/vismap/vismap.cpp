@@ -32,7 +32,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
     const OIIO::Timer timer;
     std::string error;
     auto scene = std::make_shared<BakeScene>();
-    if (!check_params(params, error) || !scene->build(borrowed(mesh), occluders, nthreads, error))
+    if (!check_params(params, error) || !scene->build(non_owning(mesh), occluders, nthreads, error))
         return fail(dst, error);
     const double build_seconds = timer();
     const bool made = make_vismap(dst, scene, params, report, nthreads, progress);
@@ -58,7 +58,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (!pixels)
         return fail(dst, OIIO::Strutil::fmt::format("no memory for {} x {} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
-    counts.tiny = scene->tiny();
+    counts.tiny = scene->tiny_triangles();
     counts.rounding = scene->rounding();
     if (report)
         baker.count_islands(counts.uv);

@@ -132,7 +132,7 @@ template <class Recipe> bool takes_lines(Recipe recipe, const std::string& key)
 template <class Recipe> Recipe named_recipe(const std::string& path)
 {
     Recipe recipe;
-    if (const int udim = udim_of_name(path)) {
+    if (const int udim = udim_from_name(path)) {
         udim_of(recipe) = udim;
         recipe.udim_given = true;
     }

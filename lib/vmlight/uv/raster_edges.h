@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A triangle of the UV raster by its three edges, in whole numbers. Not installed.
+/// The edge functions of a triangle in UV space, in integers.
 #pragma once
 
 #include <array>
@@ -8,29 +8,29 @@
 
 namespace vmlight {
 
-/// Texture coordinates are rounded to one of this many parts of a texel.
+/// Texture coordinates are rounded to this many steps per texel.
 constexpr int64_t kSubtexels = 256;
 
 struct UvCorner
 {
-    int64_t x, y; ///< in parts of a texel, y down
+    int64_t x, y; ///< in subtexels, y down
 };
 
 /// Twice the area, positive if clockwise in (u, v): y points down.
-inline int64_t twice_area(const std::array<UvCorner, 3>& c)
+inline int64_t doubled_area(const std::array<UvCorner, 3>& c)
 {
     return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
 }
 
-/// Edge k runs from corner k+1 to corner k+2 of the triangle, turned to positive area: its function is twice the area
-/// that weighs corner k, positive inside. A centre on the edge belongs to the triangle if the edge is a left one (it
-/// runs up) or a top one: if the function is `least` or more.
+/// Edge k runs from corner k+1 to corner k+2 of the triangle, flipped to positive area if needed. Its edge function is
+/// the barycentric weight of corner k times twice the area: positive inside. A texel is inside if all three are at
+/// least `least`, which includes centres on left edges (that run up) and top edges.
 struct UvEdges
 {
     explicit UvEdges(std::array<UvCorner, 3> corners)
-        : turned(twice_area(corners) < 0)
+        : flipped(doubled_area(corners) < 0)
     {
-        if (turned)
+        if (flipped)
             std::swap(corners[1], corners[2]);
         for (int k = 0; k < 3; ++k) {
             const UvCorner &a = corners[(k + 1) % 3], &b = corners[(k + 2) % 3];
@@ -41,7 +41,7 @@ struct UvEdges
             least[k] = dy < 0 || (dy == 0 && dx > 0) ? 0 : 1;
         }
     }
-    /// The functions at the centre of texel (x, y); they grow by step_x, step_y from one to the next.
+    /// The edge functions at the centre of texel (x, y). They grow by step_x and step_y per texel.
     std::array<int64_t, 3> at(int64_t x, int64_t y) const
     {
         std::array<int64_t, 3> e;
@@ -50,7 +50,7 @@ struct UvEdges
         return e;
     }
 
-    bool turned;
+    bool flipped;
     std::array<int64_t, 3> step_x, step_y, first, least;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/uv/uvraster.h>
+#include <vmlight/uv/raster.h>
 
-#include <vmlight/uv/uvraster_edges.h>
+#include <vmlight/uv/raster_edges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace vmlight {
 namespace {
 
-// Beyond two million texels the products of the edge tests would leave 64 bits.
+// Beyond two million texels the products of the edge tests would overflow 64 bits.
 constexpr double kFarthest = double(1 << 21) * kSubtexels;
 
 int64_t floor_divide(int64_t a, int64_t b)
@@ -18,8 +18,8 @@ int64_t floor_divide(int64_t a, int64_t b)
     return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-// No tile of the ten columns has it.
-bool reaches_beyond(const Mesh& mesh, size_t triangle)
+// Is a corner outside every UDIM tile?
+bool reaches_beyond_udims(const Mesh& mesh, size_t triangle)
 {
     const auto& corners = mesh.triangles[triangle];
     return std::any_of(corners.begin(), corners.end(), [&](uint32_t vertex) {
@@ -30,11 +30,11 @@ bool reaches_beyond(const Mesh& mesh, size_t triangle)
 
 } // namespace
 
-// A corner's texture coordinates in parts of a texel, y down.
-Imath::V2d UvRaster::place_of(size_t triangle, int corner) const
+// A corner's texture coordinates in subtexels, y down.
+Imath::V2d UvRaster::corner_position(size_t triangle, int corner) const
 {
     const Imath::V2f& uv = m_mesh.uvs[m_mesh.triangles[triangle][corner]];
-    // Whole numbers come off a double that was a float without rounding.
+    // Exact: whole numbers subtracted from floats in double.
     const double u = double(uv.x) - m_corner.x, v = double(uv.y) - m_corner.y;
     return { u * m_width * kSubtexels, (1.0 - v) * m_height * kSubtexels };
 }
@@ -44,22 +44,22 @@ Imath::V2d UvRaster::size() const
     return Imath::V2d(m_width, m_height) * double(kSubtexels);
 }
 
-// Rounded texture coordinates. False if they are missing, not finite, or too far away.
+// Texture coordinates rounded to subtexels. False if they are missing, not finite, or too far away.
 bool UvRaster::corners(size_t triangle, std::array<UvCorner, 3>& dst) const
 {
     for (int k = 0; k < 3; ++k) {
-        const Imath::V2d place = place_of(triangle, k);
-        if (!(std::abs(place.x) <= kFarthest && std::abs(place.y) <= kFarthest))
+        const Imath::V2d position = corner_position(triangle, k);
+        if (!(std::abs(position.x) <= kFarthest && std::abs(position.y) <= kFarthest))
             return false;
-        dst[k] = { std::llround(place.x), std::llround(place.y) };
+        dst[k] = { std::llround(position.x), std::llround(position.y) };
     }
     return true;
 }
 
-template <class Visit> void UvRaster::each_tile(const std::array<UvCorner, 3>& c, Visit&& visit) const
+template <class Visit> void UvRaster::for_each_tile(const std::array<UvCorner, 3>& c, Visit&& visit) const
 {
     const auto span = [](int64_t a, int64_t b, int64_t d, int texels) {
-        // Texels whose centre, at 256 i + 128, lies between the least and the greatest corner.
+        // Texels whose centre, at 256 i + 128, is between the lowest and the highest corner.
         const int64_t low = std::min({ a, b, d }), high = std::max({ a, b, d });
         const int64_t first = std::max<int64_t>(0, floor_divide(low - kSubtexels / 2 + kSubtexels - 1, kSubtexels));
         const int64_t last = std::min<int64_t>(texels - 1, floor_divide(high - kSubtexels / 2, kSubtexels));
@@ -74,7 +74,7 @@ template <class Visit> void UvRaster::each_tile(const std::array<UvCorner, 3>& c
             visit(size_t(ty * tiles_across() + tx));
 }
 
-// Of a triangle, rounded as corners() does, wherever it is. Not finite if a corner is not.
+// Bounds of a triangle, rounded as in corners(), but of any size. Not finite if a corner is not.
 struct UvRaster::Bounds
 {
     Imath::V2d low, high;
@@ -84,7 +84,7 @@ struct UvRaster::Bounds
     {
         return low.x < 0 || low.y < 0 || high.x > size.x || high.y > size.y;
     }
-    bool is_elsewhere(const Imath::V2d& size) const
+    bool is_fully_outside(const Imath::V2d& size) const
     {
         return reaches_out(size) && (high.x <= 0 || high.y <= 0 || low.x >= size.x || low.y >= size.y);
     }
@@ -94,10 +94,10 @@ UvRaster::Bounds UvRaster::bounds_of(size_t triangle) const
 {
     std::array<double, 3> x, y;
     for (int k = 0; k < 3; ++k) {
-        const Imath::V2d place = place_of(triangle, k);
-        x[k] = std::round(place.x), y[k] = std::round(place.y);
-        if (!std::isfinite(place.x + place.y))
-            return { place, place };
+        const Imath::V2d position = corner_position(triangle, k);
+        x[k] = std::round(position.x), y[k] = std::round(position.y);
+        if (!std::isfinite(position.x + position.y))
+            return { position, position };
     }
     return { { std::min({ x[0], x[1], x[2] }), std::min({ y[0], y[1], y[2] }) },
              { std::max({ x[0], x[1], x[2] }), std::max({ y[0], y[1], y[2] }) } };
@@ -109,28 +109,28 @@ void UvRaster::count_outside(size_t triangle)
     const bool finite = bounds.is_finite(), outside = finite && bounds.reaches_out(size());
     m_report.without_uv += !finite;
     m_report.outside += outside;
-    m_report.elsewhere += finite && bounds.is_elsewhere(size());
-    m_report.beyond += outside && reaches_beyond(m_mesh, triangle);
+    m_report.fully_outside += finite && bounds.is_fully_outside(size());
+    m_report.beyond_udims += outside && reaches_beyond_udims(m_mesh, triangle);
 }
 
-bool UvRaster::is_here(size_t triangle) const
+bool UvRaster::is_in_tile(size_t triangle) const
 {
     const Bounds bounds = bounds_of(triangle);
-    return bounds.is_finite() && !bounds.is_elsewhere(size())
+    return bounds.is_finite() && !bounds.is_fully_outside(size())
         && triangle_area_normal(m_mesh, m_mesh.triangles[triangle]).length() > 0;
 }
 
-bool UvRaster::covers_any(size_t triangle) const
+bool UvRaster::covers_any_texel(size_t triangle) const
 {
     std::array<UvCorner, 3> c;
-    if (!corners(triangle, c) || twice_area(c) == 0)
+    if (!corners(triangle, c) || doubled_area(c) == 0)
         return false;
     const UvEdges edges(c);
     const auto bounds = std::minmax({ c[0].y, c[1].y, c[2].y });
     const int64_t y0 = std::max<int64_t>(0, floor_divide(bounds.first - kSubtexels / 2, kSubtexels));
     const int64_t y1 = std::min<int64_t>(m_height, floor_divide(bounds.second, kSubtexels) + 1);
     for (int64_t y = y0; y < y1; ++y) {
-        // Of this row, the texels on the inner side of all three edges.
+        // The texels of this row on the inner side of all three edges.
         const std::array<int64_t, 3> e = edges.at(0, y);
         int64_t first = 0, last = m_width - 1;
         for (int k = 0; k < 3; ++k) {
@@ -162,7 +162,7 @@ UvRaster::UvRaster(const Mesh& mesh, int width, int height, int udim)
         count_outside(t);
         if (!corners(t, c))
             continue;
-        const int64_t area = twice_area(c);
+        const int64_t area = doubled_area(c);
         const double area_3d = triangle_area_normal(mesh, mesh.triangles[t]).length();
         m_report.mirrored += area > 0;
         m_report.degenerate_uv += area == 0;
@@ -170,13 +170,13 @@ UvRaster::UvRaster(const Mesh& mesh, int width, int height, int udim)
         if (area == 0 || !(area_3d > 0))
             continue;
         kept.push_back(t);
-        each_tile(c, [&](size_t tile) { ++m_first[tile + 2]; });
+        for_each_tile(c, [&](size_t tile) { ++m_first[tile + 2]; });
     }
     std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
     m_binned.resize(m_first.back());
     for (uint32_t t : kept) {
         corners(t, c);
-        each_tile(c, [&](size_t tile) { m_binned[m_first[tile + 1]++] = t; });
+        for_each_tile(c, [&](size_t tile) { m_binned[m_first[tile + 1]++] = t; });
     }
     m_first.pop_back();
 }
@@ -196,7 +196,7 @@ void UvRaster::cover(int tile, TileCover& dst) const
         std::array<UvCorner, 3> c;
         corners(t, c);
         const UvEdges edges(c);
-        const bool turned = edges.turned;
+        const bool flipped = edges.flipped;
         const auto bounds = std::minmax({ c[0].y, c[1].y, c[2].y });
         const auto bounds_x = std::minmax({ c[0].x, c[1].x, c[2].x });
         const int64_t y0 = std::max(tile_y, floor_divide(bounds.first - kSubtexels / 2, kSubtexels));
@@ -205,7 +205,7 @@ void UvRaster::cover(int tile, TileCover& dst) const
         const int64_t x1 = std::min(end_x, floor_divide(bounds_x.second, kSubtexels) + 1);
         std::array<int64_t, 3> row = edges.at(x0, y0);
         const auto &least = edges.least, &step_x = edges.step_x, &step_y = edges.step_y;
-        const double per_area = 1.0 / double(std::abs(twice_area(c)));
+        const double per_area = 1.0 / double(std::abs(doubled_area(c)));
         for (int64_t y = y0; y < y1; ++y) {
             std::array<int64_t, 3> e = row;
             for (int64_t x = x0; x < x1; ++x) {
@@ -213,8 +213,8 @@ void UvRaster::cover(int tile, TileCover& dst) const
                     const size_t texel = size_t((y - tile_y) * kTileSize + (x - tile_x));
                     if (dst.triangle[texel] == TileCover::kNone) {
                         dst.triangle[texel] = t;
-                        dst.weight1[texel] = float(double(e[turned ? 2 : 1]) * per_area);
-                        dst.weight2[texel] = float(double(e[turned ? 1 : 2]) * per_area);
+                        dst.weight1[texel] = float(double(e[flipped ? 2 : 1]) * per_area);
+                        dst.weight2[texel] = float(double(e[flipped ? 1 : 2]) * per_area);
                         ++dst.covered;
                     } else if (!shared[texel]) {
                         shared[texel] = true;
