@@ -15,12 +15,6 @@
 using namespace vmlight;
 using namespace vmlight::fuzz;
 
-// Their mains, under other names.
-int makevismap_main(int argc, const char** argv);
-int makecfem_main(int argc, const char** argv);
-int makelightmap_main(int argc, const char** argv);
-int vmcost_main(int argc, const char** argv);
-
 namespace {
 
 template <class Recipe> void require_recipe(const std::string& text)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Damaged copies of a file, and a process to try them in.
+/// Damaged copies of a file.
 #pragma once
+
+#include "watchdog.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +10,6 @@
 #include <random>
 #include <string>
 #include <vector>
-
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace vmlight {
 
@@ -38,36 +36,19 @@ inline std::vector<Damage> damages_of(const std::string& whole)
     return all;
 }
 
-/// Call `attempt` for each damage, in a process of its own: a crash, ten seconds for one of them, and what `attempt`
-/// says went wrong are failures that name the damage.
+/// Call `attempt` for each damage: what `attempt` says went wrong is a failure that names the damage. A crash, or a
+/// damage that takes as long as a whole test may, ends the process, and the watchdog names test and damage.
 ///
 /// @param attempt  returns "" if all is well
 inline void survive(const std::vector<Damage>& damages, const std::function<std::string(const Damage&)>& attempt)
 {
-    struct Seen
-    {
-        size_t damage;
-        char fault[512];
-    };
-    void* const memory = ::mmap(nullptr, sizeof(Seen), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    ASSERT_NE(memory, MAP_FAILED);
-    Seen& seen = *static_cast<Seen*>(memory);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        for (; seen.damage < damages.size() && !seen.fault[0]; seen.damage += !seen.fault[0]) {
-            ::alarm(10);
-            const std::string fault = attempt(damages[seen.damage]);
-            fault.copy(seen.fault, sizeof(seen.fault) - 1);
-        }
-        ::_exit(0);
+    for (const Damage& damage : damages) {
+        set_current_case(damage.what);
+        restart_watchdog();
+        const std::string fault = attempt(damage);
+        EXPECT_EQ(fault, "") << damage.what;
     }
-    int status = 0;
-    EXPECT_EQ(::waitpid(child, &status, 0), child);
-    const size_t at = std::min(seen.damage, damages.size() - 1);
-    EXPECT_FALSE(WIFSIGNALED(status)) << damages[at].what << ": signal " << WTERMSIG(status);
-    EXPECT_STREQ(seen.fault, "") << damages[at].what;
-    EXPECT_EQ(WIFSIGNALED(status) || seen.fault[0] ? damages.size() : seen.damage, damages.size());
-    ::munmap(memory, sizeof(Seen));
+    set_current_case("");
 }
 
 } // namespace vmlight

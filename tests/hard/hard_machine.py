@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of hard files and machines share: runs with a limit, and what each may end in.
+"""What the tests of hard machines share: runs with a limit, and what each may end in.
 
-Run as: files_test.py [CASE ...] or machine_test.py, with VMLIGHT_BIN, VMLIGHT_SOURCE, and oiiotool on the path;
-VMLIGHT_HARD_LIMIT (seconds, 10 unless given) is what a run may take."""
+Run as: machine_test.py, with VMLIGHT_BIN, VMLIGHT_SOURCE, and oiiotool on the path."""
 import os
 import re
 import subprocess
@@ -13,7 +12,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from case import BIN, QUAD, SKY, SPOT, Case  # noqa: E402
 from hard_case import write_row  # noqa: E402
 
-LIMIT = float(os.environ.get("VMLIGHT_HARD_LIMIT", "10"))
+LIMIT = 300  # seconds for a run that takes one: on a busy machine, under sanitizers, it still has not hung
 SMALL = ["--resolution", "16", "--samples", "4", "--quiet"]
 __all__ = ["BIN", "LIMIT", "QUAD", "SKY", "SMALL", "SPOT", "HardCase"]
 

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_test.h"
+
+#include "captured.h"
+#include "mains.h"
+
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace vmlight {
+namespace {
+
+namespace fs = std::filesystem;
+using OIIO::Strutil::fmt::format;
+
+const std::map<std::string, Main> kMains { { "makevismap", makevismap_main },
+                                           { "makecfem", makecfem_main },
+                                           { "makelightmap", makelightmap_main },
+                                           { "vmcost", vmcost_main } };
+
+// What mains do to a process that is theirs.
+class ProcessState
+{
+public:
+    ProcessState()
+    {
+        for (size_t i = 0; i < std::size(kSignals); ++i)
+            ::sigaction(kSignals[i], nullptr, &m_actions[i]);
+    }
+    ProcessState(const ProcessState&) = delete;
+    ~ProcessState()
+    {
+        for (size_t i = 0; i < std::size(kSignals); ++i)
+            ::sigaction(kSignals[i], &m_actions[i], nullptr);
+        OIIO::attribute("threads", 0);
+    }
+
+private:
+    static constexpr int kSignals[] = { SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ };
+    struct sigaction m_actions[std::size(kSignals)];
+};
+
+std::vector<std::string> words_of(const std::string& line)
+{
+    std::vector<std::string> words;
+    bool quoted = false, within = false;
+    for (const char c : line) {
+        if (c == ' ' && !quoted) {
+            within = false;
+            continue;
+        }
+        if (!within)
+            words.emplace_back();
+        within = true;
+        if (c == '\'')
+            quoted = !quoted;
+        else
+            words.back() += c;
+    }
+    for (std::string& word : words)
+        for (const auto& [name, path] :
+             { std::pair<std::string, std::string>("{spot}", kSpot), { "{sky}", kSky }, { "{config}", kConfig } })
+            word = OIIO::Strutil::replace(word, name, path);
+    return words;
+}
+
+std::string text_of(const std::vector<std::string>& words)
+{
+    return OIIO::Strutil::join(words, " ");
+}
+
+} // namespace
+
+float Pixels::least() const
+{
+    return values.empty() ? NAN : *std::min_element(values.begin(), values.end());
+}
+
+float Pixels::greatest() const
+{
+    return values.empty() ? NAN : *std::max_element(values.begin(), values.end());
+}
+
+CommandTest::CommandTest()
+    : m_before(::open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+{
+    std::string pattern = (fs::temp_directory_path() / "vmlight \u00fc XXXXXX").string();
+    EXPECT_NE(::mkdtemp(pattern.data()), nullptr);
+    m_folder = pattern;
+    EXPECT_EQ(::chdir(m_folder.c_str()), 0);
+}
+
+CommandTest::~CommandTest()
+{
+    EXPECT_EQ(::fchdir(m_before), 0);
+    ::close(m_before);
+    std::error_code ignored;
+    fs::remove_all(m_folder, ignored);
+}
+
+Result CommandTest::run_words(const std::vector<std::string>& words) const
+{
+    std::vector<const char*> pointers;
+    for (const std::string& word : words)
+        pointers.push_back(word.c_str());
+    pointers.push_back(nullptr);
+    const ProcessState state;
+    const Captured out(STDOUT_FILENO, stdout), err(STDERR_FILENO, stderr);
+    Result run;
+    run.code = kMains.at(words.at(0))(int(words.size()), pointers.data());
+    run.out = out.text();
+    run.err = err.text();
+    return run;
+}
+
+Result CommandTest::run(const std::string& line) const
+{
+    return run_words(words_of(line));
+}
+
+std::string CommandTest::done(const std::string& line) const
+{
+    const Result result = run(line);
+    EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
+    return result.all();
+}
+
+void CommandTest::refused(int code, const std::string& text, const std::string& line) const
+{
+    refused_words(code, text, words_of(line));
+}
+
+void CommandTest::refused_words(int code, const std::string& text, const std::vector<std::string>& words) const
+{
+    const auto before = contents();
+    const Result result = run_words(words);
+    EXPECT_EQ(result.code, code) << text_of(words) << "\n" << result.all();
+    EXPECT_THAT(result.err, testing::HasSubstr(text)) << text_of(words);
+    EXPECT_THAT(result.err, testing::StartsWith(words[0] + " ERROR: ")) << text_of(words);
+    EXPECT_TRUE(contents() == before) << text_of(words)
+                                      << ": something was left behind or changed: " << testing::PrintToString(names());
+}
+
+// Under a name of its own first: a file that is written over in place within a tick of the file system's clock keeps
+// its stamp, and caches would take it for the old one.
+std::string CommandTest::write(const std::string& name, const std::string& bytes) const
+{
+    const std::string fresh = path(name.substr(0, name.rfind('/') + 1) + ".fresh");
+    std::ofstream(fresh, std::ios::binary) << bytes;
+    EXPECT_EQ(std::rename(fresh.c_str(), path(name).c_str()), 0) << name;
+    return name;
+}
+
+std::string CommandTest::read(const std::string& name) const
+{
+    std::ifstream file(path(name), std::ios::binary);
+    EXPECT_TRUE(file.good()) << name;
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+bool CommandTest::exists(const std::string& name) const
+{
+    return fs::exists(fs::symlink_status(path(name)));
+}
+
+void CommandTest::remove(const std::string& name) const
+{
+    EXPECT_TRUE(fs::remove(path(name))) << name;
+}
+
+std::vector<std::string> CommandTest::names(const std::string& start, const std::string& folder) const
+{
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(path(folder)))
+        if (const std::string name = entry.path().filename().string(); OIIO::Strutil::starts_with(name, start))
+            found.push_back(name);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::map<std::string, std::string> CommandTest::contents() const
+{
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(m_folder))
+        if (entry.is_regular_file()) {
+            std::ifstream file(entry.path(), std::ios::binary);
+            found[entry.path().string()] = std::string(std::istreambuf_iterator<char>(file), {});
+        }
+    return found;
+}
+
+// Not through OpenImageIO's cache, which would keep what a test has just replaced.
+Pixels CommandTest::pixels(const std::string& name, int subimage) const
+{
+    Pixels read;
+    const auto input = OIIO::ImageInput::open(name);
+    if (!input || !input->seek_subimage(subimage, 0)) {
+        ADD_FAILURE() << name << ": " << (input ? input->geterror() : OIIO::geterror());
+        return read;
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    read = { spec.width, spec.height, spec.nchannels, {} };
+    read.values.resize(size_t(spec.image_pixels()) * size_t(spec.nchannels));
+    EXPECT_TRUE(input->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, read.values.data()))
+        << name << ": " << input->geterror();
+    return read;
+}
+
+Pixels CommandTest::visibility(const std::string& name) const
+{
+    Pixels all = pixels(name);
+    const std::vector<std::string> channels = channel_names(name);
+    const size_t at = size_t(std::find(channels.begin(), channels.end(), "visibility") - channels.begin());
+    EXPECT_LT(at, channels.size()) << name;
+    std::vector<float> values;
+    for (size_t i = at; i < all.values.size(); i += channels.size())
+        values.push_back(all.values[i]);
+    return { all.width, all.height, 1, values };
+}
+
+void CommandTest::expect_same_pixels(const std::string& a, const std::string& b, float tolerance) const
+{
+    const Pixels one = pixels(a), other = pixels(b);
+    ASSERT_EQ(std::tie(one.width, one.height, one.channels), std::tie(other.width, other.height, other.channels))
+        << a << " " << b;
+    float worst = 0;
+    for (size_t i = 0; i < one.values.size(); ++i)
+        if (const float off = std::abs(one.values[i] - other.values[i]); !(off <= worst))
+            worst = off;
+    EXPECT_LE(worst, tolerance) << a << " " << b;
+}
+
+void CommandTest::expect_finite(const std::string& name) const
+{
+    for (int subimage = 0; subimage == 0 || OIIO::ImageInput::open(name)->seek_subimage(subimage, 0); ++subimage)
+        for (const float value : pixels(name, subimage).values)
+            ASSERT_TRUE(std::isfinite(value)) << name;
+    OIIO::geterror(); // of the image after the last
+}
+
+std::string CommandTest::attribute(const std::string& name, const std::string& attribute) const
+{
+    const auto input = OIIO::ImageInput::open(name);
+    EXPECT_TRUE(input) << name;
+    const OIIO::ParamValue* found = input ? input->spec().find_attribute(attribute) : nullptr;
+    return found ? found->get_string() : "";
+}
+
+std::vector<std::string> CommandTest::channel_names(const std::string& name) const
+{
+    const auto input = OIIO::ImageInput::open(name);
+    EXPECT_TRUE(input) << name;
+    return input ? input->spec().channelnames : std::vector<std::string>();
+}
+
+void CommandTest::make_vismap() const
+{
+    write("quad.obj", kQuad);
+    done("makevismap quad.obj -o vm.exr --resolution 32 --samples 8 --quiet");
+}
+
+void CommandTest::make_sky(const std::vector<float>& color, const std::string& name, int width, int height) const
+{
+    OIIO::ImageBuf sky(OIIO::ImageSpec(width, height, int(color.size()), OIIO::TypeFloat));
+    OIIO::ImageBufAlgo::fill(sky, color);
+    EXPECT_TRUE(sky.write(path(name))) << sky.geterror();
+}
+
+void CommandTest::shrink(const std::string& src, const std::string& dst) const
+{
+    const OIIO::ImageBuf whole(path(src));
+    const OIIO::ImageBuf small = OIIO::ImageBufAlgo::resize(whole, "", 0, OIIO::ROI(0, 32, 0, 32));
+    EXPECT_TRUE(small.write(path(dst))) << small.geterror();
+}
+
+} // namespace vmlight

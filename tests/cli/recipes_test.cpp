@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recipes on the command line.
+#include "command_test.h"
+
+#include <OpenImageIO/strutil.h>
+
+#include <filesystem>
+
+using namespace vmlight;
+using OIIO::Strutil::fmt::format;
+using testing::HasSubstr;
+
+namespace {
+
+class Recipes : public CommandTest
+{
+protected:
+    // The operands and flags of each stage of a small light.
+    const std::string bake = "quad.obj --occluder lid.obj --resolution 16 --samples 16 --margin infinite ",
+                      filter = "{sky} --resolution 32x16 --colorconfig {config} ",
+                      turn = "--rotate 0,90,0.1 --exposure -0.3 ", light = "vm.exr cfem.exr " + turn;
+
+    // vm.exr, cfem.exr and lit.exr, by flags.
+    void make_all() const
+    {
+        write("quad.obj", kQuad);
+        write("lid.obj", "v -9 -9 0.5\nv 1 -9 0.5\nv 1 9 0.5\nv -9 9 0.5\nf 1 2 3 4\n");
+        done("makevismap " + bake + "-o vm.exr");
+        done("makecfem " + filter + "-o cfem.exr");
+        done("makelightmap " + light + "-o lit.exr");
+    }
+};
+
+} // namespace
+
+TEST_F(Recipes, ARecipeMakesWhatItsFlagsMake)
+{
+    make_all();
+    std::filesystem::create_directory("recipes");
+    write("recipes/hero.vismap",
+          "mesh = \"../quad.obj\"\noccluder = [\"../lid.obj\"]\nresolution = 16\nsamples = 16\n"
+          "margin = \"infinite\"\n");
+    write("recipes/studio.cfem",
+          format("environment = \"{}\"\nresolution = [32, 16]\ncolorconfig = \"{}\"\n", kSky, kConfig));
+    write("recipes/hero.lightmap",
+          "vismap = \"hero.vismap\"\ncfem = \"studio.cfem\"\nrotate = [0, 90, 0.1]\nexposure = -0.3\n");
+    done("makevismap recipes/hero.vismap -o a.exr");
+    done("makecfem recipes/studio.cfem -o b.exr");
+    done("makelightmap recipes/hero.lightmap -o c.exr");
+    EXPECT_TRUE(read("a.exr") == read("vm.exr"));
+    EXPECT_TRUE(read("b.exr") == read("cfem.exr"));
+    EXPECT_TRUE(read("c.exr") == read("lit.exr"));
+    // A recipe can replace an image on the command line too.
+    done("makelightmap recipes/hero.vismap recipes/studio.cfem " + turn + "-o d.exr");
+    EXPECT_TRUE(read("d.exr") == read("lit.exr"));
+    // A query alone says as much as a file.
+    done("makelightmap x.lightmap?vismap=vm.exr&cfem=cfem.exr&rotate=0,90,0.1&exposure=-0.3 -o e.exr");
+    EXPECT_TRUE(read("e.exr") == read("lit.exr"));
+}
+
+TEST_F(Recipes, FlagsOverrideTheQueryWhichOverridesTheFile)
+{
+    make_all();
+    write("hero.lightmap", "vismap = \"vm.exr\"\ncfem = \"cfem.exr\"\nrotate = [1, 2, 3]\nexposure = 5\n");
+    done("makelightmap hero.lightmap?exposure=7&rotate=4,5,6 -o a.exr --rotate 0,90,0.1 --exposure=-0.3");
+    EXPECT_TRUE(read("a.exr") == read("lit.exr"));
+    write("hero.vismap",
+          "mesh = \"quad.obj\"\noccluder = [\"gone.obj\"]\nresolution = 16\nsamples = 16\n"
+          "margin = \"infinite\"\n");
+    done("makevismap --occluder lid.obj hero.vismap -o b.exr");
+    EXPECT_TRUE(read("b.exr") == read("vm.exr"));
+}
+
+TEST_F(Recipes, APrintedRecipeMakesTheSameImage)
+{
+    make_all();
+    std::string text;
+    for (const auto& [line, recipe, image] : { std::tuple("makevismap " + bake, "p.vismap", "vm.exr"),
+                                               { "makecfem " + filter, "p.cfem", "cfem.exr" },
+                                               { "makelightmap " + light, "p.lightmap", "lit.exr" } }) {
+        const auto before = contents();
+        text = run(line + "--print-recipe").out;
+        EXPECT_TRUE(contents() == before);
+        write(recipe, text);
+        const std::string again = line.substr(0, line.find(' ') + 1) + recipe;
+        done(again + " -o again.exr");
+        EXPECT_TRUE(read("again.exr") == read(image)) << text;
+        EXPECT_EQ(run(again + " --print-recipe").out, text);
+    }
+    EXPECT_EQ(text, "vismap = \"vm.exr\"\ncfem = \"cfem.exr\"\nrotate = [0, 90, 0.1]\nexposure = -0.3\n");
+    EXPECT_THAT(done("makelightmap vm.exr {sky} --print-recipe"), HasSubstr("environment = "));
+    EXPECT_THAT(done("makelightmap vm.exr {sky} --is-cfem --print-recipe"), HasSubstr("cfem = "));
+    refused(2, "a recipe holds neither --frames nor --rotate-y",
+            "makelightmap " + light + "--frames 1-4 --print-recipe");
+    refused(2, "exposure: 99 is not in", "makelightmap vm.exr {sky} --exposure=99 --print-recipe");
+    refused_words(2, "\"caf\\xe9.obj\": a recipe is UTF-8, which this is not",
+                  { "makevismap", "caf\xe9.obj", "--print-recipe" });
+    refused_words(1, "\"a\\x0ab.obj\": no such file", { "makevismap", "a\nb.obj", "-o", "x.exr" });
+}
+
+TEST_F(Recipes, AFaultyRecipeIsRefusedWithItsLine)
+{
+    write("bad.lightmap", "vismap = \"vm.exr\"\nrotat = [0, 90, 0]\n");
+    refused(1, "\"bad.lightmap\" line 2: unknown parameter \"rotat\"; did you mean \"rotate\"?",
+            "makelightmap bad.lightmap -o x.exr");
+    refused(1, "no such file", "makelightmap gone.lightmap -o x.exr");
+    refused(2, "\"more\" is one argument too many", "makelightmap bad.lightmap more -o x.exr");
+    std::string noise;
+    for (int i = 0; i < 256 * 16; ++i)
+        noise += char(i);
+    write("noise.cfem", noise);
+    write("empty.cfem");
+    std::filesystem::create_directory("folder.cfem");
+    for (const std::string name : { "noise.cfem", "empty.cfem", "folder.cfem" })
+        refused(1, "\"" + name + "\"", "makecfem " + name + " -o x.exr");
+    refused(1, "rotate: \"abc\" in \"abc\" is not a number", "makelightmap x.lightmap?rotate=abc -o x.exr");
+    write("good.lightmap", "exposure = 1\n");
+    refused(2, "exposure: 99 is not in", "makelightmap good.lightmap --exposure 99 -o x.exr");
+    refused(2, "-o OUTPUT.exr is missing", "makelightmap good.lightmap");
+}
+
+TEST_F(Recipes, AMissingInputIsNamedWithTheLineThatNamesIt)
+{
+    make_vismap();
+    make_sky({ 1, 1, 1 });
+    write("a.lightmap", "exposure = 1\n");
+    refused(1, "\"a.lightmap\": vismap is missing", "makelightmap a.lightmap -o x.exr");
+    write("b.lightmap", "vismap = \"vm.exr\"\n");
+    refused(1, "\"b.lightmap\": environment is missing, or cfem", "makelightmap b.lightmap -o x.exr");
+    write("c.lightmap", "vismap = \"vm.exr\"\n\nenvironment = \"gone.exr\"\n");
+    refused(1, "\"c.lightmap\" line 3: environment: \"gone.exr\": no such file", "makelightmap c.lightmap -o x.exr");
+    refused(1, "ERROR: \"other.exr\": no such file", "makelightmap c.lightmap --environment other.exr -o x.exr");
+    write("d.lightmap", "vismap = \"vm.exr\"\nenvironment = \"sky.exr\"\ncfem = \"sky.exr\"\n");
+    refused(1, "\"d.lightmap\" line 3: cfem: environment is given too", "makelightmap d.lightmap -o x.exr");
+    done("makelightmap d.lightmap --environment= -o cleared.exr");
+    write("e.vismap", "mesh = \"gone.obj\"\n");
+    write("e.lightmap", "vismap = \"e.vismap\"\nenvironment = \"sky.exr\"\n");
+    refused(1, "\"e.lightmap\" line 1: vismap: \"e.vismap\" line 1: mesh: \"gone.obj\": no such file",
+            "makelightmap e.lightmap -o x.exr");
+    write("f.vismap", "samples = 1\n");
+    refused(1, "\"f.vismap\": mesh is missing", "makevismap f.vismap -o x.exr");
+}
+
+TEST_F(Recipes, AnInputOfTheWrongStageIsRefused)
+{
+    make_all();
+    write("studio.cfem", "environment = \"sky.exr\"\n");
+    write("a.lightmap", "vismap = \"studio.cfem\"\ncfem = \"studio.cfem\"\n");
+    refused(1, "\"a.lightmap\" line 1: vismap: \"studio.cfem\": the recipe of a cfem, not of a vismap",
+            "makelightmap a.lightmap -o x.exr");
+    write("b.lightmap", "vismap = \"vm.exr\"\nenvironment = \"studio.cfem\"\n");
+    refused(1, "\"studio.cfem\": the recipe of a cfem, not of an environment", "makelightmap b.lightmap -o x.exr");
+    write("c.lightmap", "vismap = \"vm.exr\"\nenvironment = \"cfem.exr\"\n");
+    refused(1, "\"c.lightmap\" line 2: environment: \"cfem.exr\": filtered already: give it as cfem",
+            "makelightmap c.lightmap -o x.exr");
+    write("d.lightmap", "vismap = \"vm.exr\"\ncfem = \"lit.exr\"\n");
+    refused(1, "\"lit.exr\": neither an environment nor a CFEM", "makelightmap d.lightmap -o x.exr");
+}
+
+TEST_F(Recipes, ARecipeThatReadsItselfIsRefused)
+{
+    make_all();
+    const std::string rest = "vismap = \"vm.exr\"\ncfem = \"cfem.exr\"\n";
+    write("self.lightmap", rest + "albedo = \"./self.lightmap\"\n");
+    refused(1,
+            "\"self.lightmap\" line 3: albedo: \"./self.lightmap\" reads itself: \"self.lightmap\" -> "
+            "\"./self.lightmap\"",
+            "makelightmap self.lightmap -o x.exr");
+    write("a.lightmap", "albedo = \"b.lightmap\"\n" + rest);
+    write("b.lightmap", "albedo = \"a.lightmap\"\n" + rest);
+    refused(1, "\"a.lightmap\" reads itself: \"a.lightmap\" -> \"b.lightmap\" -> \"a.lightmap\"",
+            "makelightmap a.lightmap -o x.exr");
+    write("self.cfem", "environment = \"self.cfem\"\n");
+    refused(1, "\"self.cfem\" reads itself", "makecfem self.cfem -o x.exr");
+    // Not itself: the same file with another albedo.
+    make_sky({ 0.5f, 0.5f, 0.5f });
+    write("twice.lightmap", rest + "albedo = \"twice.lightmap?albedo=sky.exr\"\n");
+    done("makelightmap twice.lightmap -o twice.exr");
+    for (int link = 0; link < 70; ++link)
+        write(format("{}.lightmap", link), rest + format("albedo = \"{}.lightmap\"\n", link + 1));
+    refused(1, "\"64.lightmap\": more than 64 recipes, each within the last", "makelightmap 0.lightmap -o x.exr");
+}
+
+TEST_F(Recipes, TheExamplesWork)
+{
+    const std::string examples = VMLIGHT_TEST_SOURCE "/configs/examples/";
+    done("makevismap " + examples + "spot.vismap -o vm.exr");
+    done("makecfem " + examples + "studio.cfem -o cfem.exr");
+    done("makelightmap " + examples + "spot.lightmap -o lit.exr");
+    done("makelightmap vm.exr cfem.exr --rotate 0,90,0 --exposure -2.2 -o expected.exr");
+    EXPECT_TRUE(read("lit.exr") == read("expected.exr"));
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command lines: help, flags, values, and what does not go together.
+#include "command_test.h"
+
+using namespace vmlight;
+using testing::HasSubstr;
+
+namespace {
+
+class Usage : public CommandTest
+{
+protected:
+    const std::vector<std::pair<std::string, std::string>> tools { { "makevismap", "quad.obj" },
+                                                                   { "makecfem", "sky.exr" },
+                                                                   { "makelightmap", "vm.exr sky.exr" } };
+
+    void SetUp() override
+    {
+        make_vismap();
+        make_sky({ 1, 1, 1 });
+    }
+};
+
+} // namespace
+
+TEST_F(Usage, HelpAndVersionEndWith0)
+{
+    for (const auto& [tool, operands] : tools) {
+        EXPECT_THAT(done(tool + " --help"), HasSubstr("Usage: " + tool));
+        EXPECT_THAT(done(tool + " --version"), testing::ContainsRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+        EXPECT_THAT(done(tool + " -o '' --help"), HasSubstr("Usage: " + tool));
+    }
+}
+
+TEST_F(Usage, QuietPrintsNothing)
+{
+    for (const auto& [tool, operands] : tools) {
+        const std::string small = tool == "makelightmap" ? "" : " --resolution 32";
+        EXPECT_EQ(done(tool + " " + operands + small + " -o x.exr --quiet"), "") << tool;
+    }
+}
+
+TEST_F(Usage, AnUnknownFlagIsRefusedWithTheNearest)
+{
+    refused(2, "unknown flag \"--sample\"; did you mean --samples?", "makevismap quad.obj -o x.exr --sample 4");
+    refused(2, "unknown flag \"-x\"", "makecfem sky.exr -x -o x.exr");
+    refused(2, "unknown flag \"--rotation\"", "makelightmap vm.exr sky.exr -o x.exr --rotation=1,2,3");
+}
+
+TEST_F(Usage, AMissingOrSurplusArgumentIsNamed)
+{
+    refused(2, "-o OUTPUT.exr is missing", "makevismap quad.obj");
+    for (const auto& [tool, operands] : tools) {
+        refused(2, " is missing", tool + " -o x.exr");
+        refused(2, "\"surplus\" is one argument too many", tool + " " + operands + " surplus -o x.exr");
+    }
+    refused(2, "", "makevismap quad.obj -o");
+    refused(2, "", "makevismap quad.obj -o x.exr --samples");
+}
+
+TEST_F(Usage, ValuesAreParsedStrictly)
+{
+    const struct
+    {
+        const char *flag, *value, *error;
+    } cases[] = {
+        { "--samples", "0", "samples: 0 is not in [1, 1048576]" },
+        { "--samples", "4x", "samples: \"4x\" is not a whole number" },
+        { "--samples", "", "--samples has an empty value" },
+        { "--occluder", " ", "--occluder has an empty value" },
+        { "--resolution", "0", "resolution: \"0\" is not WIDTHxHEIGHT from 1x1 to 32768x32768" },
+        { "--resolution", "99999", "resolution:" },
+        { "--sampler", "random", "sampler: \"random\" is not one of fibonacci, sobol, halton" },
+        { "--max-distance", "far", "max_distance: \"far\" is not a number or \"infinite\"" },
+        { "--max-distance", "nan", "max_distance: \"nan\" is not a number" },
+        { "--max-distance", "-1", "max_distance: -1 is not in [0, 1e+30] or \"infinite\"" },
+        { "--margin", "-2", "margin: -2 is not in" },
+        { "--channels", "normals",
+          "channels: \"normals\" is not one of normal, coverage, error; did you mean \"normal\"?" },
+        { "--channels", "normal,normal", "channels: \"normal\" comes twice" },
+        { "--format", "double", "format: \"double\" is not one of float, half" },
+        { "--threads", "-1", "threads: -1 is not in [0, 1024]" },
+        { "--uv-set", "8", "uv_set: 8 is not in [0, 7]" },
+    };
+    for (const auto& [flag, value, error] : cases) {
+        refused_words(2, error, { "makevismap", "quad.obj", "-o", "x.exr", flag, value });
+        refused_words(2, error, { "makevismap", "quad.obj", "-o", "x.exr", std::string(flag) + "=" + value });
+    }
+    refused(2, "--quiet takes no value", "makevismap quad.obj -o x.exr --quiet=1");
+}
+
+TEST_F(Usage, ValuesMayBeginWithAMinusOrFollowAnEqualsSign)
+{
+    done("makelightmap vm.exr sky.exr -o a.exr --rotate -90,0,0 --exposure -1");
+    done("makelightmap vm.exr sky.exr -o=b.exr --rotate=-90,0,0 --exposure=-1");
+    EXPECT_EQ(read("a.exr"), read("b.exr"));
+}
+
+TEST_F(Usage, FramesAreRefusedInWords)
+{
+    const std::string light = "makelightmap vm.exr sky.exr -o ";
+    refused(2, "is not a range of frames", light + "x.#.exr --frames 1-x");
+    refused(2, "--frames has an empty value", light + "x.#.exr --frames ''");
+    refused(2, "is not FIRST:LAST or one number", light + "x.#.exr --rotate-y 0:b");
+    for (const char* endless : { "1-2000000000", "1-3x0", "1-3x", "1-3x00,5" })
+        refused(2, "up to 999999", light + "x.#.exr --frames " + endless);
+    refused(2, "from 0 to 90 degrees needs --frames", light + "x.exr --rotate-y 0:90");
+    refused(2, "4 frames need a name with ####", light + "x.exr --frames 1-4");
+}
+
+TEST_F(Usage, FlagsThatDoNotGoTogetherAreWrongUsageBeforeAnyWork)
+{
+    const std::string mirror = "--matrix -1,0,0,0,1,0,0,0,1";
+    const std::pair<std::string, std::string> cases[] = {
+        { "only one of rotate, matrix and quaternion", "--rotate 1,2,3 " + mirror },
+        { "matrix: a mirror, not a rotation", mirror },
+        { "matrix: not a rotation", "--matrix 1,0,0,0,1,0,0,0,2" },
+        { "quaternion: 0,0,0,0 has no direction", "--quaternion 0,0,0,0" },
+        { "environment is given too", "--cfem sky.exr" },
+        { "--vismap has an empty value", "--vismap ''" },
+        { "--environment has an empty value", "--environment ''" },
+    };
+    for (const auto& [error, flags] : cases) {
+        refused(2, "makelightmap ERROR: " + error, "makelightmap vm.exr sky.exr -o x.exr " + flags);
+        // Nothing was read: none of these files is there.
+        refused(2, error, "makelightmap gone.exr gone.exr -o x.exr " + flags);
+    }
+    refused(2, " is missing", "makevismap '' -o x.exr");
+    refused(2, " is missing", "makecfem '' -o x.exr");
+    refused(2, " is missing", "makelightmap '' '' -o x.exr");
+    // A recipe's fault is not the command line's, unless its flags caused it.
+    write("mirror.lightmap", "vismap = \"vm.exr\"\nenvironment = \"sky.exr\"\nmatrix = [-1, 0, 0, 0, 1, 0, 0, 0, 1]\n");
+    refused(1, "\"mirror.lightmap\" line 3: matrix: a mirror", "makelightmap mirror.lightmap -o x.exr");
+    refused(2, "only one of rotate", "makelightmap mirror.lightmap -o x.exr --rotate 0,90,0");
+    done("makelightmap mirror.lightmap -o x.exr --rotate 0,90,0 --matrix=");
+}
+
+TEST_F(Usage, AFlagThatCannotChangeThePictureIsRefused)
+{
+    done("makecfem sky.exr -o cfem.exr --order 2 --filter sh");
+    const std::string bake = "makevismap quad.obj -o x.exr ", environment = "makelightmap vm.exr sky.exr -o x.exr ",
+                      lit = "makelightmap vm.exr cfem.exr -o x.exr ", filtered = "\"cfem.exr\" is filtered already";
+    const std::pair<std::string, std::string> cases[] = {
+        { "--order 3: only the filter sh uses it", "makecfem sky.exr -o x.exr --order 3" },
+        { "--cfem-order 2: only the filter sh uses it", environment + "--cfem-order=2" },
+        { "--albedo-colorspace ACEScg: there is no albedo", environment + "--albedo-colorspace ACEScg" },
+        { "--cfem-filter sh: there is no environment to filter: " + filtered, lit + "--cfem-filter sh" },
+        { "--cfem-sanitize: there is no environment to filter: " + filtered, lit + "--cfem-sanitize" },
+        { "--colorspace data: there is no environment to convert: " + filtered, lit + "--colorspace data" },
+        { "--cfem-resolution 8: there is no environment", environment + "--is-cfem --cfem-resolution 8" },
+        { "--crease-angle 30: flat normals", bake + "--normals flat --crease-angle 30" },
+        { "--samples 8: target_error says how many", bake + "--samples 8 --target-error 0.1" },
+        { "--samples 8: time_budget says how many", bake + "--time-budget=1 --samples 8" },
+        { "--time-budget 1: target_error says how many", bake + "--time-budget=1 --target-error=0.1" },
+        { "--resolution 8: width and height", bake + "--resolution 8 --width 4 --height 4" },
+    };
+    for (const auto& [error, line] : cases)
+        refused(2, line.substr(0, line.find(' ')) + " ERROR: " + error, line);
+    // By flags only: a recipe may keep what it does not use just now.
+    write("a.lightmap", "vismap = \"vm.exr\"\ncfem = \"cfem.exr\"\ncfem_order = 5\ncolorspace = \"data\"\n");
+    done("makelightmap a.lightmap -o x.exr");
+    done(environment + "--cfem-filter=sh --cfem-order=2");
+    done(bake + "--resolution=8x9 --height=4 --samples=1");
+}

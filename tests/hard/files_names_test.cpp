@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Odd names, long paths, and crowded folders.
+#include "files.h"
+#include "hard_case.h"
+
+#include <filesystem>
+
+using namespace vmlight;
+namespace fs = std::filesystem;
+
+TEST_F(Files, Names)
+{
+    HardCase row(
+        "Names with blanks, quotes, a newline, `%s`, `{}`, `*`, a leading `-`, bytes that are no UTF-8, 255 bytes");
+    const std::string names[] = { "with space",
+                                  " ",
+                                  "quote'\"",
+                                  "new\nline",
+                                  "-o",
+                                  "--help",
+                                  "100%",
+                                  "%s%n%d",
+                                  "{}",
+                                  "{0:9999}",
+                                  "a&b",
+                                  "tab\t",
+                                  "\u00fc\u732b\U0001f408",
+                                  "back\\slash",
+                                  "*",
+                                  "$HOME",
+                                  "#",
+                                  "####",
+                                  ";",
+                                  "<>",
+                                  "..a",
+                                  std::string(251, 'a'),
+                                  "\xff\xfe" };
+    for (const std::string& name : names) {
+        SCOPED_TRACE(name);
+        const std::string mesh = name + ".obj", image = name + ".exr", place = name[0] == '-' ? "./" : "";
+        write(mesh, kQuad);
+        Result result
+            = run_words({ "makevismap", place + mesh, "-o", image, "--resolution", "16", "--samples", "4", "--quiet" });
+        EXPECT_EQ(result.code, 0) << result.err;
+        remove(mesh);
+        result = run_words({ "makelightmap", place + image, "cfem.exr", "--quiet", "-o", "lit.exr" });
+        EXPECT_EQ(result.code, 0) << result.err;
+        remove(image);
+    }
+    row.naive("a format string, or a hidden part with a name that is too long");
+    row.ours("the same picture");
+}
+
+TEST_F(Files, LongPaths)
+{
+    HardCase row("A path of 4090 bytes; a name of 256");
+    std::string folder = fs::current_path().string();
+    while (folder.size() + 201 < 3990)
+        folder += "/" + std::string(200, 'd');
+    fs::create_directories(folder);
+    const std::string sky = folder + "/sky.exr";
+    fs::copy_file("sky.exr", sky);
+    const size_t rest = 4090 - folder.size() - std::string("/.exr").size();
+    for (const size_t length : { rest - 10, rest }) {
+        const std::string name = std::string(std::min(length, size_t(250)), 'f') + ".exr";
+        const Result result = run_words({ "makecfem", sky, "-o", folder + "/" + name, "--resolution", "8", "--quiet" });
+        EXPECT_EQ(result.code, 0) << result.err;
+        std::vector<std::string> found;
+        for (const auto& entry : fs::directory_iterator(folder))
+            found.push_back(entry.path().filename().string());
+        EXPECT_THAT(found, testing::UnorderedElementsAre("sky.exr", name));
+        fs::remove(folder + "/" + name);
+    }
+    expect_one_error(run_words({ "makecfem", "sky.exr", "-o", std::string(252, 'f') + ".exr" }), 1,
+                     "File name too long");
+    expect_one_error(run_words({ "makecfem", "sky.exr", "-o", folder + "/" + std::string(200, 'f') + "/x.exr" }), 1);
+    row.naive("a hidden part's path is longer than the system takes");
+    row.ours("the picture; exit code 1 before the work");
+}
+
+TEST_F(Files, TenThousandFiles)
+{
+    HardCase row("Two tiles among 10000 files whose names are almost theirs");
+    fs::create_directory("many");
+    for (int i = 0; i < 10000; ++i)
+        std::fclose(std::fopen(OIIO::Strutil::fmt::format("many/sky.{:05}.exr", i).c_str(), "w"));
+    for (const std::string udim : { "1001", "1013" })
+        fs::copy_file("sky.exr", "many/sky." + udim + ".exr");
+    done("makecfem many/sky.<UDIM>.exr -o cfem.<UDIM>.exr --resolution 8");
+    EXPECT_THAT(names("cfem."), testing::ElementsAre("cfem.1001.exr", "cfem.1013.exr", "cfem.exr"));
+    done("makecfem sky.exr -o many/x.exr --resolution 8");
+    row.naive("names of five digits are taken for tiles");
+    row.ours("the two tiles, well below 10 s");
+}
