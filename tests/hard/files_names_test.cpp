@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 TEST_F(Files, Names)
 {
     HardCase row(
-        "Names with blanks, quotes, a newline, `%s`, `{}`, `*`, a leading `-`, bytes that are no UTF-8, 255 bytes");
+        "File names with spaces, quotes, a newline, `%s`, `{}`, `*`, a leading `-`, invalid UTF-8 or 255 bytes");
     const std::string names[] = { "with space",
                                   " ",
                                   "quote'\"",
@@ -47,13 +47,13 @@ TEST_F(Files, Names)
         EXPECT_EQ(result.code, 0) << result.err;
         remove(image);
     }
-    row.naive("a format string, or a hidden part with a name that is too long");
-    row.ours("the same picture");
+    row.naive("a format string, or a temporary file whose name is too long");
+    row.ours("the same image");
 }
 
 TEST_F(Files, LongPaths)
 {
-    HardCase row("A path of 4090 bytes; a name of 256");
+    HardCase row("A path of 4090 bytes; a file name of 256");
     std::string folder = fs::current_path().string();
     while (folder.size() + 201 < 3990)
         folder += "/" + std::string(200, 'd');
@@ -74,13 +74,13 @@ TEST_F(Files, LongPaths)
     expect_one_error(run_words({ "makecfem", "sky.exr", "-o", std::string(252, 'f') + ".exr" }), 1,
                      "File name too long");
     expect_one_error(run_words({ "makecfem", "sky.exr", "-o", folder + "/" + std::string(200, 'f') + "/x.exr" }), 1);
-    row.naive("a hidden part's path is longer than the system takes");
-    row.ours("the picture; exit code 1 before the work");
+    row.naive("the path of the temporary file exceeds the system's limit");
+    row.ours("the image; exit code 1 before the work");
 }
 
 TEST_F(Files, TenThousandFiles)
 {
-    HardCase row("Two tiles among 10000 files whose names are almost theirs");
+    HardCase row("Two UDIM tiles among 10000 files with similar names");
     fs::create_directory("many");
     for (int i = 0; i < 10000; ++i)
         std::fclose(std::fopen(OIIO::Strutil::fmt::format("many/sky.{:05}.exr", i).c_str(), "w"));
@@ -89,6 +89,6 @@ TEST_F(Files, TenThousandFiles)
     done("makecfem many/sky.<UDIM>.exr -o cfem.<UDIM>.exr --resolution 8");
     EXPECT_THAT(names("cfem."), testing::ElementsAre("cfem.1001.exr", "cfem.1013.exr", "cfem.exr"));
     done("makecfem sky.exr -o many/x.exr --resolution 8");
-    row.naive("names of five digits are taken for tiles");
-    row.ours("the two tiles, well below 10 s");
+    row.naive("five-digit names are taken for tiles");
+    row.ours("the two tiles, in well under 10 s");
 }

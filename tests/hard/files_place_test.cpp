@@ -90,7 +90,8 @@ private:
 
 TEST_F(Files, InputsThatAreNoFiles)
 {
-    HardCase row("Each input is missing, a folder, a pipe, a socket, empty, /dev/null, a link to nothing or to itself");
+    HardCase row(
+        "Each input missing, or a folder, a pipe, a socket, empty, /dev/null, a dangling link, a link to itself");
     write("material.obj", "mtllib named.mtl\n" + kQuad);
     const std::pair<std::string, std::string> inputs[] = {
         { "mesh.obj", "makevismap mesh.obj" },
@@ -121,13 +122,13 @@ TEST_F(Files, InputsThatAreNoFiles)
             }
             EXPECT_FALSE(exists("x.exr"));
         }
-    row.naive("open() of a pipe waits for ever");
-    row.ours("exit code 1, one line that names it");
+    row.naive("open() of a pipe blocks forever");
+    row.ours("exit code 1, and one line naming the file");
 }
 
 TEST_F(Files, InputsThatMayNotBeRead)
 {
-    HardCase row("An input may not be read; the target or its folder may not be written");
+    HardCase row("An unreadable input; a read-only output file or folder");
     const std::string folder = path("");
     fs::permissions(folder, fs::perms::all);
     fs::copy_file("sky.exr", "x.exr");
@@ -151,13 +152,13 @@ TEST_F(Files, InputsThatMayNotBeRead)
                      "the folder \".\" cannot be written: Permission denied");
     ASSERT_EQ(::chmod(folder.c_str(), 0755), 0);
     EXPECT_TRUE(contents() == before);
-    row.naive("a read-only target is replaced, since its folder may be written");
-    row.ours("exit code 1, one line, before the work");
+    row.naive("a read-only file is replaced, because its folder is writable");
+    row.ours("exit code 1 and one line, before the work");
 }
 
 TEST_F(Files, TargetIsAnInput)
 {
-    HardCase row("The target is one of the inputs");
+    HardCase row("The output is one of the inputs");
     const std::string light = "makelightmap vm.exr cfem.exr ";
     for (const auto& [name, line] :
          { std::pair<std::string, std::string>("sky.exr", "makecfem sky.exr --resolution 8 "),
@@ -172,13 +173,13 @@ TEST_F(Files, TargetIsAnInput)
     const auto before = contents();
     expect_one_error(run(light + "--model ao -o vm.exr"), 1);
     EXPECT_TRUE(contents() == before);
-    row.naive("it is emptied before it is read");
-    row.ours("the right picture; the old input if the run fails");
+    row.naive("it is truncated before it is read");
+    row.ours("the right image; the old input if the run fails");
 }
 
 TEST_F(Files, TargetsThatAreLinks)
 {
-    HardCase row("The target is a link, a link to nothing, in circles, or a file of two names");
+    HardCase row("The output is a link, a dangling link, a cycle of links, or a file with two hard links");
     const std::string filter = "makecfem sky.exr --resolution 8 --quiet -o ";
     done(filter + "new.exr");
     const std::string fresh = read("new.exr");
@@ -198,6 +199,7 @@ TEST_F(Files, TargetsThatAreLinks)
     fs::create_symlink("circle.exr", "circle.exr");
     expect_one_error(run(filter + "circle.exr"), 1, "\"circle.exr\": a link that leads in circles");
     EXPECT_THAT(names("", "real"), testing::ElementsAre("gone.exr", "old.exr"));
-    row.naive("rename() puts a file in the place of the link, readable by all");
-    row.ours("what the link leads to is made or replaced, and keeps its rights; the second name keeps the old file");
+    row.naive("rename() replaces the link by a file, readable by everyone");
+    row.ours(
+        "the link's target is created or replaced and keeps its permissions; the second hard link keeps the old file");
 }

@@ -46,7 +46,7 @@ void Files::expect_survival(const std::string& name, const std::string& whole, c
 
 TEST_F(Files, DamagedMeshes)
 {
-    HardCase row("OBJ, PLY, glTF and GLB, cut short or with one bit turned over");
+    HardCase row("OBJ, PLY, glTF and GLB, truncated or with one bit flipped");
     write("m.vismap", "mesh = \"m.glb\"\nresolution = 16\nsamples = 4\n");
     const std::pair<std::string, std::string> files[]
         = { { "m.obj", kQuad },      { "text.ply", quad_ply_text() },  { "binary.ply", quad_ply() },
@@ -59,13 +59,13 @@ TEST_F(Files, DamagedMeshes)
         remove("x.exr");
         expect_survival(name, whole, bake, name == "m.glb" ? "m.vismap" : "");
     }
-    row.naive("assimp 5.2 ends the process at 39 of 140 damaged binary PLYs");
+    row.naive("assimp 5.2 ends the process for 39 of 140 damaged binary PLYs");
     row.ours("finite pixels, or exit code 1 and one line");
 }
 
 TEST_F(Files, DamagedImages)
 {
-    HardCase row("EXR and HDR, cut short or with one bit turned over");
+    HardCase row("EXR and HDR, truncated or with one bit flipped");
     write("d.lightmap", "vismap = \"vm.exr\"\ncfem = \"cfem.exr\"\n");
     write("d.cfem", "environment = \"sky.hdr\"\nresolution = 8\n");
     const std::string light = "makelightmap vm.exr cfem.exr";
@@ -73,13 +73,13 @@ TEST_F(Files, DamagedImages)
     expect_survival("cfem.exr", read("cfem.exr"), light, "");
     expect_survival("sky.exr", read("sky.exr"), "makecfem sky.exr --resolution 8", "");
     expect_survival("sky.hdr", read("sky.hdr"), "makecfem sky.hdr --resolution 8", "d.cfem");
-    row.naive("rows that could not be read are black");
+    row.naive("unreadable rows become black");
     row.ours("finite pixels, or exit code 1 and one line");
 }
 
 TEST_F(Files, DamagedRecipes)
 {
-    HardCase row("Recipes, cut short or with one bit turned over");
+    HardCase row("Recipes, truncated or with one bit flipped");
     write("d.vismap", "mesh = \"quad.obj\"\nresolution = [16, 16]\nsamples = 4\nmargin = 2\nnormals = \"flat\"\n");
     write("d.cfem", "environment = \"sky.exr\"\nresolution = 8\n");
     write("d.lightmap",
@@ -88,13 +88,13 @@ TEST_F(Files, DamagedRecipes)
     expect_survival("d.vismap", read("d.vismap"), "makevismap d.vismap --resolution 16", "d.vismap");
     expect_survival("d.cfem", read("d.cfem"), "makecfem d.cfem --resolution 8", "d.cfem");
     expect_survival("d.lightmap", read("d.lightmap"), "makelightmap d.lightmap", "d.lightmap");
-    row.naive("a key that is none any more is passed over");
-    row.ours("the picture of what is left, or exit code 1 and one line");
+    row.naive("a misspelt key is ignored");
+    row.ours("the image of the remaining recipe, or exit code 1 and one line");
 }
 
 TEST_F(Files, DisplayWindowWithOneBitTooMany)
 {
-    HardCase row("One bit of an EXR's display window is wrong: 2^28 columns of black around 16 of light");
+    HardCase row("One wrong bit in an EXR's display window: 2^28 columns of black around 16 of light");
     std::string bytes = read("sky.exr");
     const size_t at = bytes.find(std::string("displayWindow\0box2i\0", 20)) + 20 + 4;
     int32_t window[4];
@@ -108,6 +108,6 @@ TEST_F(Files, DisplayWindowWithOneBitTooMany)
                      "\"wide.exr\": " + fault + ", of at most 1048576 a side");
     write("wide.cfem", "environment = \"wide.exr\"\nresolution = 8\n");
     EXPECT_THAT(read_by_plugin("wide.cfem"), HasSubstr(fault));
-    row.naive("all are gone through: 45 s, then out of memory");
-    row.ours("exit code 1 at once, with what the header says");
+    row.naive("all are processed: 45 s, then out of memory");
+    row.ours("exit code 1 at once, quoting the header");
 }

@@ -78,7 +78,7 @@ VismapRecipe small_bake(const std::string& mesh)
 
 TEST_F(Files, DamagedMeshesOneByOne)
 {
-    HardCase row("OBJ, binary PLY and GLB, each cut at 40 places, and with a bit turned over at 100");
+    HardCase row("OBJ, binary PLY and GLB, each truncated at 40 places and with one bit flipped at 100");
     for (const auto& [name, whole] :
          { std::pair<std::string, std::string>("m.obj", kQuad), { "m.ply", quad_ply() }, { "m.glb", quad_glb() } }) {
         OIIO::ImageBuf image;
@@ -86,13 +86,13 @@ TEST_F(Files, DamagedMeshesOneByOne)
         survive(damages_of(whole),
                 [&](const Damage& damage) { return try_to_make(small_bake(write(name, damage.bytes))); });
     }
-    row.naive("assimp 5.2 reads beyond its memory, or ends the process, at one in four PLYs");
-    row.ours("420 times finite pixels or one line");
+    row.naive("assimp 5.2 reads out of bounds or ends the process for one PLY in four");
+    row.ours("420 times finite pixels or a one-line error");
 }
 
 TEST_F(Files, DamagedImagesOneByOne)
 {
-    HardCase row("EXR and HDR, each cut at 40 places, and with a bit turned over at 100");
+    HardCase row("EXR and HDR, each truncated at 40 places and with one bit flipped at 100");
     for (const std::string name : { "sky.exr", "sky.hdr" }) {
         CfemRecipe recipe;
         recipe.environment = name;
@@ -103,13 +103,13 @@ TEST_F(Files, DamagedImagesOneByOne)
             return fault.empty() ? try_to_read(name) : fault;
         });
     }
-    row.naive("a flipped bit of a header asks for gigabytes, or keeps a filter busy for a minute");
-    row.ours("280 times finite pixels or one line, in makers and readers");
+    row.naive("a flipped bit in a header asks for gigabytes, or keeps a filter busy for a minute");
+    row.ours("280 times finite pixels or a one-line error, in executables and readers");
 }
 
 TEST_F(Files, DamagedRecipesOneByOne)
 {
-    HardCase row("Recipes of three stages, each cut at 40 places, and with a bit turned over at 100");
+    HardCase row("Recipes of three stages, each truncated at 40 places and with one bit flipped at 100");
     write("a.vismap", "mesh = \"quad.obj\"\nsamples = 4\nresolution = [16, 16]\nmargin = 2\n");
     write("a.cfem", "environment = \"sky.exr\"\nresolution = 8\n");
     write("a.lightmap", "vismap = \"a.vismap\"\ncfem = \"a.cfem\"\nrotate = [0, 30, 0]\n");
@@ -118,6 +118,6 @@ TEST_F(Files, DamagedRecipesOneByOne)
         survive(damages_of(whole), [&](const Damage& damage) { return try_to_read(write(name, damage.bytes)); });
         write(name, whole);
     }
-    row.naive("a key that has become another is passed over: exit code 0 with a wrong picture");
-    row.ours("420 times finite pixels or one line, in the readers");
+    row.naive("a misspelt key is ignored: exit code 0 with a wrong image");
+    row.ours("420 times finite pixels or a one-line error, in the readers");
 }

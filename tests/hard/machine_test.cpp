@@ -50,7 +50,7 @@ protected:
 
 TEST_F(Machine, KilledAtAnyMoment)
 {
-    HardCase row("A run is killed (`kill -9`, Ctrl-C) at 100 moments, from its start to its end");
+    HardCase row("A run killed (`kill -9`, Ctrl-C) at 100 moments, from start to end");
     const std::string old = "the old picture";
     const Clock::time_point begin = Clock::now();
     ASSERT_EQ(wait(start("384", "4", "new.exr")), 0);
@@ -75,13 +75,13 @@ TEST_F(Machine, KilledAtAnyMoment)
         EXPECT_THAT(names(), testing::ElementsAre("x.exr")) << "debris";
     }
     EXPECT_GT(killed, 0);
-    row.naive("a file written in place is cut; a temporary file beside it stays for ever");
+    row.naive("a file written in place is truncated; a temporary file is left behind");
     row.ours("the old file or the new one, and nothing else in the folder");
 }
 
 TEST_F(Machine, TwoWriters)
 {
-    HardCase row("Four processes write one target at the same time");
+    HardCase row("Four processes writing one file at the same time");
     std::string either[2];
     const char* const samples[] = { "4", "5" };
     for (int i = 0; i < 2; ++i) {
@@ -99,6 +99,6 @@ TEST_F(Machine, TwoWriters)
         EXPECT_TRUE(seen == either[0] || seen == either[1]) << "neither's file";
         EXPECT_THAT(names(), testing::ElementsAre("x.exr")) << "debris";
     }
-    row.naive("bytes of one between those of another");
-    row.ours("the file of one of them, whole");
+    row.naive("interleaved bytes");
+    row.ours("the whole file of one of them");
 }

@@ -29,8 +29,8 @@ class Machine(HardCase):
         _, told = process.communicate(timeout=LIMIT)
         self.assertEqual(process.returncode, 1, told)
         self.assertIn('makevismap ERROR: "out/x.exr": no folder "out"', told)
-        self.row("The output folder is removed while the map is baked", "exit code 0 with no file",
-                 "exit code 1, and that there is no such folder")
+        self.row("The output folder is removed during the bake", "exit code 0 without a file",
+                 "exit code 1: no such folder")
 
     def test_full_disk(self):
         script = """mount -t tmpfs -o size=64k tmpfs out || exit 77
@@ -52,8 +52,8 @@ class Machine(HardCase):
             self.assertEqual((result.returncode, result.stdout), (1, "x.exr\nold\n"), result.stderr)
             self.assertIn('ERROR: "out/x.exr": ', result.stderr)
             self.assertIn("No space left on device", result.stderr)
-        self.row("The disk is full", "a cut file in the place of the old one; OpenEXR's writing threads wait for ever",
-                 "exit code 1, why, and the old file")
+        self.row("The disk is full", "a truncated file in place of the old one; OpenEXR's writing threads hang",
+                 "exit code 1 with the reason; the old file is untouched")
 
     def test_limit_of_file_size(self):
         def limit():
@@ -63,8 +63,8 @@ class Machine(HardCase):
         result = self.run_tool(*self.BAKE, "-o", "x.exr", preexec_fn=limit)
         self.told(result, 1, 'makevismap ERROR: "x.exr": File too large')
         self.assertEqual(self.contents(), before)
-        self.row("The file grows beyond `ulimit -f`", "SIGXFSZ ends the process without a word",
-                 "exit code 1, why, and the old file")
+        self.row("The output exceeds `ulimit -f`", "SIGXFSZ ends the process without a message",
+                 "exit code 1 with the reason; the old file is untouched")
 
     def test_more_memory_than_there_is(self):
         before = self.contents()
@@ -83,8 +83,8 @@ class Machine(HardCase):
         self.assertIn("256.0 GB of memory, and there are ", told)
         os.remove(self.path("wide.vismap"))
         self.assertEqual(self.contents(), before)
-        self.row("A map of 256 GB is asked for", "the system grants it, and kills the process that fills it",
-                 "exit code 1 before the bake, with what is needed and what is there")
+        self.row("A map of 256 GB", "the system grants the memory and kills the process that fills it",
+                 "exit code 1 before the bake, with the memory needed and available")
 
     def test_limit_of_memory(self):
         def limit():
@@ -99,8 +99,8 @@ class Machine(HardCase):
         self.assertEqual(self.contents(), before)
         result = self.run_tool(*words, "2048", preexec_fn=limit)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.row("A map does not fit into `ulimit -v`", "std::bad_alloc, or an image without pixels",
-                 "exit code 1 with what is needed and what is there; what fits is made")
+        self.row("A map that exceeds `ulimit -v`", "std::bad_alloc, or an image without pixels",
+                 "exit code 1, with the memory needed and available; smaller maps work")
 
     def test_no_streams(self):
         # Else the output would be the process's stdout, and what it says would go into the picture.
@@ -119,8 +119,8 @@ class Machine(HardCase):
         result = subprocess.run(["sh", "-c", '"$@" >/dev/full', "sh", os.path.join(BIN, "makevismap"), "quad.obj",
                                  "--print-recipe"], cwd=self.folder, capture_output=True, text=True, timeout=LIMIT)
         self.told(result, 1, "cannot write to stdout")
-        self.row("stdin, stdout and stderr are closed, or lead to a full disk",
-                 "the picture becomes stdout, and messages go into it", "the same picture, exit code 0")
+        self.row("stdin, stdout and stderr closed, or redirected to a full disk",
+                 "the image gets the descriptor of stdout, and messages are written into it", "the same image, exit code 0")
 
     def test_listener_leaves(self):
         ours, theirs = os.pipe()
@@ -130,8 +130,8 @@ class Machine(HardCase):
         os.close(theirs)
         self.assertEqual(result.returncode, 0)
         self.assert_finite("x.exr")
-        self.row("Whoever reads stdout and stderr is gone (`| head -1`)", "SIGPIPE ends the bake",
-                 "the picture, exit code 0")
+        self.row("The reader of stdout and stderr has exited (`| head -1`)", "SIGPIPE ends the bake",
+                 "the image, exit code 0")
 
     def test_bare_environment(self):
         self.done("makevismap", SPOT, "-o", "a.exr", *SMALL)
@@ -141,8 +141,8 @@ class Machine(HardCase):
             result = self.run_tool("makevismap", SPOT, "-o", "b.exr", *SMALL, env=environment)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(self.read("a.exr"), self.read("b.exr"))
-        self.row("There is no HOME, no TMPDIR, no PATH; LANG is C, or one with decimal commas",
-                 "numbers are read and written by the locale", "the same bytes")
+        self.row("No HOME, TMPDIR or PATH; LANG is C, or a locale with decimal commas",
+                 "numbers are read and written with the locale", "the same bytes")
 
     def test_few_files_many_threads(self):
         def limit():
@@ -157,8 +157,8 @@ class Machine(HardCase):
             shutil.copy(self.path("sky.exr"), self.path(f"sky.{udim}.exr"))
         self.assertEqual(self.run_tool("makecfem", "sky.<UDIM>.exr", "-o", "cfem.<UDIM>.exr", "--resolution", "4",
                                        preexec_fn=limit).returncode, 0)
-        self.row("16 open files at most (`ulimit -n`), for 30 tiles and for 1000 threads",
-                 "files that stay open run out at the 14th", "the same bytes")
+        self.row("At most 16 open files (`ulimit -n`), with 30 tiles and with 1000 threads",
+                 "files that stay open exhaust the limit at the 14th", "the same bytes")
 
 
 if __name__ == "__main__":
