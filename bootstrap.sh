@@ -19,7 +19,7 @@ packages=(
     ca-certificates cmake g++ ninja-build
     libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
     libpugixml-dev
-    libgtest-dev libbenchmark-dev
+    libgmock-dev libgtest-dev libbenchmark-dev
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )
 

@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "judgement.h"
 #include "scenes.h"
+#include "watchdog.h"
 
 #include <random>
 
@@ -154,6 +155,7 @@ TEST(Geometry, MeshesThatAreNone)
 
 TEST(Geometry, TenMillionTriangles)
 {
+    extend_watchdog(5);
     HardCase row("A sphere of ten million triangles (a million under sanitizers)");
     row.naive("an index stored in a float is off by one from the 16777217th corner on");
     EXPECT_EQ(float((1 << 24) + 1), float(1 << 24));

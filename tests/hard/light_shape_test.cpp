@@ -5,6 +5,7 @@
 #include "cfem_maps.h"
 #include "lightmap_scene.h"
 #include "temporary_folder.h"
+#include "watchdog.h"
 
 #include <vmlight/base/sanitizers.h>
 #include <vmlight/stage/make_stage.h>
@@ -155,6 +156,7 @@ TEST(Light, MapsThatAreNotTwiceAsWideAsHigh)
 
 TEST(Light, LargeMapsAreReadInStrips)
 {
+    extend_watchdog(5);
     HardCase row("An environment of 16384x8192");
     const vmlight::TemporaryFolder folder;
     const std::string path = folder / "large.exr";

@@ -30,32 +30,34 @@ class Host(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
+        """Makes the maps once for all tests of a host."""
         for program in cls.programs:
             if not shutil.which(program):
                 raise unittest.SkipTest(program + " is not installed")
+        cls.environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
+        cls.made = tempfile.mkdtemp(prefix="vmlight-made-")
+        cls.addClassCleanup(shutil.rmtree, cls.made)
+        shutil.copy(SKY, os.path.join(cls.made, "studio.hdr"))
+        for name, text in (
+                ("floor.obj", SCENE), ("wall.obj", WALL),
+                # The same maps, live.
+                ("floor.vismap", 'mesh = "floor.obj"\noccluder = "wall.obj"\nresolution = 64\nsamples = 64\n'),
+                ("studio.cfem", 'environment = "studio.hdr"\nstack = true\n'),
+                ("floor.lightmap", 'vismap = "floor.vismap"\ncfem = "studio.cfem"\nrotate = [60, 30, 0]\n')):
+            with open(os.path.join(cls.made, name), "w") as out:
+                out.write(text)
+        for words in (["makevismap", "floor.obj", "--occluder", "wall.obj", "-o", "floor_vismap.exr", "--resolution", "64",
+                       "--samples", "64", "--quiet"],
+                      ["makelightmap", "floor_vismap.exr", SKY, "--rotate", "60,30,0", "-o", "floor_lit.exr", "--quiet"]):
+            subprocess.run([os.path.join(BIN, words[0]), *words[1:]], check=True, cwd=cls.made, env=cls.environment)
 
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="vmlight-host-")
         self.addCleanup(shutil.rmtree, self.folder)
-        self.environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
-        self.write("floor.obj", SCENE)
-        self.write("wall.obj", WALL)
-        self.run_program(os.path.join(BIN, "makevismap"), "floor.obj", "--occluder", "wall.obj", "-o",
-                         "floor_vismap.exr", "--resolution", "64", "--samples", "64", "--quiet")
-        self.run_program(os.path.join(BIN, "makelightmap"), "floor_vismap.exr", SKY, "--rotate", "60,30,0", "-o",
-                         "floor_lit.exr", "--quiet")
-        # The same, live.
-        shutil.copy(SKY, self.path("studio.hdr"))
-        self.write("floor.vismap", 'mesh = "floor.obj"\noccluder = "wall.obj"\nresolution = 64\nsamples = 64\n')
-        self.write("studio.cfem", 'environment = "studio.hdr"\nstack = true\n')
-        self.write("floor.lightmap", 'vismap = "floor.vismap"\ncfem = "studio.cfem"\nrotate = [60, 30, 0]\n')
+        shutil.copytree(self.made, self.folder, dirs_exist_ok=True)
 
     def path(self, name):
         return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as out:
-            out.write(text)
 
     def run_program(self, *words):
         environment = dict(self.environment)
@@ -105,6 +107,11 @@ class Oiiotool(Host):
         out = self.run_program("oiiotool", "--info", "-v", "over.exr", "small.exr")
         self.assertIn("64 x   64, 4 channel", out)
         self.assertIn("32 x   32, 3 channel", out)
+
+    def test_recipes_of_tiles_are_a_sequence(self):
+        os.symlink("floor.lightmap", self.path("tile.1001.lightmap"))
+        self.run_program("oiiotool", "tile.#.lightmap", "--frames", "1001", "-o", "out.#.exr")
+        self.assertEqual(self.largest_difference("floor_lit.exr", "out.1001.exr"), 0)
 
     def test_automatic_colour_conversion_leaves_a_visibility_map_alone(self):
         self.run_program("oiiotool", "--colorconfig", CONFIG, "--autocc", "floor_vismap.exr", "-o", "copy_vismap.exr")
@@ -171,10 +178,10 @@ class Python(Host):
 
     @classmethod
     def setUpClass(cls):
-        super().setUpClass()
         found = subprocess.run([cls.interpreter, "-c", "import OpenImageIO, numpy"], capture_output=True)
         if found.returncode != 0:
             raise unittest.SkipTest("Python's modules OpenImageIO and numpy are not installed")
+        super().setUpClass()
 
     def test_python_reads_maps_and_recipes(self):
         self.run_program(os.path.join(BIN, "makecfem"), SKY, "-o", "studio_cfem.exr", "--quiet")
@@ -191,9 +198,9 @@ class Blender(Host):
 
     @classmethod
     def setUpClass(cls):
-        super().setUpClass()
         if PRELOAD:
             raise unittest.SkipTest("Blender runs under no sanitizer")
+        super().setUpClass()
 
     def render(self, texture):
         out = self.run_program("blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The main of the test binaries. Hundreds of tests share a process, so the limit of each is kept here: a test may take
-// VMLIGHT_TEST_LIMIT (20) seconds of processor time. Unlike the clock's, these are the same on a busy machine. A test
+// VMLIGHT_TEST_LIMIT (60) seconds of processor time. Unlike the clock's, these are the same on a busy machine. A test
 // that waits for something that never comes uses none, so ten times the limit by the clock ends it too.
 #include "watchdog.h"
 
@@ -20,7 +20,7 @@
 namespace vmlight {
 namespace {
 
-int s_limit = 20; // seconds of processor time
+int s_limit = 60; // seconds of processor time
 bool s_finished = false;
 int s_stderr = STDERR_FILENO; // where it leads to before tests redirect it
 char s_test[512], s_case[512]; // a signal handler may format nothing
