@@ -202,7 +202,7 @@ TEST(Uv, NotANumberInAFile)
     Mesh mesh;
     std::string error;
     EXPECT_FALSE(read_mesh(mesh, path, {}, error));
-    EXPECT_EQ(error, "\"" + path + "\": line 5 has texture coordinates that are not finite: \"vt nan 1\"");
+    EXPECT_EQ(error, "\"" + path + "\": line 5 has non-finite texture coordinates: \"vt nan 1\"");
     row.ours("refused, with the line number");
 }
 
