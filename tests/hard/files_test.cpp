@@ -7,7 +7,7 @@
 
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/make_stage.h>
-#include <vmlight/stage/pixel_source.h>
+#include <vmlight/stage/open_source.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

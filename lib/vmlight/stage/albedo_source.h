@@ -5,12 +5,14 @@
 #include <vmlight/image/color.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/stage/pixel_source.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <OpenImageIO/imagebuf.h>
 
 #include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -29,7 +31,13 @@ public:
     /// nullptr, with the reason in `error`, if it cannot be read or converted. Lives as long as this.
     const AlbedoReader* reader(std::string& error);
 
+    /// Its texture in linear light, not resized: as make_lightmap() wants it. Errors have the place of the recipe's
+    /// key `albedo`.
+    bool make_whole(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error);
+
     bool read(OIIO::ROI roi, float* dst, std::string& error) override;
+    bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
+              std::string& error) override;
     bool failed() const override { return m_prepare.failed() || m_image->failed(); }
     size_t bytes() const override { return m_bytes; }
 

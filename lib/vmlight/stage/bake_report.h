@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/vismap/vismap.h>
 

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/pixel_source.h>
-
 #include <vmlight/base/cache.h>
 #include <vmlight/base/tile_size.h>
+#include <vmlight/base/words.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
+#include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_environment.h>
 #include <vmlight/stage/stored_image.h>
 
 #include <OpenImageIO/strutil.h>
-#include <OpenImageIO/sysutil.h>
+#include <OpenImageIO/timer.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 
 namespace vmlight {
@@ -63,62 +65,97 @@ public:
     bool read(OIIO::ROI roi, float* dst, std::string& error) override { return read_of(0, roi, dst, error); }
     bool read_of(int subimage, OIIO::ROI roi, float* dst, std::string& error) override
     {
-        // The environment itself takes no filter: who reads it alone pays for it alone.
         const bool radiance = subimage == kStackLevels;
-        Once& once = radiance ? m_reduce : m_make;
-        if (!once.run([&](std::string& reason) { return radiance ? reduce(reason) : make(reason); }, error))
+        const ImageRange range = radiance ? ImageRange { kStackLevels, 1 } : ImageRange { 0, kStackLevels };
+        auto& images = radiance ? m_radiance : m_cfem;
+        if (!(radiance ? m_reduce : m_make)
+                 .run([&](std::string& reason) { return filter(images, range, {}, 1, reason); }, error))
             return false;
         // By hand: get_pixels() waits for OIIO's pool, and the caller may hold a lock.
-        const auto* pixels
-            = static_cast<const float*>((radiance ? m_radiance : m_cfem[size_t(subimage)]).localpixels());
+        const auto* pixels = static_cast<const float*>(images[radiance ? 0 : size_t(subimage)].localpixels());
         const size_t row = 3 * size_t(roi.width());
         for (int y = roi.ybegin; y < roi.yend; ++y, dst += row)
             std::copy_n(pixels + 3 * (size_t(y) * m_spec.width + size_t(roi.xbegin)), row, dst);
         return true;
     }
 
+    bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
+              std::string& error) override
+    {
+        return filter(dst, range, options, options.threads, error);
+    }
+
     bool failed() const override { return m_make.failed() || m_reduce.failed(); }
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
-    // `held` is what `dst` reads, unless that is too large.
-    bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, std::string& error)
+    // Of a stack the environment itself takes no filter: who reads it alone pays for it alone.
+    bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options, int oiio_threads,
+                std::string& error)
     {
+        OIIO::ImageBuf held; // what `environment` reads, unless that is too large
+        std::optional<Environment> environment;
         std::string note;
-        if (is_large(m_environment->spec()))
-            return read_as_it_goes(dst, m_environment, m_recipe.environment, m_color, note, error);
-        dst.emplace(held);
-        return read_all(held, *m_environment, error)
-            && to_scene_linear(held, m_recipe.environment, m_color, note, error, 1);
+        if (!open(environment, held, options, oiio_threads, note, error))
+            return false;
+        const OIIO::ImageSpec& spec = environment->spec();
+        const int width = spec.width, height = spec.height;
+        if (std::abs(spec.full_width - 2 * spec.full_height) > 2) // border samples are one more each way
+            options.report_warning(
+                format("\"{}\" is {}x{}, not twice as wide as high; it is taken as a lat-long map all the same",
+                       m_recipe.environment, spec.full_width, spec.full_height));
+        const OIIO::Timer timer;
+        if (!filter(dst, range, *environment, options, error)) {
+            error = format("\"{}\": {}", m_recipe.environment, error);
+            return false;
+        }
+        if (range.first < kStackLevels)
+            ++work_counts().cfems_made;
+        for (OIIO::ImageBuf& image : dst) {
+            tag_udim(image.specmod(), m_recipe.udim);
+            record_environment(image.specmod(), m_recipe.environment);
+        }
+        options.report("colour: " + note);
+        options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
+                              width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
+                              m_spec.height, timer()));
+        if (const int mended = dst[0].spec().get_int_attribute("vmlight:sanitized"))
+            options.report_warning(format("{} of the environment {} mended", counted(mended, "bad value", "bad values"),
+                                          plural(mended, "was", "were")));
+        return true;
     }
 
-    bool reduce(std::string& error)
+    bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const Environment& environment,
+                const MakeOptions& options, std::string& error)
     {
-        OIIO::ImageBuf held;
-        std::optional<Environment> environment;
-        if (!open(environment, held, error))
-            return false;
-        if (make_radiance(m_radiance, *environment, m_recipe.cfem_params, error))
+        const CfemParams& params = m_recipe.cfem_params;
+        const Progress progress = options.step("filter", m_spec.width, m_spec.height);
+        if (m_recipe.stack && range.first < kStackLevels) {
+            const bool all = range.first + range.count > kStackLevels;
+            const auto make = all ? make_cfem_stack : make_lobes;
+            return make(dst, environment, params, error, options.threads, progress);
+        }
+        dst.resize(1);
+        if (m_recipe.stack)
+            return make_radiance(dst[0], environment, params, error, progress);
+        if (make_cfem(dst[0], environment, params, options.threads, progress))
             return true;
-        error = format("\"{}\": {}", m_recipe.environment, error);
+        error = dst[0].geterror();
         return false;
     }
 
-    bool make(std::string& error)
+    bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, const MakeOptions& options, int oiio_threads,
+              std::string& note, std::string& error)
     {
-        OIIO::ImageBuf held;
-        std::optional<Environment> environment;
-        if (!open(environment, held, error))
-            return false;
-        m_cfem.resize(1);
-        const bool made = m_recipe.stack ? make_lobes(m_cfem, *environment, m_recipe.cfem_params, error)
-                                         : make_cfem(m_cfem[0], *environment, m_recipe.cfem_params);
-        if (!made) {
-            error = format("\"{}\": {}", m_recipe.environment, m_recipe.stack ? error : m_cfem[0].geterror());
+        const std::string& name = m_recipe.environment;
+        if (is_large(m_environment->spec()))
+            return read_as_it_goes(dst, m_environment, name, m_color, note, error);
+        dst.emplace(held);
+        if (!read_all(held, *m_environment, error, 0, oiio_threads)) {
+            error = placed(m_recipe, "environment", options.chain, error);
             return false;
         }
-        ++work_counts().cfems_made;
-        return true;
+        return to_scene_linear(held, name, m_color, note, error, oiio_threads);
     }
 
     const CfemRecipe m_recipe;
@@ -126,20 +163,12 @@ private:
     const ColorSettings m_color;
     Once m_make, m_reduce;
     std::vector<OIIO::ImageSpec> m_specs; // one, or one a level of the stack
-    std::vector<OIIO::ImageBuf> m_cfem;
-    OIIO::ImageBuf m_radiance;
+    std::vector<OIIO::ImageBuf> m_cfem, m_radiance;
 };
 
 } // namespace
 
-bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error)
-{
-    const std::string config = colorconfig.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : colorconfig;
-    stamp = config + "\n"; // none, or one that is built into OpenColorIO
-    return config.empty() || OIIO::Strutil::starts_with(config, "ocio://") || stamp_file(stamp, config, error);
-}
-
-PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, const RecipeChain& chain, Sharing sharing)
 {
     const CfemRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
@@ -155,11 +184,12 @@ PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, cons
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + config + environment->key();
-    if (PixelSourcePointer known = find_source(key))
+    const bool shared = sharing == Sharing::process;
+    if (PixelSourcePointer known = shared ? find_source(key) : nullptr)
         return known;
     auto source = std::make_shared<CfemSource>(key, recipe, std::move(environment));
     if (source->describe(error))
-        return keep_source(source);
+        return shared ? keep_source(source) : source;
     error = placed(recipe, "environment", chain, error);
     return nullptr;
 }

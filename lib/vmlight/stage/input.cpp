@@ -3,6 +3,7 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/words.h>
+#include <vmlight/stage/open_source.h>
 
 #include <algorithm>
 #include <exception>

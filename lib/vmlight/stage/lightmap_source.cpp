@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/pixel_source.h>
-
 #include <vmlight/base/cache.h>
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/stage/albedo_source.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
+#include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/timer.h>
 
+#include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace vmlight {
@@ -41,7 +46,10 @@ public:
     bool describe(const RecipeChain& chain, std::string& error)
     {
         const OIIO::ImageSpec& vismap = m_inputs.vismap->spec();
-        if (!find_model(m_model, m_recipe.lightmap_params, vismap, m_inputs.cfem->subimages() > 1, error))
+        // A stack, or the last image of one by itself.
+        const bool has_all
+            = m_inputs.cfem->subimages() > 1 || m_inputs.cfem->spec().get_float_attribute("vmlight:lobe") == 1;
+        if (!find_model(m_model, m_recipe.lightmap_params, vismap, has_all, error))
             error = placed(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         Rotation rotation;
         if (!error.empty())
@@ -78,6 +86,42 @@ public:
         return error.empty();
     }
 
+    bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error) override
+    {
+        LightmapInputs inputs;
+        if (!make_inputs(inputs, options, error))
+            return false;
+        const OIIO::Timer timer;
+        dst.clear();
+        OIIO::ImageBuf& lightmap = dst.emplace_back();
+        if (!make_lightmap(lightmap, inputs.vismap, inputs.cfem, m_recipe.lightmap_params, inputs.albedo_or_none(),
+                           options.threads, options.step("light", m_spec.width, m_spec.height))) {
+            error = lightmap.geterror();
+            return false;
+        }
+        tag_udim(lightmap.specmod(), m_recipe.udim);
+        options.report(format("light: 1 map of {}x{} in {:.3f} s", m_spec.width, m_spec.height, timer()));
+        return true;
+    }
+
+    // What it reads, whole, for make_lightmap(). The light of `dst` stays if it is this one.
+    bool make_inputs(LightmapInputs& dst, const MakeOptions& options, std::string& error)
+    {
+        std::vector<OIIO::ImageBuf> images;
+        // One tile's images at a time.
+        dst.vismap.reset();
+        dst.albedo.reset();
+        // The visibility map first, before an environment is filtered in vain.
+        if (!make_input(images, *m_inputs.vismap, {}, m_recipe, "vismap", m_recipe.vismap, options, error))
+            return false;
+        dst.vismap = std::move(images[0]);
+        if (!make_light(dst, options, error))
+            return false;
+        if (!m_inputs.albedo)
+            return true;
+        return m_inputs.albedo->make_whole(dst.albedo, m_recipe, options, error);
+    }
+
     bool failed() const override
     {
         return m_prepare.failed() || m_inputs.vismap->failed() || m_inputs.cfem->failed()
@@ -88,12 +132,9 @@ public:
 private:
     bool prepare(std::string& error)
     {
-        // Of a stack the images that are of use.
-        const int images = m_inputs.cfem->subimages();
-        const int first = m_model.light == ModelLight::radiance ? images - 1 : 0;
-        const int count = m_model.light == ModelLight::lobes ? images : 1;
+        const ImageRange range = images_of_use();
         std::vector<OIIO::ImageBuf> cfem;
-        for (int image = first; image < first + count; ++image)
+        for (int image = range.first; image < range.first + range.count; ++image)
             if (!read_all(cfem.emplace_back(), *m_inputs.cfem, error, image))
                 return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
@@ -105,6 +146,41 @@ private:
         if (albedo)
             m_shader.use_albedo({ m_inputs.albedo, albedo });
         return error.empty();
+    }
+
+    // Of a stack those that the model reads.
+    ImageRange images_of_use() const
+    {
+        const int images = m_inputs.cfem->subimages();
+        return m_model.light == ModelLight::radiance ? ImageRange { images - 1, 1 }
+            : m_model.light == ModelLight::lobes     ? ImageRange { 0, std::min(images, kStackLevels) }
+                                                     : ImageRange {};
+    }
+
+    bool make_light(LightmapInputs& dst, const MakeOptions& options, std::string& error)
+    {
+        const ImageRange range = images_of_use();
+        const std::string light = format("{} {} {}", range.first, range.count, m_inputs.cfem->key());
+        if (dst.light == light)
+            return true;
+        dst.light.clear();
+        dst.cfem.clear();
+        const bool filtered = !m_recipe.cfem.empty();
+        MakeOptions unplaced = options; // what filters the environment has no file of its own
+        unplaced.chain.clear();
+        if (filtered) {
+            if (!make_input(dst.cfem, *m_inputs.cfem, range, m_recipe, "cfem", m_recipe.cfem, options, error))
+                return false;
+        } else if (!m_inputs.cfem->make(dst.cfem, range, unplaced, error)) {
+            error = placed(m_recipe, "environment", options.chain, error);
+            return false;
+        }
+        if (m_recipe.lightmap_params.model == "auto")
+            options.report(filtered && m_model.light == ModelLight::cfem
+                               ? "model: paper, since the CFEM is no stack (makecfem --stack)"
+                               : format("model: {}, the best that the visibility map is fit for", m_model.name));
+        dst.light = light;
+        return true;
     }
 
     const LightmapRecipe m_recipe;
@@ -136,9 +212,25 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
     return open_source(filter, error);
 }
 
-} // namespace
+std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::ROI size, std::string& error,
+                                          const RecipeChain& chain)
+{
+    const PixelSourcePointer image = open_input(recipe, "albedo", recipe.albedo, Input::Albedo, error, chain);
+    if (!image)
+        return nullptr;
+    std::string config;
+    if (!stamp_config(config, recipe.colorconfig, error)) {
+        error = placed(recipe, "colorconfig", chain, error);
+        return nullptr;
+    }
+    auto albedo = AlbedoSource::open(recipe, image, config, size, error);
+    if (!albedo)
+        error = placed(recipe, "albedo", chain, error);
+    return albedo;
+}
 
-PixelSourcePointer open_source(const LightmapRecipe& given, std::string& error, const RecipeChain& chain)
+std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::string& error, const RecipeChain& chain,
+                                              Sharing sharing)
 {
     const LightmapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
@@ -152,23 +244,33 @@ PixelSourcePointer open_source(const LightmapRecipe& given, std::string& error, 
         return nullptr;
     std::string key = recipe_key(recipe) + inputs.vismap->key() + inputs.cfem->key();
     if (!recipe.albedo.empty()) {
-        const PixelSourcePointer image = open_input(recipe, "albedo", recipe.albedo, Input::Albedo, error, chain);
-        std::string config; // which only this needs: the light's is the CFEM's matter
-        if (image && !stamp_config(config, recipe.colorconfig, error))
-            error = placed(recipe, "colorconfig", chain, error);
-        else if (image) {
-            inputs.albedo = AlbedoSource::open(recipe, image, config, OIIO::get_roi(inputs.vismap->spec()), error);
-            if (!inputs.albedo)
-                error = placed(recipe, "albedo", chain, error);
-        }
+        inputs.albedo = open_albedo(recipe, OIIO::get_roi(inputs.vismap->spec()), error, chain);
         if (!inputs.albedo)
             return nullptr;
         key += inputs.albedo->key();
     }
-    if (PixelSourcePointer known = find_source(key))
-        return known;
+    const bool shared = sharing == Sharing::process;
+    if (PixelSourcePointer known = shared ? find_source(key) : nullptr)
+        return std::dynamic_pointer_cast<LightmapSource>(known);
     auto source = std::make_shared<LightmapSource>(key, recipe, std::move(inputs));
-    return source->describe(chain, error) ? keep_source(source) : nullptr;
+    if (!source->describe(chain, error))
+        return nullptr;
+    return shared ? std::dynamic_pointer_cast<LightmapSource>(keep_source(source)) : source;
+}
+
+} // namespace
+
+PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain,
+                               Sharing sharing)
+{
+    return open_lightmap(recipe, error, chain, sharing);
+}
+
+bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
+                          std::string& error)
+{
+    const auto source = open_lightmap(recipe, error, options.chain, Sharing::none);
+    return source && source->make_inputs(dst, options, error);
 }
 
 } // namespace vmlight

@@ -1,38 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Stages from their recipes: read what a recipe names, make what is itself a recipe first, then make the stage.
+/// Whole stages from their recipes. A recipe is opened as the readers open it (pixel_source.h), then made at once, by
+/// all threads.
 #pragma once
 
 #include <vmlight/base/export.h>
-#include <vmlight/base/progress.h>
+#include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
 
 #include <OpenImageIO/imagebuf.h>
 
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace vmlight {
-
-class BakeScene;
-
-struct MakeOptions
-{
-    /// Names of the recipes that are being made, outermost first; the last is the one whose struct is given. Empty if
-    /// there is no file behind it. Messages name it, and none may be read again.
-    std::vector<std::string> chain;
-    /// 0 means OIIO's default.
-    int threads = 0;
-    /// A progress for one step of the work ("bake", "filter", "light"), which makes an image of so many texels.
-    std::function<Progress(const std::string& step, int64_t texels)> progress;
-    /// One line on what was done, and one on what may surprise.
-    std::function<void(const std::string&)> say, warn;
-    /// nullptr, or what keeps the mesh and the ray tracer's scene of the last vismap for the next call to share.
-    std::shared_ptr<const BakeScene>* scene = nullptr;
-    /// The same inputs were made for another UDIM tile before: what is true of all tiles was told.
-    bool again = false;
-};
 
 /// Make a stage.
 ///
@@ -58,8 +38,9 @@ VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe,
 struct LightmapInputs
 {
     OIIO::ImageBuf vismap, albedo;
-    /// One, or the levels of a stack; and what they were made from.
+    /// The images that the model reads: a CFEM, the lobes of a stack, or the environment itself.
     std::vector<OIIO::ImageBuf> cfem;
+    /// Identifies the file or recipe of `cfem`, and which of its images these are.
     std::string light;
 
     /// nullptr if the recipe has none.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What readers read from: a file, or a recipe whose pixels are made when they are asked for. A recipe's inputs are
-/// such sources too, opened here and not through OIIO, so that stages share what they make and never wait for
-/// themselves.
+/// The one path from a name to pixels: a file, or a recipe whose pixels are made on demand. Opening a source
+/// (open_source.h) resolves UDIM, checks the recipe, opens its inputs, which are sources too, chooses the model and the
+/// colour conversion, and describes the image. Then it is read by the tile, as OIIO's hosts do, or made whole, as the
+/// executables do.
 #pragma once
 
-#include <vmlight/base/file_stamp.h>
-#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/make_options.h>
 
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/imagebuf.h>
 
 #include <cstddef>
 #include <memory>
@@ -17,7 +17,13 @@
 
 namespace vmlight {
 
-/// An image that is read by region.
+/// Which images of a source: `count` from `first` on.
+struct ImageRange
+{
+    int first = 0, count = 1;
+};
+
+/// An image that is read by region, or made whole.
 class PixelSource
 {
 public:
@@ -44,6 +50,16 @@ public:
         return false;
     }
 
+    /// Make the images of `range` whole: float, the same pixels bit for bit as read_of() gives, with all metadata, also
+    /// what is only known once they are made (samples, hash of the mesh). By all threads, and the source keeps nothing
+    /// of them: not to be called under a lock that a task of OIIO's thread pool may want.
+    ///
+    /// @param options  whose chain ends with the recipe of this source, if it is one
+    /// @returns false, with the reason and its place in `error`; `dst` then holds nothing of use
+    virtual bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
+                      std::string& error)
+        = 0;
+
     /// Whether what the pixels are made from could not be had, or is no longer as it was, so that another open should
     /// try anew.
     virtual bool failed() const { return false; }
@@ -61,51 +77,5 @@ private:
     const std::string m_key;
 };
 using PixelSourcePointer = std::shared_ptr<PixelSource>;
-
-/// Open an image by name: a recipe is read and described, any other image is opened by OIIO. Nothing is computed.
-/// What is open already, unchanged, is shared.
-///
-/// @param chain    the recipes that led here
-/// @returns nullptr, with the place and reason in `error`, if it cannot be read, an input is missing or not what it
-///          should be, or it reads itself
-PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain = {});
-
-// The same, for a recipe in memory.
-PixelSourcePointer open_source(const VismapRecipe& recipe, std::string& error, const RecipeChain& chain = {});
-PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain = {});
-PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain = {});
-
-/// How much the process keeps of what no one has open: 1 GiB in 64 sources unless set.
-void set_source_limits(size_t bytes, size_t sources);
-
-// ---- For the rooms of the stages --------------------------------------------------------------------------------
-
-/// Open what `recipe`, the last of `chain`, gives as `key`. nullptr, with the place and reason in `error`, if it cannot
-/// be opened or is not `wanted`.
-template <class Recipe>
-PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
-                              std::string& error, const RecipeChain& chain);
-extern template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
-                                              const RecipeChain&);
-extern template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input,
-                                              std::string&, const RecipeChain&);
-
-/// The source with this key that is open or was lately, or nullptr. Those that failed are forgotten.
-PixelSourcePointer find_source(const std::string& key);
-/// Remember `source`. Returns the one to use: another thread may have been faster.
-PixelSourcePointer keep_source(PixelSourcePointer source);
-
-/// stamp_file() of an OCIO config, "" being $OCIO.
-bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error);
-
-/// Every parameter of a recipe as text.
-template <class Recipe> std::string recipe_key(Recipe recipe)
-{
-    std::string key = std::string(Recipe::kStage) + "\n";
-    recipe.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        key += std::string(name) + "=" + value_text(value, allowed) + "\n";
-    });
-    return key;
-}
 
 } // namespace vmlight

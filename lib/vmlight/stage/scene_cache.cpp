@@ -3,7 +3,6 @@
 
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
-#include <vmlight/stage/pixel_source.h>
 
 #include <OpenImageIO/timer.h>
 

@@ -2,9 +2,7 @@
 #include <vmlight/stage/stored_environment.h>
 
 #include <vmlight/image/channels.h>
-#include <vmlight/stage/stored_image.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include <array>
@@ -56,13 +54,6 @@ bool read_as_it_goes(std::optional<Environment>& dst, const PixelSourcePointer& 
         return true;
     });
     return true;
-}
-
-PixelSourcePointer open_large_image(const std::string& path)
-{
-    std::string unused;
-    const PixelSourcePointer image = OIIO::Filesystem::is_regular(path) ? open_stored_image(path, unused) : nullptr;
-    return image && is_large(image->spec()) ? image : nullptr;
 }
 
 } // namespace vmlight

@@ -23,7 +23,4 @@ bool is_large(const OIIO::ImageSpec& spec);
 bool read_as_it_goes(std::optional<Environment>& dst, const PixelSourcePointer& image, const std::string& path,
                      const ColorSettings& settings, std::string& note, std::string& error);
 
-/// The file `path`, if it is an image that is_large(): else nullptr, and the reason is for who reads it whole to tell.
-PixelSourcePointer open_large_image(const std::string& path);
-
 } // namespace vmlight

@@ -2,9 +2,12 @@
 #include <vmlight/stage/stored_image.h>
 
 #include <vmlight/base/cache.h>
+#include <vmlight/base/file_stamp.h>
 #include <vmlight/base/memory_need.h>
 #include <vmlight/base/oiio.h>
 #include <vmlight/image/image_file.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/source_cache.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -126,14 +129,24 @@ public:
         return error.empty();
     }
 
+    bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
+              std::string& error) override
+    {
+        dst.clear();
+        for (int image = range.first; image < range.first + range.count; ++image)
+            if (!read_all(dst.emplace_back(), *this, error, image, options.threads))
+                return false;
+        return true;
+    }
+
     // At once, without the cache.
-    bool read_file(int subimage, float* dst, std::string& error)
+    bool read_file(int subimage, float* dst, int threads, std::string& error)
     {
         const auto file = OIIO::ImageInput::open(m_path);
         if (!is_unchanged(key(), m_path, error))
             return false;
         if (file)
-            file->threads(1);
+            file->threads(threads);
         if (file && file->read_image(subimage, 0, 0, spec_of(subimage).nchannels, OIIO::TypeFloat, dst))
             return true;
         error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
@@ -194,7 +207,7 @@ PixelSourcePointer open_stored_image(const std::string& path, std::string& error
     return image->open(error) ? keep_source(image) : nullptr;
 }
 
-bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage)
+bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage, int oiio_threads)
 {
     OIIO::ImageSpec spec = source.spec_of(subimage);
     spec.set_format(OIIO::TypeFloat);
@@ -208,7 +221,7 @@ bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int 
         return false;
     }
     if (auto* file = dynamic_cast<StoredImage*>(&source))
-        return file->read_file(subimage, pixels, error);
+        return file->read_file(subimage, pixels, oiio_threads, error);
     return source.read_of(subimage, OIIO::get_roi(spec), pixels, error);
 }
 

@@ -15,7 +15,8 @@ namespace vmlight {
 /// of CFEM read_all() reads the others too.
 PixelSourcePointer open_stored_image(const std::string& path, std::string& error);
 
-/// All pixels of `source` in memory, as float. On the calling thread, and without waiting for OIIO's thread pool.
-bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage = 0);
+/// All pixels of `source` in memory, as float; `dst` has no name. On the calling thread; a file may be decoded by more,
+/// `oiio_threads` (0 is OIIO's default): one alone never waits for OIIO's thread pool, as is needed under a lock.
+bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage = 0, int oiio_threads = 1);
 
 } // namespace vmlight

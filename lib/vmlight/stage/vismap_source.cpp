@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/pixel_source.h>
+#include <vmlight/stage/make_stage.h>
 
 #include <vmlight/base/memory_need.h>
+#include <vmlight/stage/bake_report.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
+#include <vmlight/stage/source_cache.h>
+#include <vmlight/uv/udim.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/tiles.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <atomic>
@@ -34,6 +39,32 @@ public:
         if (!m_prepare.run([&](std::string& reason) { return prepare(reason); }, error))
             return false;
         m_tiles->read(roi, dst);
+        return true;
+    }
+
+    // The whole map at once: neither a cache of tiles nor their overlapping margins.
+    bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error) override
+    {
+        BakeScenePointer scene;
+        VismapReport report;
+        double build_seconds = 0;
+        std::string at;
+        if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error)) {
+            error = placed(m_recipe, at, options.chain, error);
+            return false;
+        }
+        if (options.scene)
+            *options.scene = scene;
+        dst.clear();
+        OIIO::ImageBuf& map = dst.emplace_back();
+        if (!make_vismap(map, scene, m_recipe.vismap_params, &report, options.threads,
+                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget)) {
+            error = map.geterror();
+            return false;
+        }
+        report.build_seconds += build_seconds;
+        append_params(map.specmod(), m_recipe.mesh_params);
+        report_bake(options, report, map.spec(), m_recipe);
         return true;
     }
 
@@ -74,7 +105,7 @@ private:
 
 } // namespace
 
-PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain)
+PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain, Sharing sharing)
 {
     const VismapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
@@ -87,9 +118,34 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + stamps.key;
+    if (sharing == Sharing::none)
+        return std::make_shared<VismapSource>(key, recipe, std::move(stamps));
     if (PixelSourcePointer known = find_source(key))
         return known;
     return keep_source(std::make_shared<VismapSource>(key, recipe, std::move(stamps)));
+}
+
+bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
+{
+    const VismapRecipe recipe = resolve_udim(given);
+    error = recipe_fault(recipe, options.chain);
+    SceneStamps stamps;
+    BakeScenePointer scene;
+    std::string at;
+    if (!error.empty())
+        return false;
+    if (!stamp_scene(stamps, recipe, at, error)
+        || !share_scene(scene, recipe, stamps, options.threads, nullptr, at, error)) {
+        error = placed(recipe, at, options.chain, error);
+        return false;
+    }
+    if (options.scene)
+        *options.scene = scene;
+    dst = mesh_udims(scene->mesh());
+    if (dst.empty())
+        error = placed(recipe, "mesh", options.chain,
+                       OIIO::Strutil::fmt::format("\"{}\": its texture coordinates lie in no UDIM tile", recipe.mesh));
+    return !dst.empty();
 }
 
 } // namespace vmlight

@@ -2,8 +2,7 @@
 #include <vmlight/stage/recipe/recipe.h>
 
 #include <vmlight/base/words.h>
-#include <vmlight/stage/recipe/ascii.h>
-#include <vmlight/stage/recipe/value.h>
+#include <vmlight/stage/recipe/toml.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -58,24 +57,6 @@ bool set_from_node(Recipe& recipe, const std::string& key, const toml::node& nod
     });
     // For the name of the nearest.
     return found ? good : set_param(recipe, key, "", error);
-}
-
-bool parse_toml(toml::table& dst, string_view text, const std::string& path, std::string& error)
-{
-    std::string ascii;
-    if (!to_ascii(ascii, text, path, error))
-        return false;
-    toml::parse_result result = toml::parse(ascii);
-    if (!result) {
-        const toml::parse_error& fault = result.error();
-        error
-            = at_line(path, fault.source().begin.line) + ": not TOML: " + reason_line(std::string(fault.description()));
-        if (error.find("could not determine value type") != std::string::npos)
-            error += "; texts need quotes";
-        return false;
-    }
-    dst = std::move(result).table();
-    return true;
 }
 
 bool read_bytes(std::string& dst, const std::string& path, std::string& error)

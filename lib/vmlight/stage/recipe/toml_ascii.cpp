@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/recipe/ascii.h>
+#include <vmlight/stage/recipe/toml.h>
 
 #include <vmlight/base/utf8.h>
 

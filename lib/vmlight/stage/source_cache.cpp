@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/pixel_source.h>
-
-#include <vmlight/base/work_counts.h>
-#include <vmlight/stage/stored_image.h>
+#include <vmlight/stage/source_cache.h>
 
 #include <algorithm>
 #include <iterator>
 #include <list>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 namespace vmlight {
 namespace {
@@ -91,13 +90,6 @@ Sources& sources()
     return all;
 }
 
-template <class Recipe> PixelSourcePointer open_recipe(const std::string& name, std::string& error, RecipeChain chain)
-{
-    Recipe recipe;
-    return link_recipe(chain, name, error) && read_recipe(recipe, name, error) ? open_source(recipe, error, chain)
-                                                                               : nullptr;
-}
-
 } // namespace
 
 PixelSourcePointer find_source(const std::string& key)
@@ -114,39 +106,5 @@ void set_source_limits(size_t bytes, size_t count)
 {
     sources().set_limits(bytes, count);
 }
-
-PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain)
-{
-    const std::string stage = recipe_stage(name);
-    return stage == VismapRecipe::kStage  ? open_recipe<VismapRecipe>(name, error, chain)
-        : stage == CfemRecipe::kStage     ? open_recipe<CfemRecipe>(name, error, chain)
-        : stage == LightmapRecipe::kStage ? open_recipe<LightmapRecipe>(name, error, chain)
-                                          : open_stored_image(name, error);
-}
-
-template <class Recipe>
-PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
-                              std::string& error, const RecipeChain& chain)
-{
-    const std::string stage = recipe_stage(name);
-    RecipeChain longer = chain;
-    PixelSourcePointer source;
-    // A recipe of the wrong stage is refused before what it reads is opened, but as what it is if it reads itself.
-    if (stage.empty() || link_recipe(longer, name, error))
-        error = stage.empty() ? "" : input_fault(name, stage, wanted);
-    if (error.empty())
-        source = open_source(name, error, chain);
-    if (source)
-        error = input_fault(name, source->spec().get_string_attribute("vmlight:stage"), wanted);
-    if (error.empty())
-        return source;
-    error = placed(recipe, key, chain, error);
-    return nullptr;
-}
-
-template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
-                                       const RecipeChain&);
-template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input, std::string&,
-                                       const RecipeChain&);
 
 } // namespace vmlight

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TOML values as the texts that parse_value() takes: node_text() for each kind of parameter.
-/// The only room that includes toml++, for recipe.cpp alone: nothing of it is linked or exported, and it throws
-/// nothing.
-#pragma once
+#include <vmlight/stage/recipe/toml.h>
 
-#include <vmlight/base/params.h>
+#include <vmlight/base/words.h>
 
 #include <OpenImageIO/strutil.h>
 
-#include <string>
-#include <vector>
-
-#define TOML_HEADER_ONLY 1
-#define TOML_EXCEPTIONS 0
-#define TOML_ENABLE_FORMATTERS 0
-#define TOML_MAX_NESTED_VALUES 8
-// What it asserts of texts that are no TOML, it lets clang assume where NDEBUG is set: "[=" is then undefined
-// behaviour. With neither it goes on and refuses them.
-#define TOML_ASSERT(expression) static_assert(true)
-#pragma push_macro("NDEBUG")
-#undef NDEBUG
-#include <toml++/toml.h>
-#pragma pop_macro("NDEBUG")
+#include <utility>
 
 namespace vmlight {
+namespace {
 
-inline const char* kind_of(const toml::node& node)
+const char* kind_of(const toml::node& node)
 {
     switch (node.type()) {
     case toml::node_type::table:
@@ -45,13 +30,13 @@ inline const char* kind_of(const toml::node& node)
     }
 }
 
-inline bool misfit(const toml::node& node, const std::string& wanted, std::string& reason)
+bool misfit(const toml::node& node, const std::string& wanted, std::string& reason)
 {
     reason = OIIO::Strutil::fmt::format("{} where {} is needed", kind_of(node), wanted);
     return false;
 }
 
-inline bool number_text(std::string& text, const toml::node& node, bool integral)
+bool number_text(std::string& text, const toml::node& node, bool integral)
 {
     if (const auto* integer = node.as_integer())
         text = OIIO::Strutil::fmt::format("{}", integer->get());
@@ -62,8 +47,7 @@ inline bool number_text(std::string& text, const toml::node& node, bool integral
     return true;
 }
 
-inline bool word_text(std::string& text, const toml::node& node, const Range& allowed, const char* wanted,
-                      std::string& reason)
+bool word_text(std::string& text, const toml::node& node, const Range& allowed, const char* wanted, std::string& reason)
 {
     const auto* word = node.as_string();
     if (!allowed.word || !word)
@@ -77,7 +61,7 @@ inline bool word_text(std::string& text, const toml::node& node, const Range& al
     return true;
 }
 
-inline bool string_text(std::string& text, const toml::node& node, const char* wanted, std::string& reason)
+bool string_text(std::string& text, const toml::node& node, const char* wanted, std::string& reason)
 {
     const auto* string = node.as_string();
     if (!string)
@@ -86,18 +70,37 @@ inline bool string_text(std::string& text, const toml::node& node, const char* w
     return true;
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const int&, const Range& allowed, std::string& reason)
+} // namespace
+
+bool parse_toml(toml::table& dst, OIIO::string_view text, const std::string& path, std::string& error)
+{
+    std::string ascii;
+    if (!to_ascii(ascii, text, path, error))
+        return false;
+    toml::parse_result result = toml::parse(ascii);
+    if (!result) {
+        const toml::parse_error& fault = result.error();
+        error
+            = at_line(path, fault.source().begin.line) + ": not TOML: " + reason_line(std::string(fault.description()));
+        if (error.find("could not determine value type") != std::string::npos)
+            error += "; texts need quotes";
+        return false;
+    }
+    dst = std::move(result).table();
+    return true;
+}
+
+bool node_text(std::string& text, const toml::node& node, const int&, const Range& allowed, std::string& reason)
 {
     return number_text(text, node, true) || word_text(text, node, allowed, "an integer", reason);
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const double&, const Range& allowed,
-                      std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const double&, const Range& allowed, std::string& reason)
 {
     return number_text(text, node, false) || word_text(text, node, allowed, "a number", reason);
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const Size&, const SizeRange&, std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const Size&, const SizeRange&, std::string& reason)
 {
     const char* wanted = "a width, [width, height] or \"WIDTHxHEIGHT\"";
     if (number_text(text, node, true))
@@ -112,14 +115,13 @@ inline bool node_text(std::string& text, const toml::node& node, const Size&, co
     return true;
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Choices&,
-                      std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const std::string&, const Choices&, std::string& reason)
 {
     return string_text(text, node, "a string", reason);
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Words&,
-                      std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Words&,
+               std::string& reason)
 {
     const toml::array* words = node.as_array();
     if (!words)
@@ -137,18 +139,18 @@ inline bool node_text(std::string& text, const toml::node& node, const std::vect
     return true;
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Text&, std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const std::string&, const Text&, std::string& reason)
 {
     return string_text(text, node, "a string", reason);
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const std::string&, const Path&, std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const std::string&, const Path&, std::string& reason)
 {
     return string_text(text, node, "a path in quotes", reason);
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Paths&,
-                      std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Paths&,
+               std::string& reason)
 {
     const char* wanted = "an array of paths in quotes";
     const toml::array* paths = node.as_array();
@@ -167,8 +169,8 @@ inline bool node_text(std::string& text, const toml::node& node, const std::vect
     return true;
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const std::vector<double>&, const Numbers& allowed,
-                      std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const std::vector<double>&, const Numbers& allowed,
+               std::string& reason)
 {
     const toml::array* numbers = node.as_array();
     if (!numbers)
@@ -183,7 +185,7 @@ inline bool node_text(std::string& text, const toml::node& node, const std::vect
     return true;
 }
 
-inline bool node_text(std::string& text, const toml::node& node, const bool&, const Flag&, std::string& reason)
+bool node_text(std::string& text, const toml::node& node, const bool&, const Flag&, std::string& reason)
 {
     const auto* flag = node.as_boolean();
     if (!flag)

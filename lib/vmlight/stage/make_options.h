@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vmlight/base/progress.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+class BakeScene;
+
+/// How a stage is made: by how many threads, and who hears about it.
+struct MakeOptions
+{
+    /// Names of the recipes being made, outermost first; the last is the one whose struct is given. Empty if the recipe
+    /// has no file. Error messages name it, and none of them may be read again.
+    std::vector<std::string> chain;
+    /// 0 means OIIO's default.
+    int threads = 0;
+    /// Returns the progress of one step of the work ("bake", "filter", "light"), which makes an image of `texels`.
+    std::function<Progress(const std::string& step, int64_t texels)> progress;
+    /// Called with one line on what was done, and with one on what may surprise.
+    std::function<void(const std::string&)> say, warn;
+    /// nullptr, or keeps the mesh and the ray-tracing scene of the last vismap for the next call to share.
+    std::shared_ptr<const BakeScene>* scene = nullptr;
+    /// The same inputs were made for another UDIM tile before: do not repeat what holds for all tiles.
+    bool again = false;
+
+    /// progress() of an image of `width` x `height` texels; none if nobody listens.
+    Progress step(const char* name, int64_t width, int64_t height) const
+    {
+        return progress ? progress(name, width * height) : Progress {};
+    }
+    /// say() or warn(), if anybody listens.
+    void report(const std::string& line) const
+    {
+        if (say)
+            say(line);
+    }
+    void report_warning(const std::string& line) const
+    {
+        if (warn)
+            warn(line);
+    }
+};
+
+} // namespace vmlight
