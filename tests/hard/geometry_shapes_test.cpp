@@ -145,7 +145,8 @@ TEST(Geometry, MeshesThatAreNone)
         EXPECT_EQ(image.geterror(), as_baked);
         return as_baked;
     };
-    EXPECT_EQ(refusal([](Mesh& m) { m.triangles[1][2] = 4; }), "\"floor\": triangle 1 has vertex 4, of 4");
+    EXPECT_EQ(refusal([](Mesh& m) { m.triangles[1][2] = 4; }),
+              "\"floor\": triangle 1 uses vertex 4, but there are only 4");
     EXPECT_EQ(refusal([](Mesh& m) { m.positions[2].y = INFINITY; }), "\"floor\": vertex 2 is not finite: (1, inf, 0)");
     EXPECT_EQ(refusal([](Mesh& m) { m.positions[0].x = NAN; }), "\"floor\": vertex 0 is not finite: (nan, -1, 0)");
     EXPECT_EQ(refusal([](Mesh& m) { m.normals.pop_back(); }), "\"floor\": 3 normals for 4 vertices");
