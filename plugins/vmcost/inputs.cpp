@@ -51,7 +51,7 @@ bool read_environment(Environment& dst, const ColorSettings& color, const MakeOp
     std::string note;
     if (!read_image(dst.image, dst.path, error))
         return false;
-    error = input_fault(dst.path, dst.image.spec().get_string_attribute("vmlight:stage"), Input::Environment);
+    error = input_fault(dst.path, dst.image.spec().get_string_attribute("vmlight:stage"), InputKind::Environment);
     if (!error.empty() || !to_scene_linear(dst.image, dst.path, color, note, error))
         return false;
     dst.hash = environment_hash(dst.image);

@@ -46,7 +46,7 @@ TEST_F(Cost, InputsOfTheWrongKindAreRefused)
     write("bare.obj", kQuadWithoutUv);
     refused(1, "texture coordinates", "vmcost bare.obj sky.exr -o report" + small);
     make_vismap();
-    refused(1, "\"vm.exr\": neither an environment nor a CFEM", "vmcost step.obj vm.exr -o report" + small);
+    refused(1, "\"vm.exr\": is neither an environment nor a CFEM", "vmcost step.obj vm.exr -o report" + small);
 }
 
 TEST_F(Cost, BadPixelsAreRefusedAndReplacedOnRequest)

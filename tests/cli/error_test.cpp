@@ -25,7 +25,7 @@ protected:
     static Printed error_line(const std::string& text)
     {
         static const std::regex line(
-            "error: (\\S+) \\(RMS of V, from (\\d+) texels baked twice\\) at (\\d+) rays a texel; ");
+            "error: (\\S+) \\(RMS of V, from (\\d+) texels baked twice\\) at (\\d+) rays per texel; ");
         std::smatch found;
         if (!std::regex_search(text, found, line)) {
             ADD_FAILURE() << text;
@@ -67,7 +67,7 @@ TEST_F(Errors, WhereNothingIsOccludedOneRayIsEnough)
 {
     make_vismap();
     EXPECT_THAT(done("makevismap quad.obj -o a.exr --resolution 32 --target-error 1e-3"),
-                HasSubstr("error: 0 (1024 texels baked twice are the same both times) at 1 ray a texel"));
+                HasSubstr("error: 0 (1024 texels baked twice are identical) at 1 ray per texel"));
     EXPECT_EQ(attribute("a.exr", "vmlight:error"), "0");
 }
 
@@ -75,7 +75,7 @@ TEST_F(Errors, OneTexelThatAgreesWithItselfTakes64Rays)
 {
     write("quad.obj", kQuad);
     EXPECT_THAT(done("makevismap quad.obj -o a.exr --resolution 1 --target-error 1e-3"),
-                HasSubstr("error: 0 (1 texel baked twice is the same both times) at 64 rays a texel; "));
+                HasSubstr("error: 0 (1 texel baked twice is identical) at 64 rays per texel; "));
     EXPECT_EQ(samples("a.exr"), "64");
 }
 
@@ -100,7 +100,7 @@ TEST_F(Errors, ATimeTooShortForOneRayTakesOneWithAWarning)
 {
     EXPECT_THAT(
         done("makevismap {spot} --resolution 2048 --margin 0 --time-budget 0.001 -o a.exr"),
-        ContainsRegex("WARNING: time_budget: 1 ray a texel, the least there is, takes about .* s, not 0.001\n"));
+        ContainsRegex("WARNING: time_budget: even 1 ray per texel, the minimum, takes about .* s, more than 0.001\n"));
     EXPECT_EQ(samples("a.exr"), "1");
 }
 

@@ -20,7 +20,7 @@ namespace {
 class Light : public CommandTest
 { };
 
-const std::string kBestModel = ", the best that the visibility map is fit for";
+const std::string kBestModel = ", the best that this visibility map supports";
 
 } // namespace
 
@@ -108,10 +108,10 @@ TEST_F(Light, ABasisLightsByTheModelOfItsName)
         EXPECT_NE(attribute("b.exr", "vmlight:cfem_resolution"), "");
         EXPECT_EQ(attribute("b.exr", "vmlight:cfem_filter"), ""); // which was not used
         for (const char* flag : { " --cfem-filter sh", " --cfem-order 4" })
-            refused(2, "the model " + basis + " reads the environment unfiltered",
+            refused(2, "the model " + basis + " reads the unfiltered environment",
                     light + ".exr {sky} --model " + basis + flag + " -o x2.exr");
     }
-    refused(2, "only the basis sh has bands", "makevismap {spot} --order 4 -o x.exr");
+    refused(2, "only the basis sh uses it", "makevismap {spot} --order 4 -o x.exr");
     refused(1, "basis: mask goes with the measure cosine, not with uniform",
             "makevismap {spot} --basis mask --measure uniform -o x.exr");
 }
@@ -124,7 +124,7 @@ TEST_F(Light, AStackLightsByLobes)
     EXPECT_THAT(done("makelightmap vm.exr stack.exr -o stack_lit.exr"), HasSubstr("model: lobe" + kBestModel));
     EXPECT_THAT(done("makelightmap vm.exr {sky} -o env_lit.exr"), HasSubstr("model: lobe" + kBestModel));
     EXPECT_THAT(done("makelightmap vm.exr cfem.exr -o paper_lit.exr"),
-                HasSubstr("model: paper, since the CFEM is no stack"));
+                HasSubstr("model: paper, because the CFEM is not a stack"));
     expect_same_pixels("stack_lit.exr", "env_lit.exr", 0);
     // Readers that know nothing of stacks read the first image, a CFEM.
     expect_same_pixels("stack.exr", "cfem.exr", 0);

@@ -68,10 +68,10 @@ TEST_F(Meshes, SurprisesAreWarnedAboutWithTheirCounts)
     const std::string triangle = "f 1/1/1 2/2/1 3/3/1\n";
     write("double.obj", kQuad + triangle);
     EXPECT_THAT(done("makevismap double.obj -o x.exr --resolution 8 --samples 4"),
-                HasSubstr("WARNING: 36 texels (56.25 % of those covered) belong to more than one triangle"));
+                HasSubstr("WARNING: 36 texels (56.25 % of the covered ones) belong to more than one triangle"));
     write("outside.obj", replace(kQuad, "vt 1 1", "vt 2 2"));
     EXPECT_THAT(done("makevismap outside.obj -o x.exr --resolution 8 --samples 4"),
-                HasSubstr("WARNING: 2 of 2 triangles reach out of [0,1]"));
+                HasSubstr("WARNING: 2 of 2 triangles reach outside [0,1]"));
     // A map of one texel, and one triangle of two.
     write("one.obj",
           replace(kQuad, "f 1/1/1 2/2/1 3/3/1 4/4/1\n", "vt 2 2\n" + triangle + triangle + "f 1/1/1 2/2/1 3/5/1\n"));
@@ -79,9 +79,9 @@ TEST_F(Meshes, SurprisesAreWarnedAboutWithTheirCounts)
     EXPECT_THAT(printed, HasSubstr("uv: 3 triangles cover"));
     EXPECT_THAT(printed, HasSubstr("; 1 texel overlaps;"));
     EXPECT_THAT(printed,
-                HasSubstr("WARNING: 1 texel (100.00 % of those covered) belongs to more than one triangle: the "
-                          "first triangle of the file has it"));
-    EXPECT_THAT(printed, HasSubstr("WARNING: 1 of 3 triangles reaches out of [0,1]"));
+                HasSubstr("WARNING: 1 texel (100.00 % of the covered ones) belongs to more than one triangle: the "
+                          "first triangle in the file wins"));
+    EXPECT_THAT(printed, HasSubstr("WARNING: 1 of 3 triangles reaches outside [0,1]"));
 }
 
 TEST_F(Meshes, AnOccluderCasts)

@@ -146,15 +146,15 @@ TEST_F(Recipes, AnInputOfTheWrongStageIsRefused)
     make_all();
     write("studio.cfem", "environment = \"sky.exr\"\n");
     write("a.lightmap", "vismap = \"studio.cfem\"\ncfem = \"studio.cfem\"\n");
-    refused(1, "\"a.lightmap\" line 1: vismap: \"studio.cfem\": the recipe of a cfem, not of a vismap",
+    refused(1, "\"a.lightmap\" line 1: vismap: \"studio.cfem\": is the recipe of a cfem, not of a vismap",
             "makelightmap a.lightmap -o x.exr");
     write("b.lightmap", "vismap = \"vm.exr\"\nenvironment = \"studio.cfem\"\n");
-    refused(1, "\"studio.cfem\": the recipe of a cfem, not of an environment", "makelightmap b.lightmap -o x.exr");
+    refused(1, "\"studio.cfem\": is the recipe of a cfem, not of an environment", "makelightmap b.lightmap -o x.exr");
     write("c.lightmap", "vismap = \"vm.exr\"\nenvironment = \"cfem.exr\"\n");
-    refused(1, "\"c.lightmap\" line 2: environment: \"cfem.exr\": filtered already: give it as cfem",
+    refused(1, "\"c.lightmap\" line 2: environment: \"cfem.exr\": is already filtered: use it as cfem",
             "makelightmap c.lightmap -o x.exr");
     write("d.lightmap", "vismap = \"vm.exr\"\ncfem = \"lit.exr\"\n");
-    refused(1, "\"lit.exr\": neither an environment nor a CFEM", "makelightmap d.lightmap -o x.exr");
+    refused(1, "\"lit.exr\": is neither an environment nor a CFEM", "makelightmap d.lightmap -o x.exr");
 }
 
 TEST_F(Recipes, ARecipeThatReadsItselfIsRefused)
@@ -178,7 +178,7 @@ TEST_F(Recipes, ARecipeThatReadsItselfIsRefused)
     done("makelightmap twice.lightmap -o twice.exr");
     for (int link = 0; link < 70; ++link)
         write(format("{}.lightmap", link), rest + format("albedo = \"{}.lightmap\"\n", link + 1));
-    refused(1, "\"64.lightmap\": more than 64 recipes, each within the last", "makelightmap 0.lightmap -o x.exr");
+    refused(1, "\"64.lightmap\": more than 64 nested recipes", "makelightmap 0.lightmap -o x.exr");
 }
 
 TEST_F(Recipes, TheExamplesWork)

@@ -139,14 +139,14 @@ TEST_F(Usage, AFlagThatCannotChangeThePictureIsRefused)
 {
     done("makecfem sky.exr -o cfem.exr --order 2 --filter sh");
     const std::string bake = "makevismap quad.obj -o x.exr ", environment = "makelightmap vm.exr sky.exr -o x.exr ",
-                      lit = "makelightmap vm.exr cfem.exr -o x.exr ", filtered = "\"cfem.exr\" is filtered already";
+                      lit = "makelightmap vm.exr cfem.exr -o x.exr ", filtered = "\"cfem.exr\" is already filtered";
     const std::pair<std::string, std::string> cases[] = {
         { "--order 3: only the filter sh uses it", "makecfem sky.exr -o x.exr --order 3" },
         { "--cfem-order 2: only the filter sh uses it", environment + "--cfem-order=2" },
-        { "--albedo-colorspace ACEScg: there is no albedo", environment + "--albedo-colorspace ACEScg" },
-        { "--cfem-filter sh: there is no environment to filter: " + filtered, lit + "--cfem-filter sh" },
-        { "--cfem-sanitize: there is no environment to filter: " + filtered, lit + "--cfem-sanitize" },
-        { "--colorspace data: there is no environment to convert: " + filtered, lit + "--colorspace data" },
+        { "--albedo-colorspace ACEScg: no albedo is given", environment + "--albedo-colorspace ACEScg" },
+        { "--cfem-filter sh: no environment to filter: " + filtered, lit + "--cfem-filter sh" },
+        { "--cfem-sanitize: no environment to filter: " + filtered, lit + "--cfem-sanitize" },
+        { "--colorspace data: no environment to convert: " + filtered, lit + "--colorspace data" },
         { "--cfem-resolution 8: there is no environment", environment + "--is-cfem --cfem-resolution 8" },
         { "--crease-angle 30: flat normals", bake + "--normals flat --crease-angle 30" },
         { "--samples 8: target_error says how many", bake + "--samples 8 --target-error 0.1" },

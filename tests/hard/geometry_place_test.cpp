@@ -173,7 +173,7 @@ TEST(Geometry, FloatsFarFromTheOrigin)
     EXPECT_TRUE(make_image(image, recipe, options)) << image.geterror();
     ASSERT_FALSE(lines.empty());
     EXPECT_EQ(lines.back(),
-              "the mesh lies so far from the origin that floats, which its coordinates are, round them to "
-              "0.003 of its size");
+              "the mesh is so far from the origin that its float coordinates are rounded to 0.003 of its size: move "
+              "it closer to the origin");
     row.ours("baked, with a warning that gives the size of the steps");
 }

@@ -214,8 +214,8 @@ TEST(Uv, NoArea)
         = warnings_of(kSquare + "v 5 5 5\nv 6 5 5\nv 5 6 5\nvt 0.5 0.5\nf 5/5 6/5 7/5\n", 16);
     EXPECT_EQ(one,
               std::vector<std::string>(1,
-                                       "1 of 2 islands in uv (1 triangle) covers no texel: it is thinner than "
-                                       "one, without area or too far out, and not baked"));
+                                       "1 of 2 islands in UV (1 triangle) covers no texel and is not baked: "
+                                       "thinner than a texel, without area, or too far away"));
     const BakedMap map(flat({ { { { 2, 2 }, { 5, 5 }, { 8, 8 } } } }, 16, 16), {}, map_params(16, 16, 4));
     EXPECT_EQ(map.report.uv.degenerate_uv, 1);
     EXPECT_EQ(map.report.covered, 0);

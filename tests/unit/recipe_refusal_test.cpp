@@ -134,9 +134,9 @@ TEST(Recipe, RefusesWhatIsNoReadableFile)
     const std::string path = folder / ".";
     EXPECT_EQ(name_refusal(path), "\"" + path + "\": not a file");
     const std::string empty = folder.write("empty.lightmap", "");
-    EXPECT_EQ(name_refusal(empty), "\"" + empty + "\": an empty file");
+    EXPECT_EQ(name_refusal(empty), "\"" + empty + "\": the file is empty");
     const std::string huge = folder.write("huge.lightmap", std::string((1 << 20) + 1, '\n'));
-    EXPECT_EQ(name_refusal(huge), "\"" + huge + "\": 1048577 bytes are too many for a recipe; 1048576 are allowed");
+    EXPECT_EQ(name_refusal(huge), "\"" + huge + "\": 1048577 bytes are too large for a recipe; the limit is 1048576");
     const std::string largest = folder.write("largest.lightmap", std::string(1 << 20, '\n'));
     LightmapRecipe recipe;
     std::string error;

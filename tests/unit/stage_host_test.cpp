@@ -252,9 +252,9 @@ TEST(StageHost, FaultsOfARecipeAreNamed)
 #include <vmlight/stage/source_cache.h>
              { "both.lightmap", "both.lightmap\" line 3: cfem: environment is given too" },
 #include <vmlight/stage/source_cache.h>
-             { "swapped.lightmap", "studio.cfem\": the recipe of a cfem, not of a vismap" },
+             { "swapped.lightmap", "studio.cfem\": is the recipe of a cfem, not of a vismap" },
 #include <vmlight/stage/source_cache.h>
-             { "unlit.lightmap", "hero.vismap\": the recipe of a vismap, not of a cfem" } })
+             { "unlit.lightmap", "hero.vismap\": is the recipe of a vismap, not of a cfem" } })
 #include <vmlight/stage/source_cache.h>
         EXPECT_NE(error_of_open(folder / name).find(text), std::string::npos) << name << ": " << OIIO::geterror();
 #include <vmlight/stage/source_cache.h>
@@ -300,7 +300,7 @@ TEST(StageHost, ARecipeThatReadsItselfIsNamedWithTheWholeWay)
 #include <vmlight/stage/source_cache.h>
                      rest + "albedo = \"deep" + std::to_string(i + 1) + ".lightmap\"\n");
 #include <vmlight/stage/source_cache.h>
-    EXPECT_NE(error_of_open(folder / "deep0.lightmap").find("more than 64 recipes"), std::string::npos);
+    EXPECT_NE(error_of_open(folder / "deep0.lightmap").find("more than 64 nested recipes"), std::string::npos);
 #include <vmlight/stage/source_cache.h>
 }
 #include <vmlight/stage/source_cache.h>

@@ -150,7 +150,7 @@ template <class Recipe> bool UdimRun<Recipe>::each(const Make& make, std::string
         MakeOptions tile = options;
         udim_of(recipe) = udim;
         recipe.udim_given = named;
-        tile.again = udim != m_tiles.front();
+        tile.repeated_inputs = udim != m_tiles.front();
         if (named)
             name_tile(tile, udim);
         if (!make(recipe, udim_path(m_stage.output(), udim), tile, error)) {
@@ -162,8 +162,8 @@ template <class Recipe> bool UdimRun<Recipe>::each(const Make& make, std::string
     return true;
 }
 
-template class UdimRun<VismapRecipe>;
-template class UdimRun<CfemRecipe>;
-template class UdimRun<LightmapRecipe>;
+#define VMLIGHT_INSTANTIATE(Recipe) template class UdimRun<Recipe>;
+VMLIGHT_RECIPES(VMLIGHT_INSTANTIATE)
+#undef VMLIGHT_INSTANTIATE
 
 } // namespace vmlight

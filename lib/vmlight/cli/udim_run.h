@@ -53,8 +53,8 @@ private:
     std::string m_vismap; // the recipe whose mesh tells; "" is this one's
 };
 
-extern template class UdimRun<VismapRecipe>;
-extern template class UdimRun<CfemRecipe>;
-extern template class UdimRun<LightmapRecipe>;
+#define VMLIGHT_INSTANTIATE(Recipe) extern template class UdimRun<Recipe>;
+VMLIGHT_RECIPES(VMLIGHT_INSTANTIATE)
+#undef VMLIGHT_INSTANTIATE
 
 } // namespace vmlight

@@ -16,23 +16,22 @@
 
 namespace vmlight {
 
-/// The albedo of lightmaps of one size, in linear light: converted and resized once, whole, on first use, whatever the
-/// rotations and exposures that want it.
+/// The albedo for lightmaps of one size, in linear light. Converted and resized as a whole on first use, then shared by
+/// all rotations and exposures.
 class AlbedoSource : public PixelSource
 {
 public:
     /// @param image    the texture
     /// @param config   stamp_config() of the recipe's colorconfig
-    /// @param size     the pixels of the visibility map
+    /// @param size     the pixel window of the visibility map
     /// @returns nullptr, with the reason in `error`, if the texture has no colour
     static std::shared_ptr<AlbedoSource> open(const LightmapRecipe& recipe, PixelSourcePointer image,
                                               const std::string& config, OIIO::ROI size, std::string& error);
 
-    /// nullptr, with the reason in `error`, if it cannot be read or converted. Lives as long as this.
+    /// nullptr, with the reason in `error`, if it cannot be read or converted. Valid as long as this source.
     const AlbedoReader* reader(std::string& error);
 
-    /// Its texture in linear light, not resized: as make_lightmap() wants it. Errors have the place of the recipe's
-    /// key `albedo`.
+    /// The texture in linear light, not resized, for make_lightmap(). Errors name the location of the key `albedo`.
     bool make_whole(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error);
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override;

@@ -17,50 +17,49 @@ double percent(int64_t part, int64_t whole)
     return whole ? 100.0 * double(part) / double(whole) : 0.0;
 }
 
-// What lies in other tiles surprises only who did not ask for one; what straddles a border, and what no tile has,
+// Triangles in other tiles are news only to those who asked for no tile; those across a border, or in no tile, to
 // everyone.
 void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
 {
-    const auto warn = [&](const std::string& line) { options.warn ? options.warn(line) : void(); };
+    const auto warn = [&](const std::string& line) { options.report_warning(line); };
     const int64_t across = uv.outside - uv.fully_outside;
     if (!recipe.udim_given && uv.outside > 0)
-        warn(format("{} of {} {} out of [0,1] in uv: what lies outside is not baked{}", uv.outside,
+        warn(format("{} of {} {} outside [0,1] in UV: the part outside is not baked{}", uv.outside,
                     counted(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
-                    uv.outside > uv.beyond_udims ? "; it is in other UDIM tiles, see udim" : ""));
+                    uv.outside > uv.beyond_udims ? "; other UDIM tiles have it, see --udim" : ""));
     if (recipe.udim_given && across > 0)
-        warn(format("{} of {} {} out of tile {} in uv: what lies outside is not in its map", across,
+        warn(format("{} of {} {} outside tile {} in UV: the part outside is not in this map", across,
                     counted(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
                     recipe.vismap_params.udim));
-    if (recipe.udim_given && uv.beyond_udims > 0 && !options.again)
-        warn(format("{} of {} {} out of all UDIM tiles, to u below 0 or above 10 or v below 0: what lies there is not "
-                    "baked",
+    if (recipe.udim_given && uv.beyond_udims > 0 && !options.repeated_inputs)
+        warn(format("{} of {} {} outside all UDIM tiles (u below 0 or above 10, or v below 0): that part is not baked",
                     uv.beyond_udims, counted(uv.triangles, "triangle", "triangles"),
                     plural(uv.beyond_udims, "reaches", "reach")));
 }
 
-// What is not baked although its triangles are in the tile, and what is baked from too far away.
+// Triangles of the tile that are not baked, and those too small to bake well.
 void report_lost(const MakeOptions& options, const VismapReport& report)
 {
     const UvReport& uv = report.uv;
     if (uv.uncovered_islands > 0 && options.warn)
-        options.warn(
-            format("{} of {} in uv ({}) {} no texel: {} thinner than one, without area or too far out, and not baked",
-                   uv.uncovered_islands, counted(uv.islands, "island", "islands"),
-                   counted(uv.uncovered_triangles, "triangle", "triangles"),
-                   plural(uv.uncovered_islands, "covers", "cover"), plural(uv.uncovered_islands, "it is", "they are")));
-    if (report.tiny > 0 && options.warn && !options.again)
-        options.warn(format("{} of {} {} smaller than 4e-6 of the mesh: what lies as near to {} as that is not seen",
+        options.warn(format(
+            "{} of {} in UV ({}) {} no texel and {} not baked: thinner than a texel, without area, or too far away",
+            uv.uncovered_islands, counted(uv.islands, "island", "islands"),
+            counted(uv.uncovered_triangles, "triangle", "triangles"), plural(uv.uncovered_islands, "covers", "cover"),
+            plural(uv.uncovered_islands, "is", "are")));
+    if (report.tiny > 0 && options.warn && !options.repeated_inputs)
+        options.warn(format("{} of {} {} smaller than 4e-6 of the mesh: occluders closer to {} than that are missed",
                             report.tiny, counted(uv.triangles, "triangle", "triangles"),
                             plural(report.tiny, "is", "are"), plural(report.tiny, "it", "them")));
 }
 
-// Warned of from where rounding is as large as the least gap through which surfaces are told apart.
+// From where rounding is as large as the smallest gap that separates two surfaces.
 void report_rounding(const MakeOptions& options, const VismapReport& report)
 {
-    if (report.rounding > 1e-6 && options.warn && !options.again)
+    if (report.rounding > 1e-6 && options.warn && !options.repeated_inputs)
         options.warn(
-            format("the mesh lies so far from the origin that floats, which its coordinates are, round them to "
-                   "{:.1g} of its size",
+            format("the mesh is so far from the origin that its float coordinates are rounded to {:.1g} of its "
+                   "size: move it closer to the origin",
                    report.rounding));
 }
 
@@ -69,9 +68,9 @@ std::string error_line(const VismapReport& report)
     const std::string texels = counted(report.error_texels, "texel", "texels");
     const std::string rays = counted(report.samples, "ray", "rays");
     if (report.error == 0)
-        return format("error: 0 ({} baked twice {} the same both times) at {} a texel; {:.2f} s", texels,
+        return format("error: 0 ({} baked twice {} identical) at {} per texel; {:.2f} s", texels,
                       plural(report.error_texels, "is", "are"), rays, report.pilot_seconds);
-    return format("error: {:.2g} (RMS of V, from {} baked twice) at {} a texel; {:.2f} s", report.error, texels, rays,
+    return format("error: {:.2g} (RMS of V, from {} baked twice) at {} per texel; {:.2f} s", report.error, texels, rays,
                   report.pilot_seconds);
 }
 
@@ -80,13 +79,13 @@ std::string error_line(const VismapReport& report)
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
                  const VismapRecipe& recipe)
 {
-    const auto say = [&](const std::string& line) { options.say ? options.say(line) : void(); };
-    const auto warn = [&](const std::string& line) { options.warn ? options.warn(line) : void(); };
+    const auto say = [&](const std::string& line) { options.report(line); };
+    const auto warn = [&](const std::string& line) { options.report_warning(line); };
     const UvReport& uv = report.uv;
     const std::string tile = recipe.udim_given ? format("tile {}", recipe.vismap_params.udim) : "[0,1]";
     say(format(
-        "uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach out of {}, {} lie elsewhere, {} mirrored, "
-        "{} without area in uv, {} in space, {} without uv",
+        "uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach outside {}, {} in other tiles, {} mirrored, "
+        "{} without area in UV, {} in space, {} without UVs",
         uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
         percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
         plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside - uv.fully_outside, tile,
@@ -98,25 +97,25 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
     if (report.error_texels > 0)
         say(error_line(report));
     if (report.expected_seconds > recipe.time_budget)
-        warn(format("time_budget: {} a texel, the least there is, {} about {:.2g} s, not {:.6g}",
+        warn(format("time_budget: even {} per texel, the minimum, {} about {:.2g} s, more than {:.6g}",
                     counted(report.samples, "ray", "rays"), plural(report.samples, "takes", "take"),
                     report.expected_seconds, recipe.time_budget));
     if (report.overlapping > 0)
-        warn(
-            format("{} ({:.2f} % of those covered) {} to more than one triangle: the first triangle of the file has {}",
-                   counted(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
-                   plural(report.overlapping, "belongs", "belong"), plural(report.overlapping, "it", "them")));
+        warn(format(
+            "{} ({:.2f} % of the covered ones) {} to more than one triangle: the first triangle in the file wins",
+            counted(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
+            plural(report.overlapping, "belongs", "belong")));
     report_outside(options, uv, recipe);
-    if (uv.without_uv > 0 && !options.again)
+    if (uv.without_uv > 0 && !options.repeated_inputs)
         warn(format("{} of {} {}", uv.without_uv, counted(uv.triangles, "triangle", "triangles"),
-                    plural(uv.without_uv, "has no uv: it casts, and is not baked",
-                           "have no uv: they cast, and are not baked")));
+                    plural(uv.without_uv, "has no UVs: it occludes, but is not baked",
+                           "have no UVs: they occlude, but are not baked")));
     report_lost(options, report);
     report_rounding(options, report);
     if (report.covered == 0)
         warn("no texel centre is covered: the map is empty");
     else if (report.dark > report.covered / 2)
-        warn(format("{:.0f} % of the covered texels see nothing: do the normals point inwards?",
+        warn(format("{:.0f} % of the covered texels see no light: do the normals point inwards?",
                     percent(report.dark, report.covered)));
 }
 

@@ -9,8 +9,8 @@
 
 namespace vmlight {
 
-/// Tell a user what was baked, and warn of what may surprise: overlap, triangles out of the tile or without uvs,
-/// islands that cover no texel, triangles too small to start rays from, a map that is empty or mostly dark.
+/// Report what was baked, and warn of overlap, triangles outside the tile or without UVs, islands that cover no texel,
+/// triangles too small to start rays from, and a map that is empty or mostly dark.
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
                  const VismapRecipe& recipe);
 

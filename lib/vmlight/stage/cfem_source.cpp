@@ -10,8 +10,8 @@
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/source_cache.h>
-#include <vmlight/stage/stored_environment.h>
 #include <vmlight/stage/stored_image.h>
+#include <vmlight/stage/streamed_environment.h>
 
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/timer.h>
@@ -71,7 +71,7 @@ public:
         if (!(radiance ? m_reduce : m_make)
                  .run([&](std::string& reason) { return filter(images, range, {}, 1, reason); }, error))
             return false;
-        // By hand: get_pixels() waits for OIIO's pool, and the caller may hold a lock.
+        // Not get_pixels(): it waits for OIIO's thread pool, and the caller may hold a lock.
         const auto* pixels = static_cast<const float*>(images[radiance ? 0 : size_t(subimage)].localpixels());
         const size_t row = 3 * size_t(roi.width());
         for (int y = roi.ybegin; y < roi.yend; ++y, dst += row)
@@ -89,20 +89,20 @@ public:
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
-    // Of a stack the environment itself takes no filter: who reads it alone pays for it alone.
+    // The last image of a stack, the environment itself, needs no filter: reading only that one does only that work.
     bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options, int oiio_threads,
                 std::string& error)
     {
-        OIIO::ImageBuf held; // what `environment` reads, unless that is too large
+        OIIO::ImageBuf held; // the pixels of `environment`, unless they are streamed
         std::optional<Environment> environment;
         std::string note;
         if (!open(environment, held, options, oiio_threads, note, error))
             return false;
         const OIIO::ImageSpec& spec = environment->spec();
         const int width = spec.width, height = spec.height;
-        if (std::abs(spec.full_width - 2 * spec.full_height) > 2) // border samples are one more each way
+        if (std::abs(spec.full_width - 2 * spec.full_height) > 2) // sample borders add one pixel each way
             options.report_warning(
-                format("\"{}\" is {}x{}, not twice as wide as high; it is taken as a lat-long map all the same",
+                format("\"{}\" is {}x{}, not twice as wide as high: treated as a lat-long map anyway",
                        m_recipe.environment, spec.full_width, spec.full_height));
         const OIIO::Timer timer;
         if (!filter(dst, range, *environment, options, error)) {
@@ -148,11 +148,11 @@ private:
               std::string& note, std::string& error)
     {
         const std::string& name = m_recipe.environment;
-        if (is_large(m_environment->spec()))
-            return read_as_it_goes(dst, m_environment, name, m_color, note, error);
+        if (is_too_large_to_hold(m_environment->spec()))
+            return stream_environment(dst, m_environment, name, m_color, note, error);
         dst.emplace(held);
         if (!read_all(held, *m_environment, error, 0, oiio_threads)) {
-            error = placed(m_recipe, "environment", options.chain, error);
+            error = with_location(m_recipe, "environment", options.chain, error);
             return false;
         }
         return to_scene_linear(held, name, m_color, note, error, oiio_threads);
@@ -162,7 +162,7 @@ private:
     const PixelSourcePointer m_environment;
     const ColorSettings m_color;
     Once m_make, m_reduce;
-    std::vector<OIIO::ImageSpec> m_specs; // one, or one a level of the stack
+    std::vector<OIIO::ImageSpec> m_specs; // one, or one per image of the stack
     std::vector<OIIO::ImageBuf> m_cfem, m_radiance;
 };
 
@@ -175,12 +175,12 @@ PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, cons
     if (!error.empty() || !check_params(recipe.cfem_params, error))
         return nullptr;
     PixelSourcePointer environment
-        = open_input(recipe, "environment", recipe.environment, Input::Panorama, error, chain);
+        = open_input(recipe, "environment", recipe.environment, InputKind::Panorama, error, chain);
     if (!environment)
         return nullptr;
     std::string config;
     if (!stamp_config(config, recipe.colorconfig, error)) {
-        error = placed(recipe, "colorconfig", chain, error);
+        error = with_location(recipe, "colorconfig", chain, error);
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + config + environment->key();
@@ -190,7 +190,7 @@ PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, cons
     auto source = std::make_shared<CfemSource>(key, recipe, std::move(environment));
     if (source->describe(error))
         return shared ? keep_source(source) : source;
-    error = placed(recipe, "environment", chain, error);
+    error = with_location(recipe, "environment", chain, error);
     return nullptr;
 }
 

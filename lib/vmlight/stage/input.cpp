@@ -15,8 +15,8 @@ namespace vmlight {
 using OIIO::ImageSpec;
 using OIIO::ROI;
 
-// The one place where exceptions end. Nothing is thrown on purpose: what comes here is want of memory, or a fault of a
-// library that reads meshes.
+// The only place that catches exceptions. Nothing is thrown on purpose: what arrives here is out of memory, or a bug in a
+// mesh importer.
 template <class Work> bool StageInput::guarded(Work&& work)
 {
     try {
@@ -26,7 +26,7 @@ template <class Work> bool StageInput::guarded(Work&& work)
     } catch (const std::exception& fault) {
         errorfmt("{}", one_line(fault.what()));
     } catch (...) {
-        errorfmt("unknown fault");
+        errorfmt("unknown exception");
     }
     return false;
 }
@@ -45,7 +45,7 @@ const char* StageInput::format_name() const
 
 int StageInput::supports(OIIO::string_view feature) const
 {
-    // Names with ?query need not be files. Earlier versions end the process when such a reader cannot open.
+    // Names with ?query need not be files. Earlier versions crash when such a reader fails to open.
     return feature == "procedural" && OIIO_VERSION >= 30118;
 }
 
@@ -115,7 +115,7 @@ ImageSpec StageInput::spec_dimensions(int subimage, int miplevel)
 
 bool StageInput::read_native_scanline(int, int, int, int, void*)
 {
-    errorfmt("{} images are read by the tile", m_stage);
+    errorfmt("{} images are tiled: read tiles, not scanlines", m_stage);
     return false;
 }
 
@@ -132,14 +132,13 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
                              spec_dimensions(subimage, miplevel).nchannels, data);
 }
 
-// The data stands in the caller's memory as one image of the region's size, from tile edge to tile edge or to
-// that of the image.
+// `data` is one contiguous image of the region, which ends at tile edges or at the edge of the image.
 bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int xend, int ybegin, int yend, int zbegin,
                                    int zend, int chbegin, int chend, void* data)
 {
     return guarded([&] {
         const PixelSourcePointer source = m_source;
-        // Not m_spec, which another thread may be seeking. A closed reader has no source and no tiles.
+        // Not m_spec: another thread may be seeking. A closed reader has no source, hence no tiles.
         const ImageSpec none;
         const ImageSpec& spec = has(subimage, miplevel) ? source->spec_of(subimage) : none;
         const ROI image = OIIO::get_roi(spec);
@@ -187,7 +186,7 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
         };
         parallel_items(int64_t(across) * down, threads(), read);
         if (!error.empty())
-            errorfmt("{}", one_line(error)); // here: messages belong to the thread that asked
+            errorfmt("{}", one_line(error)); // here, because OIIO keeps error messages per thread
         return error.empty();
     });
 }

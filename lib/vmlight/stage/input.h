@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The face that a stage shows to OIIO: a recipe, opened as an image. open() reads the recipe and describes the image;
-/// the first tile that is asked for starts the work, of which all opens of the process share one copy.
-/// Hosts call these functions from many threads and expect no exception: none leaves.
+/// A stage as an OIIO reader: a recipe opens as an image. open() reads the recipe and describes the image; reading the
+/// first tile starts the work, and everything that opens the same recipe in this process shares the result.
+/// Hosts call these functions from many threads. No exception leaves them.
 #pragma once
 
 #include <vmlight/stage/pixel_source.h>
@@ -15,11 +15,11 @@ namespace vmlight {
 class StageInput : public OIIO::ImageInput
 {
 public:
-    /// @param stage    the format's name, which is its extension too: "vismap", "cfem" or "lightmap"
+    /// @param stage    name of the format, and its extension: "vismap", "cfem" or "lightmap"
     explicit StageInput(const char* stage);
     ~StageInput() override;
 
-    // The other overloads stay visible.
+    // Keep the other overloads visible.
     using ImageInput::open;
     using ImageInput::read_native_scanline;
     using ImageInput::read_native_tile;
@@ -28,17 +28,17 @@ public:
 
     const char* format_name() const override;
     int supports(OIIO::string_view feature) const override;
-    /// Goes by the extension alone, so that open() gets to say what is wrong with the rest.
+    /// Looks at the extension only, so that open() can report what is wrong with the file.
     bool valid_file(const std::string& name) const override;
-    /// Refuses names with another extension before all else: OIIO tries every reader on a file that its own reader
-    /// cannot read, and holds a lock meanwhile.
+    /// Refuses other extensions before doing anything else: OIIO tries every reader on a file that its own reader
+    /// fails on, and holds a lock while it does.
     bool open(const std::string& name, OIIO::ImageSpec& spec) override;
     bool close() override;
-    /// The levels of a stack are subimages; there are no mips.
+    /// The images of a stack are subimages. There are no MIP levels.
     bool seek_subimage(int subimage, int miplevel) override;
     int current_subimage() const override { return m_subimage; }
 
-    // Without the lock of OIIO's own: what open() found never changes.
+    // Without OIIO's lock: what open() found never changes.
     OIIO::ImageSpec spec(int subimage, int miplevel = 0) override;
     OIIO::ImageSpec spec_dimensions(int subimage, int miplevel = 0) override;
 
@@ -55,7 +55,7 @@ private:
     bool has(int subimage, int miplevel) const;
 
     const char* const m_stage;
-    int m_subimage = 0; // the one that m_spec is of
+    int m_subimage = 0; // m_spec describes this one
     PixelSourcePointer m_source;
 };
 

@@ -26,7 +26,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-/// What a lightmap reads; the albedo may be none.
+/// The images that a lightmap reads. The albedo may be nullptr.
 struct Inputs
 {
     PixelSourcePointer vismap, cfem;
@@ -46,11 +46,11 @@ public:
     bool describe(const RecipeChain& chain, std::string& error)
     {
         const OIIO::ImageSpec& vismap = m_inputs.vismap->spec();
-        // A stack, or the last image of one by itself.
+        // A stack, or its last image stored on its own.
         const bool has_all
             = m_inputs.cfem->subimages() > 1 || m_inputs.cfem->spec().get_float_attribute("vmlight:lobe") == 1;
         if (!find_model(m_model, m_recipe.lightmap_params, vismap, has_all, error))
-            error = placed(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
+            error = with_location(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         Rotation rotation;
         if (!error.empty())
             return false;
@@ -104,14 +104,14 @@ public:
         return true;
     }
 
-    // What it reads, whole, for make_lightmap(). The light of `dst` stays if it is this one.
+    // All inputs, whole, for make_lightmap(). Keeps the light that `dst` already has if it is the same.
     bool make_inputs(LightmapInputs& dst, const MakeOptions& options, std::string& error)
     {
         std::vector<OIIO::ImageBuf> images;
-        // One tile's images at a time.
+        // Hold the images of one UDIM tile at a time.
         dst.vismap.reset();
         dst.albedo.reset();
-        // The visibility map first, before an environment is filtered in vain.
+        // The visibility map first: if it fails, no environment is filtered for nothing.
         if (!make_input(images, *m_inputs.vismap, {}, m_recipe, "vismap", m_recipe.vismap, options, error))
             return false;
         dst.vismap = std::move(images[0]);
@@ -148,7 +148,7 @@ private:
         return error.empty();
     }
 
-    // Of a stack those that the model reads.
+    // The images of a stack that the model reads.
     ImageRange images_of_use() const
     {
         const int images = m_inputs.cfem->subimages();
@@ -166,19 +166,19 @@ private:
         dst.light.clear();
         dst.cfem.clear();
         const bool filtered = !m_recipe.cfem.empty();
-        MakeOptions unplaced = options; // what filters the environment has no file of its own
+        MakeOptions unplaced = options; // the implicit CFEM recipe has no file
         unplaced.chain.clear();
         if (filtered) {
             if (!make_input(dst.cfem, *m_inputs.cfem, range, m_recipe, "cfem", m_recipe.cfem, options, error))
                 return false;
         } else if (!m_inputs.cfem->make(dst.cfem, range, unplaced, error)) {
-            error = placed(m_recipe, "environment", options.chain, error);
+            error = with_location(m_recipe, "environment", options.chain, error);
             return false;
         }
         if (m_recipe.lightmap_params.model == "auto")
             options.report(filtered && m_model.light == ModelLight::cfem
-                               ? "model: paper, since the CFEM is no stack (makecfem --stack)"
-                               : format("model: {}, the best that the visibility map is fit for", m_model.name));
+                               ? "model: paper, because the CFEM is not a stack (makecfem --stack makes one)"
+                               : format("model: {}, the best that this visibility map supports", m_model.name));
         dst.light = light;
         return true;
     }
@@ -196,10 +196,10 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
                               const RecipeChain& chain)
 {
     if (!recipe.cfem.empty())
-        return open_input(recipe, "cfem", recipe.cfem, Input::Cfem, error, chain);
-    if (!open_input(recipe, "environment", recipe.environment, Input::Environment, error, chain))
+        return open_input(recipe, "cfem", recipe.cfem, InputKind::Cfem, error, chain);
+    if (!open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, chain))
         return nullptr;
-    // What is wrong with the visibility map is told where it is described.
+    // Errors of the visibility map are reported by describe().
     ShadingModel model;
     std::string ignored;
     find_model(model, recipe.lightmap_params, vismap, true, ignored);
@@ -215,17 +215,17 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
 std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::ROI size, std::string& error,
                                           const RecipeChain& chain)
 {
-    const PixelSourcePointer image = open_input(recipe, "albedo", recipe.albedo, Input::Albedo, error, chain);
+    const PixelSourcePointer image = open_input(recipe, "albedo", recipe.albedo, InputKind::Albedo, error, chain);
     if (!image)
         return nullptr;
     std::string config;
     if (!stamp_config(config, recipe.colorconfig, error)) {
-        error = placed(recipe, "colorconfig", chain, error);
+        error = with_location(recipe, "colorconfig", chain, error);
         return nullptr;
     }
     auto albedo = AlbedoSource::open(recipe, image, config, size, error);
     if (!albedo)
-        error = placed(recipe, "albedo", chain, error);
+        error = with_location(recipe, "albedo", chain, error);
     return albedo;
 }
 
@@ -237,7 +237,7 @@ std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::
     if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error))
         return nullptr;
     Inputs inputs;
-    inputs.vismap = open_input(recipe, "vismap", recipe.vismap, Input::Vismap, error, chain);
+    inputs.vismap = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, chain);
     if (inputs.vismap)
         inputs.cfem = open_light(recipe, inputs.vismap->spec(), error, chain);
     if (!error.empty())

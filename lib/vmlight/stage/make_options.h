@@ -13,7 +13,7 @@ namespace vmlight {
 
 class BakeScene;
 
-/// How a stage is made: by how many threads, and who hears about it.
+/// How to make a stage: threads, and where progress and messages go.
 struct MakeOptions
 {
     /// Names of the recipes being made, outermost first; the last is the one whose struct is given. Empty if the recipe
@@ -23,19 +23,19 @@ struct MakeOptions
     int threads = 0;
     /// Returns the progress of one step of the work ("bake", "filter", "light"), which makes an image of `texels`.
     std::function<Progress(const std::string& step, int64_t texels)> progress;
-    /// Called with one line on what was done, and with one on what may surprise.
+    /// Receive a line of information, or a warning.
     std::function<void(const std::string&)> say, warn;
     /// nullptr, or keeps the mesh and the ray-tracing scene of the last vismap for the next call to share.
     std::shared_ptr<const BakeScene>* scene = nullptr;
     /// The same inputs were made for another UDIM tile before: do not repeat what holds for all tiles.
-    bool again = false;
+    bool repeated_inputs = false;
 
-    /// progress() of an image of `width` x `height` texels; none if nobody listens.
+    /// progress() for an image of `width` x `height` texels; empty if there is no listener.
     Progress step(const char* name, int64_t width, int64_t height) const
     {
         return progress ? progress(name, width * height) : Progress {};
     }
-    /// say() or warn(), if anybody listens.
+    /// say() or warn(), if set.
     void report(const std::string& line) const
     {
         if (say)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Whole stages from their recipes. A recipe is opened as the readers open it (pixel_source.h), then made at once, by
-/// all threads.
+/// Whole stages from their recipes: opened as the readers open them (pixel_source.h), then made on all threads.
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -16,25 +15,26 @@ namespace vmlight {
 
 /// Make a stage.
 ///
-/// @param dst      set to the image, as make_vismap(), make_cfem() and make_lightmap() make it; a vismap's metadata
-///                 hold the parameters of its mesh too
-/// @returns false, with the reason in `dst.geterror()`, if an input is missing, cannot be read or made, or is not what
-///          it should be (with the recipe's line, if that says it), or if a recipe reads itself through others.
+/// @param dst      set to the image, as make_vismap(), make_cfem() and make_lightmap() make it; the metadata of a
+/// vismap
+///                 include the parameters of its mesh
+/// @returns false, with the reason in `dst.geterror()` (and the recipe's line, where that sets the input), if an input
+///          is missing, cannot be read or made, or is of the wrong kind, or if a recipe reads itself through others.
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options = {});
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options = {});
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options = {});
 
-/// As make_image(), all levels if `recipe` asks for a stack; of which make_image() makes the first alone. False, with
-/// the reason in `error`.
+/// Like make_image(), but all images of a stack if `recipe` asks for one; make_image() returns the first only. False,
+/// with the reason in `error`, on failure.
 VMLIGHT_API bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
                              std::string& error);
 
-/// The UDIM tiles that the mesh of `recipe` reaches, see mesh_udims(). Reads the mesh: with `options.scene` it is there
-/// when it is baked. False, with the reason in `error`, if it cannot be read or baked, or reaches none.
+/// The UDIM tiles that the mesh of `recipe` covers, see mesh_udims(). Reads the mesh; with `options.scene` a later bake
+/// shares it. False, with the reason in `error`, if the mesh cannot be read or baked, or covers no tile.
 VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe, const MakeOptions& options,
                               std::string& error);
 
-/// What a lightmap reads, ready for make_lightmap(): for several lightmaps of the same inputs.
+/// The inputs of a lightmap, ready for make_lightmap(), so that several lightmaps can share them.
 struct LightmapInputs
 {
     OIIO::ImageBuf vismap, albedo;
@@ -43,17 +43,17 @@ struct LightmapInputs
     /// Identifies the file or recipe of `cfem`, and which of its images these are.
     std::string light;
 
-    /// nullptr if the recipe has none.
+    /// The albedo, or nullptr if the recipe has none.
     const OIIO::ImageBuf* albedo_or_none() const { return albedo.initialized() ? &albedo : nullptr; }
 };
 
-/// Read or make what `recipe` names; the light of `dst` stays if it is that of `recipe`. False, with the reason in
+/// Read or make the inputs of `recipe`, keeping the light that `dst` has if it is the same. False, with the reason in
 /// `error`, as for make_image().
 VMLIGHT_API bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
                                       std::string& error);
 
-/// The stage that an image is: by its name if that is a recipe's, else by the `vmlight:stage` of the file. "" if it is
-/// none or cannot be opened. Pixels are not read.
+/// The stage of an image: from its name if it is a recipe, else from `vmlight:stage` in the file. "" if it is not a
+/// stage or cannot be opened. Reads no pixels.
 VMLIGHT_API std::string image_stage(const std::string& name);
 
 } // namespace vmlight

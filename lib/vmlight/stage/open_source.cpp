@@ -24,20 +24,22 @@ template <class Recipe> PixelSourcePointer open_recipe(const std::string& name, 
 PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain)
 {
     const std::string stage = recipe_stage(name);
-    return stage == VismapRecipe::kStage  ? open_recipe<VismapRecipe>(name, error, chain)
-        : stage == CfemRecipe::kStage     ? open_recipe<CfemRecipe>(name, error, chain)
-        : stage == LightmapRecipe::kStage ? open_recipe<LightmapRecipe>(name, error, chain)
-                                          : open_stored_image(name, error);
+#define VMLIGHT_OPEN(Recipe)                                                                                           \
+    if (stage == Recipe::kStage)                                                                                       \
+        return open_recipe<Recipe>(name, error, chain);
+    VMLIGHT_RECIPES(VMLIGHT_OPEN)
+#undef VMLIGHT_OPEN
+    return open_stored_image(name, error);
 }
 
 template <class Recipe>
-PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, InputKind wanted,
                               std::string& error, const RecipeChain& chain)
 {
     const std::string stage = recipe_stage(name);
     RecipeChain longer = chain;
     PixelSourcePointer source;
-    // A recipe of the wrong stage is refused before what it reads is opened, but as what it is if it reads itself.
+    // Refuse a recipe of the wrong stage before opening its inputs; a recipe that reads itself gets its own error.
     if (stage.empty() || link_recipe(longer, name, error))
         error = stage.empty() ? "" : input_fault(name, stage, wanted);
     if (error.empty())
@@ -46,19 +48,20 @@ PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::
         error = input_fault(name, source->spec().get_string_attribute("vmlight:stage"), wanted);
     if (error.empty())
         return source;
-    error = placed(recipe, key, chain, error);
+    error = with_location(recipe, key, chain, error);
     return nullptr;
 }
 
-template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
-                                       const RecipeChain&);
-template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input, std::string&,
-                                       const RecipeChain&);
+#define VMLIGHT_DEFINE(Recipe)                                                                                         \
+    template PixelSourcePointer open_input(const Recipe&, const char*, const std::string&, InputKind, std::string&,    \
+                                           const RecipeChain&);
+VMLIGHT_RECIPES(VMLIGHT_DEFINE)
+#undef VMLIGHT_DEFINE
 
 bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error)
 {
     const std::string config = colorconfig.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : colorconfig;
-    stamp = config + "\n"; // none, or one that is built into OpenColorIO
+    stamp = config + "\n"; // no config, or one built into OpenColorIO
     return config.empty() || OIIO::Strutil::starts_with(config, "ocio://") || stamp_file(stamp, config, error);
 }
 

@@ -11,43 +11,38 @@
 
 namespace vmlight {
 
-/// Whether a source of a recipe is shared with others who open the same, or made for its caller alone.
+/// Whether everything in the process that opens the same recipe shares one source, or the caller gets its own.
 enum class Sharing
 {
     process,
     none
 };
 
-/// Open an image by name: a recipe is read and described, any other image is opened by OIIO. Nothing is computed.
-/// What is open already, unchanged, is shared.
+/// Open an image by name: a recipe is read and described, OIIO opens any other image. Computes nothing. Shares what is
+/// already open and unchanged.
 ///
 /// @param chain    the recipes that led here
-/// @returns nullptr, with the place and reason in `error`, if it cannot be read, an input is missing or not what it
-///          should be, or it reads itself
+/// @returns nullptr, with the location and reason in `error`, if it cannot be read, an input is missing or of the wrong
+///          kind, or a recipe reads itself.
 PixelSourcePointer open_source(const std::string& name, std::string& error, const RecipeChain& chain = {});
 
 /// The same for a recipe in memory, the last of `chain` if it has a file.
-PixelSourcePointer open_source(const VismapRecipe& recipe, std::string& error, const RecipeChain& chain = {},
-                               Sharing sharing = Sharing::process);
-PixelSourcePointer open_source(const CfemRecipe& recipe, std::string& error, const RecipeChain& chain = {},
-                               Sharing sharing = Sharing::process);
-PixelSourcePointer open_source(const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain = {},
-                               Sharing sharing = Sharing::process);
+#define VMLIGHT_DECLARE(Recipe)                                                                                        \
+    PixelSourcePointer open_source(const Recipe& recipe, std::string& error, const RecipeChain& chain = {},            \
+                                   Sharing sharing = Sharing::process);
+VMLIGHT_RECIPES(VMLIGHT_DECLARE)
+#undef VMLIGHT_DECLARE
 
 // ---- For the sources of the stages ------------------------------------------------------------------------------
 
-/// Open the image `name`, which `recipe`, the last of `chain`, gives as `key`. nullptr, with the place and reason in
-/// `error`, if it cannot be opened or is not `wanted`.
+/// Open the image `name`, the value of `key` in `recipe`, which is the last of `chain`. nullptr, with the location and
+/// reason in `error`, if it cannot be opened or is not of the kind `wanted`.
 template <class Recipe>
-PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, Input wanted,
+PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, InputKind wanted,
                               std::string& error, const RecipeChain& chain);
-extern template PixelSourcePointer open_input(const CfemRecipe&, const char*, const std::string&, Input, std::string&,
-                                              const RecipeChain&);
-extern template PixelSourcePointer open_input(const LightmapRecipe&, const char*, const std::string&, Input,
-                                              std::string&, const RecipeChain&);
 
-/// Make images of `input` whole, which open_input() opened: PixelSource::make() with the chain and the place of errors
-/// that belong to it.
+/// Make images of `input`, which open_input() opened, whole: PixelSource::make() with the chain extended by `name`, and
+/// the location of `key` in errors.
 template <class Recipe>
 bool make_input(std::vector<OIIO::ImageBuf>& dst, PixelSource& input, ImageRange range, const Recipe& recipe,
                 const char* key, const std::string& name, const MakeOptions& options, std::string& error)
@@ -57,14 +52,14 @@ bool make_input(std::vector<OIIO::ImageBuf>& dst, PixelSource& input, ImageRange
         inner.chain.push_back(name);
     if (input.make(dst, range, inner, error))
         return true;
-    error = placed(recipe, key, options.chain, error);
+    error = with_location(recipe, key, options.chain, error);
     return false;
 }
 
-/// stamp_file() of an OCIO config, "" being $OCIO.
+/// stamp_file() of an OCIO config; "" means $OCIO.
 bool stamp_config(std::string& stamp, const std::string& colorconfig, std::string& error);
 
-/// Every parameter of a recipe as text.
+/// All parameters of a recipe as text, for the key of its source.
 template <class Recipe> std::string recipe_key(Recipe recipe)
 {
     std::string key = std::string(Recipe::kStage) + "\n";

@@ -31,17 +31,17 @@ public:
 
     /// Size, channels and metadata, known before any pixel is.
     const OIIO::ImageSpec& spec() const { return m_spec; }
-    /// Images in it: several if it is a stack of CFEM.
+    /// Number of images: several for a CFEM stack.
     virtual int subimages() const { return 1; }
     virtual const OIIO::ImageSpec& spec_of(int /*subimage*/) const { return m_spec; }
-    /// All that the pixels depend on: parameters, and name, size and time of each file. Equal keys, equal pixels.
+    /// Everything that the pixels depend on: parameters, and name, size and time of each file. Equal keys, equal pixels.
     const std::string& key() const { return m_key; }
 
-    /// Set `dst` to the float pixels of `roi`, all channels, rows without padding; `roi` lies in the data window. Any
-    /// thread. False, with the reason in `error`, if they cannot be made.
+    /// Set `dst` to the float pixels of `roi`, which is within the data window: all channels, rows without padding. Any
+    /// thread. False, with the reason in `error`, on failure.
     virtual bool read(OIIO::ROI roi, float* dst, std::string& error) = 0;
 
-    /// The same for any image of it.
+    /// The same for image number `subimage`.
     virtual bool read_of(int subimage, OIIO::ROI roi, float* dst, std::string& error)
     {
         if (subimage == 0)
@@ -50,20 +50,19 @@ public:
         return false;
     }
 
-    /// Make the images of `range` whole: float, the same pixels bit for bit as read_of() gives, with all metadata, also
-    /// what is only known once they are made (samples, hash of the mesh). By all threads, and the source keeps nothing
-    /// of them: not to be called under a lock that a task of OIIO's thread pool may want.
+    /// Make the images of `range` whole, on all threads: float, bit for bit the pixels of read_of(), with all metadata,
+    /// including what is known only afterwards (samples, mesh hash). The source keeps no copy. Do not call it while
+    /// holding a lock that a task of OIIO's thread pool may want.
     ///
-    /// @param options  whose chain ends with the recipe of this source, if it is one
-    /// @returns false, with the reason and its place in `error`; `dst` then holds nothing of use
+    /// @param options  its chain ends with this source's recipe, if that has a file
+    /// @returns false, with the location and reason in `error`; `dst` is then unspecified.
     virtual bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
                       std::string& error)
         = 0;
 
-    /// Whether what the pixels are made from could not be had, or is no longer as it was, so that another open should
-    /// try anew.
+    /// Whether making the pixels failed or an input has changed since, so that the next open should start over.
     virtual bool failed() const { return false; }
-    /// Memory held for later reads, about.
+    /// Approximate memory held for later reads, in bytes.
     virtual size_t bytes() const { return 0; }
 
 protected:

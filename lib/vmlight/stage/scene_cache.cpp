@@ -13,14 +13,14 @@
 namespace vmlight {
 namespace {
 
-/// A place for a scene, held by those who want it at the moment.
+/// Holds one scene while it is built and used.
 struct Slot
 {
     std::mutex mutex; // held while it is built
     std::weak_ptr<const BakeScene> scene;
 };
 
-/// Slots by key. Those whose scene is gone leave no more than their key behind, until the next call.
+/// Slots by key. The next call removes slots whose scene is gone.
 class Slots
 {
 public:
@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    // If no one else has the slot, no one builds in it or can come to, and its lock is free.
+    // With no other holder nobody builds in this slot or can start to, so its lock is free.
     static bool is_left(Slot& slot, long holders)
     {
         if (holders > 1)
@@ -48,7 +48,7 @@ private:
     std::map<std::string, std::shared_ptr<Slot>> m_slots;
 };
 
-// Never taken down: threads of the host may still read while the process ends.
+// Never destroyed: host threads may still read while the process exits.
 Slots& slots()
 {
     static auto& all = *new Slots;
@@ -121,7 +121,7 @@ bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     const std::shared_ptr<Slot> slot = slots().find(stamps.key);
     const std::lock_guard<std::mutex> lock(slot->mutex);
     dst = slot->scene.lock();
-    if (dst && !are_unchanged(dst->files)) // one that another of them names, such as a glTF's buffer
+    if (dst && !are_unchanged(dst->files)) // e.g. a buffer file that a glTF names
         dst = nullptr;
     if (!dst && !build(dst, recipe, stamps, nthreads, seconds, at, error))
         return false;

@@ -12,7 +12,7 @@
 namespace vmlight {
 namespace {
 
-// Those used last stand first. What is dropped ends after the lock does: it may be large.
+// Most recently used first. Dropped sources are destroyed after the lock is released: they may be large.
 class Sources
 {
 public:
@@ -78,12 +78,12 @@ private:
     }
     std::mutex m_mutex;
     List m_sources;
-    // What someone has open is found again, though the list has dropped it.
+    // Finds sources that someone still has open after the list dropped them.
     std::map<std::string, std::weak_ptr<PixelSource>> m_open;
     size_t m_bytes = size_t(1) << 30, m_count = 64;
 };
 
-// Never taken down: threads of the host may still read while the process ends.
+// Never destroyed: host threads may still read while the process exits.
 Sources& sources()
 {
     static auto& all = *new Sources;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sources that the process has open, or had lately: who opens the same again shares them.
+/// The sources that the process has open or used recently, so that opening one again shares it.
 #pragma once
 
 #include <vmlight/stage/pixel_source.h>
@@ -9,13 +9,13 @@
 
 namespace vmlight {
 
-/// The source with this key that is open or was lately, or nullptr. Those that failed are forgotten.
+/// The open or recently used source with this key, or nullptr. Forgets it if it failed.
 PixelSourcePointer find_source(const std::string& key);
 
-/// Remember `source`. Returns the one to use: another thread may have been faster.
+/// Remember `source`. Returns the one to use: another thread may have been first.
 PixelSourcePointer keep_source(PixelSourcePointer source);
 
-/// How much the process keeps of what no one has open: 1 GiB in 64 sources unless set.
+/// Limit what is kept of sources that nobody has open. Default: 1 GiB, 64 sources.
 void set_source_limits(size_t bytes, size_t sources);
 
 } // namespace vmlight

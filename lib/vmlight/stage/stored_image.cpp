@@ -28,14 +28,14 @@ using OIIO::Strutil::fmt::format;
 constexpr size_t kMostBlocks = size_t(256) << 20; // bytes
 constexpr int kStripRows = 64;
 
-/// What is read of a file at once: a tile of it, or some scanlines.
+/// The unit of reading: a tile of the file, or some scanlines.
 struct Block
 {
     std::vector<float> pixels;
     size_t bytes() const { return sizeof(*this) + pixels.size() * sizeof(float); }
 };
 
-/// File, block. Never taken down: threads of the host may still read while the process ends.
+/// Keyed by file and block. Never destroyed: host threads may still read while the process exits.
 using Blocks = OnceCache<std::pair<uint64_t, int64_t>, Block>;
 Blocks& blocks()
 {
@@ -49,7 +49,7 @@ uint64_t next_id()
     return ++count;
 }
 
-// A name with ?query may be an image without any file, which another plugin makes.
+// A name with ?query need not be a file: another plugin may generate the image.
 bool stamp_image(std::string& stamp, const std::string& path, std::string& error)
 {
     if (path.find('?') != std::string::npos && !OIIO::Filesystem::exists(path)
@@ -62,7 +62,7 @@ bool stamp_image(std::string& stamp, const std::string& path, std::string& error
 
 bool is_unchanged(const std::string& stamp, const std::string& path, std::string& error)
 {
-    return stamp == path + "\n" || check_stamp(stamp, path, error); // a name alone has nothing that could change
+    return stamp == path + "\n" || check_stamp(stamp, path, error); // a bare name cannot change
 }
 
 class StoredImage : public PixelSource
@@ -139,7 +139,7 @@ public:
         return true;
     }
 
-    // At once, without the cache.
+    // The whole image, bypassing the block cache.
     bool read_file(int subimage, float* dst, int threads, std::string& error)
     {
         const auto file = OIIO::ImageInput::open(m_path);
@@ -156,7 +156,7 @@ public:
     bool failed() const override { return m_open.failed(); }
 
 private:
-    // Thrown past the cache, which keeps no failure: who asks again is told again.
+    // Thrown through the cache, which keeps no failures: the next read fails again.
     using BadBlock = std::runtime_error;
 
     std::shared_ptr<const Block> read_block(OIIO::ROI roi)
@@ -177,7 +177,7 @@ private:
         return block;
     }
 
-    // `both` of the pixels of `own` at `from` to those of `roi` at `to`.
+    // Copies the pixels of `both` from `from`, which holds `own`, to `to`, which holds `roi`.
     void copy(OIIO::ROI both, OIIO::ROI own, const float* from, OIIO::ROI roi, float* to) const
     {
         const size_t channels = size_t(m_spec.nchannels);
@@ -217,7 +217,7 @@ bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int 
     dst.reset(spec, OIIO::InitializePixels::No);
     auto* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels) {
-        error = format("no memory for {}x{} pixels", spec.width, spec.height);
+        error = format("out of memory for {}x{} pixels", spec.width, spec.height);
         return false;
     }
     if (auto* file = dynamic_cast<StoredImage*>(&source))

@@ -9,14 +9,15 @@
 
 namespace vmlight {
 
-/// An image file as a source: its header now, its pixels by its tiles or by 64 scanlines, of which the process keeps up
-/// to 256 MiB. Not through an ImageCache: OIIO's shared one must not be asked while it asks a reader, and any gives out
-/// a tile that could not be read as black from the second time on. Of a file with several images the first; of a stack
-/// of CFEM read_all() reads the others too.
+/// Open an image file as a source. Reads the header now, and pixels on demand in blocks: its tiles, or 64 scanlines. The
+/// process caches up to 256 MiB of blocks. Not through an ImageCache: OIIO's shared one must not be called while it
+/// calls a reader, and every ImageCache returns an unreadable tile as black from the second time on. Reads the first
+/// image of a file with several; of a CFEM stack, read_all() and make() read the others too.
 PixelSourcePointer open_stored_image(const std::string& path, std::string& error);
 
-/// All pixels of `source` in memory, as float; `dst` has no name. On the calling thread; a file may be decoded by more,
-/// `oiio_threads` (0 is OIIO's default): one alone never waits for OIIO's thread pool, as is needed under a lock.
+/// Read all pixels of `source` as float; `dst` has no name. Runs on the calling thread, except that `oiio_threads`
+/// threads may decode a file (0: OIIO's default). With 1 it never waits for OIIO's thread pool, as callers that hold a
+/// lock need.
 bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage = 0, int oiio_threads = 1);
 
 } // namespace vmlight

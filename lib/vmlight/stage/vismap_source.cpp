@@ -29,7 +29,7 @@ public:
         , m_recipe(recipe)
         , m_stamps(std::move(stamps))
     {
-        // The mesh's hash would take the mesh to know; a map that is made from the mesh as it is needs none.
+        // No mesh hash: computing it would mean reading the mesh in open().
         m_spec = describe_vismap(OIIO::Filesystem::filename(recipe.mesh), recipe.vismap_params);
         append_params(m_spec, recipe.mesh_params);
     }
@@ -42,7 +42,7 @@ public:
         return true;
     }
 
-    // The whole map at once: neither a cache of tiles nor their overlapping margins.
+    // The whole map in one go: no tile cache, no overlapping margins.
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error) override
     {
         BakeScenePointer scene;
@@ -50,7 +50,7 @@ public:
         double build_seconds = 0;
         std::string at;
         if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error)) {
-            error = placed(m_recipe, at, options.chain, error);
+            error = with_location(m_recipe, at, options.chain, error);
             return false;
         }
         if (options.scene)
@@ -69,7 +69,7 @@ public:
     }
 
     bool failed() const override { return m_prepare.failed() || (m_bytes && !are_unchanged(m_scene->files)); }
-    // The scene counts by halves, thirds, ... where it is shared, so that together the sharers count it once.
+    // A shared scene is divided by the number of sharers, so that together they count it once.
     size_t bytes() const override
     {
         const size_t own = m_bytes;
@@ -88,7 +88,7 @@ private:
             error = memory_fault(m_spec);
         if (!error.empty())
             return false;
-        // Of its own it has the lists of triangles, and the map if that is baked as a whole.
+        // This source owns the triangle lists, and the map if it was baked as a whole.
         const size_t lists = sizeof(uint32_t) * m_scene->mesh().triangles.size();
         m_bytes = 1 + lists + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
         return true;
@@ -100,7 +100,7 @@ private:
     BakeScenePointer m_scene;
     VismapBaker m_baker;
     std::unique_ptr<VismapTiles> m_tiles;
-    std::atomic<size_t> m_bytes { 0 }; // set last: what is not 0 has all else
+    std::atomic<size_t> m_bytes { 0 }; // set last: nonzero means that everything else is ready
 };
 
 } // namespace
@@ -114,7 +114,7 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
     SceneStamps stamps;
     std::string at;
     if (!stamp_scene(stamps, recipe, at, error)) {
-        error = placed(recipe, at, chain, error);
+        error = with_location(recipe, at, chain, error);
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + stamps.key;
@@ -136,15 +136,16 @@ bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOp
         return false;
     if (!stamp_scene(stamps, recipe, at, error)
         || !share_scene(scene, recipe, stamps, options.threads, nullptr, at, error)) {
-        error = placed(recipe, at, options.chain, error);
+        error = with_location(recipe, at, options.chain, error);
         return false;
     }
     if (options.scene)
         *options.scene = scene;
     dst = mesh_udims(scene->mesh());
     if (dst.empty())
-        error = placed(recipe, "mesh", options.chain,
-                       OIIO::Strutil::fmt::format("\"{}\": its texture coordinates lie in no UDIM tile", recipe.mesh));
+        error = with_location(
+            recipe, "mesh", options.chain,
+            OIIO::Strutil::fmt::format("\"{}\": its texture coordinates are outside all UDIM tiles", recipe.mesh));
     return !dst.empty();
 }
 

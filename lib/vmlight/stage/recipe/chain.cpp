@@ -16,8 +16,8 @@ using OIIO::Strutil::fmt::format;
 
 constexpr size_t kLongestChain = 64;
 
-// The same file by another way to its folder is the same recipe. Its name is as it was given, a link or not: it may say
-// a UDIM tile. A ring through links comes back to a name all the same.
+// The same file reached through another path to its folder is the same recipe. Its own name is kept even if it is a
+// link, because the name may give a UDIM tile. A cycle through links still comes back to a name.
 std::string identity(const std::string& name)
 {
     const std::filesystem::path path = recipe_path(name);
@@ -32,14 +32,14 @@ std::string missing(const std::string& what, const RecipeChain& chain)
     return (chain.empty() ? "" : format("\"{}\": ", chain.back())) + what + " is missing";
 }
 
-// `reason` begins with its key and ": ", or is about more than one key.
-std::string placed_parameter(const LightmapRecipe& recipe, const RecipeChain& chain, const std::string& reason)
+// `reason` starts with a key and ": ", unless it concerns several keys.
+std::string parameter_with_location(const LightmapRecipe& recipe, const RecipeChain& chain, const std::string& reason)
 {
     const size_t colon = reason.find(": ");
     if (chain.empty())
         return reason;
     return colon == std::string::npos ? format("\"{}\": {}", chain.back(), reason)
-                                      : placed(recipe, reason.substr(0, colon), chain, reason.substr(colon + 2));
+                                      : with_location(recipe, reason.substr(0, colon), chain, reason.substr(colon + 2));
 }
 
 } // namespace
@@ -56,12 +56,13 @@ bool link_recipe(RecipeChain& chain, const std::string& name, std::string& error
     for (auto at = first; at != chain.end(); ++at)
         way += format("\"{}\" -> ", *at);
     error = first != chain.end() ? format("\"{}\" reads itself: {}\"{}\"", name, way, name)
-                                 : format("\"{}\": more than {} recipes, each within the last", name, kLongestChain);
+                                 : format("\"{}\": more than {} nested recipes", name, kLongestChain);
     return false;
 }
 
 template <class Recipe>
-std::string placed(const Recipe& recipe, const std::string& key, const RecipeChain& chain, const std::string& reason)
+std::string with_location(const Recipe& recipe, const std::string& key, const RecipeChain& chain,
+                          const std::string& reason)
 {
     Recipe read;
     std::string ignored;
@@ -91,29 +92,33 @@ std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
     if (recipe.cfem.empty() && recipe.environment.empty())
         return missing("environment", chain) + ", or cfem";
     if (!recipe.cfem.empty() && !recipe.environment.empty())
-        return placed(recipe, "cfem", chain, "environment is given too: one of them must be empty");
+        return with_location(recipe, "cfem", chain, "environment is set too: set only one of them");
     Rotation rotation;
     std::string error;
-    return lightmap_rotation(rotation, recipe.lightmap_params, error) ? "" : placed_parameter(recipe, chain, error);
+    return lightmap_rotation(rotation, recipe.lightmap_params, error) ? ""
+                                                                      : parameter_with_location(recipe, chain, error);
 }
 
-template std::string placed(const VismapRecipe&, const std::string&, const RecipeChain&, const std::string&);
-template std::string placed(const CfemRecipe&, const std::string&, const RecipeChain&, const std::string&);
-template std::string placed(const LightmapRecipe&, const std::string&, const RecipeChain&, const std::string&);
+#define VMLIGHT_DEFINE(Recipe)                                                                                         \
+    template std::string with_location(const Recipe&, const std::string&, const RecipeChain&, const std::string&);
+VMLIGHT_RECIPES(VMLIGHT_DEFINE)
+#undef VMLIGHT_DEFINE
 
-std::string input_fault(const std::string& name, const std::string& stage, Input wanted)
+std::string input_fault(const std::string& name, const std::string& stage, InputKind wanted)
 {
     if (is_recipe_name(name)) {
-        const char* noun = wanted == Input::Vismap ? "a vismap" : wanted == Input::Cfem ? "a cfem" : "an environment";
-        const bool good = wanted == Input::Albedo || (wanted == Input::Vismap && stage == kVismapStage)
-            || (wanted == Input::Cfem && stage == kCfemStage);
-        return good ? "" : format("\"{}\": the recipe of a {}, not of {}", name, stage, noun);
+        const char* noun = wanted == InputKind::Vismap ? "a vismap"
+            : wanted == InputKind::Cfem                ? "a cfem"
+                                                       : "an environment";
+        const bool good = wanted == InputKind::Albedo || (wanted == InputKind::Vismap && stage == kVismapStage)
+            || (wanted == InputKind::Cfem && stage == kCfemStage);
+        return good ? "" : format("\"{}\": is the recipe of a {}, not of {}", name, stage, noun);
     }
-    if (wanted == Input::Environment && stage == kCfemStage)
-        return format("\"{}\": filtered already: give it as cfem", name);
-    if ((wanted == Input::Environment && !stage.empty())
-        || (wanted == Input::Cfem && !stage.empty() && stage != kCfemStage))
-        return format("\"{}\": neither an environment nor a CFEM: its vmlight:stage is \"{}\"", name, stage);
+    if (wanted == InputKind::Environment && stage == kCfemStage)
+        return format("\"{}\": is already filtered: use it as cfem", name);
+    if ((wanted == InputKind::Environment && !stage.empty())
+        || (wanted == InputKind::Cfem && !stage.empty() && stage != kCfemStage))
+        return format("\"{}\": is neither an environment nor a CFEM: its vmlight:stage is \"{}\"", name, stage);
     return "";
 }
 

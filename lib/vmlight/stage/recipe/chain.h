@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Recipes that read recipes: who leads to whom, what each must be given, and where in its file a fault is told.
+/// Recipes that read recipes: their order, what each needs, and the location of a fault in its file.
 #pragma once
 
 #include <vmlight/stage/recipe/recipe.h>
@@ -9,28 +9,29 @@
 
 namespace vmlight {
 
-/// Names of the recipes on the way to the one at hand, which is the last, outermost first; each a path, with its
-/// ?query. Empty if there is no file behind it.
+/// Names of nested recipes, outermost first, the current one last; each a path with its ?query. Empty for a recipe that
+/// has no file.
 using RecipeChain = std::vector<std::string>;
 
-/// Add `name` to `chain`. False, with the way that was gone in `error`, if that recipe is on it already, by whatever
-/// path, or if 64 are: each reads its inputs by recursion.
+/// Append `name` to `chain`. False, with the whole cycle in `error`, if that recipe is in the chain already, by any
+/// path, or if the chain has 64: recipes are read recursively.
 bool link_recipe(RecipeChain& chain, const std::string& name, std::string& error);
 
-/// `reason`, led by where the last recipe of `chain` gives `key`, for there the user can mend it: `"a.lightmap" line 3:
-/// albedo: ...`. The reason alone if there is no file, or a flag or a caller has put another value in that one's place.
+/// `reason` after the place where the last recipe of `chain` sets `key`, where the user can fix it: `"a.lightmap" line
+/// 3: albedo: ...`. The reason alone if there is no file, or a flag or a caller has overridden the value.
 template <class Recipe>
-std::string placed(const Recipe& recipe, const std::string& key, const RecipeChain& chain, const std::string& reason);
+std::string with_location(const Recipe& recipe, const std::string& key, const RecipeChain& chain,
+                          const std::string& reason);
 
-/// What keeps `recipe` from being made, led by its place, or "": an input that is not given, or two where one is
-/// wanted; rotations that are none or exclude one another. Not checked: that the inputs exist, and single parameters.
-std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain);
-std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain);
-std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain);
+/// Why `recipe` cannot be made, with its location, or "": a missing input, two inputs that exclude each other, an
+/// invalid rotation or more than one. Not checked: that the inputs exist, and the ranges of parameters.
+#define VMLIGHT_DECLARE(Recipe) std::string recipe_fault(const Recipe& recipe, const RecipeChain& chain);
+VMLIGHT_RECIPES(VMLIGHT_DECLARE)
+#undef VMLIGHT_DECLARE
 
-/// What an input of a recipe must be. An environment lights a lightmap; a cfem filters a panorama, in which a pipeline
-/// may have left the tags of anything.
-enum class Input
+/// The kind of image that an input must be. An environment lights a lightmap; a panorama, filtered by a cfem, may carry
+/// any tags that a pipeline left in it.
+enum class InputKind
 {
     Vismap,
     Cfem,
@@ -39,8 +40,8 @@ enum class Input
     Albedo
 };
 
-/// What keeps the image `name` from being such an input, or "". `stage` is its `vmlight:stage`, "" if it has none, or
-/// that of its recipe. Not checked: its channels.
-std::string input_fault(const std::string& name, const std::string& stage, Input wanted);
+/// Why the image `name` cannot be such an input, or "". `stage` is its `vmlight:stage` ("" if not set), or the stage of
+/// its recipe. Not checked: its channels.
+std::string input_fault(const std::string& name, const std::string& stage, InputKind wanted);
 
 } // namespace vmlight

@@ -10,16 +10,16 @@ namespace vmlight {
 std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
 {
     if (key == "crease_angle" && recipe.mesh_params.normals == "flat")
-        return "flat normals have no creases";
+        return "flat normals ignore it";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
-        return "width and height take its place";
+        return "width and height override it";
     if (key == "order" && recipe.vismap_params.basis != "sh")
-        return "only the basis sh has bands";
+        return "only the basis sh uses it";
     const bool has_target = recipe.vismap_params.target_error > 0;
     if ((key == "samples" || key == "time_budget") && has_target)
-        return "target_error says how many rays it takes";
+        return "target_error sets the number of rays";
     if (key == "samples" && recipe.time_budget > 0)
-        return "time_budget says how many rays there is time for";
+        return "time_budget sets the number of rays";
     return "";
 }
 
@@ -32,15 +32,15 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
 {
     const bool is_filter = OIIO::Strutil::starts_with(key, "cfem_");
     if ((is_filter || key == "colorspace") && !recipe.cfem.empty())
-        return OIIO::Strutil::fmt::format("there is no environment to {}: \"{}\" is filtered already",
+        return OIIO::Strutil::fmt::format("no environment to {}: \"{}\" is already filtered",
                                           is_filter ? "filter" : "convert", recipe.cfem);
     const std::string& model = recipe.lightmap_params.model;
     if ((key == "cfem_filter" || key == "cfem_order") && reads_radiance(model))
-        return "the model " + model + " reads the environment unfiltered";
+        return "the model " + model + " reads the unfiltered environment";
     if (key == "cfem_order" && recipe.cfem_params.filter != "sh")
         return "only the filter sh uses it";
     if (key == "albedo_colorspace" && recipe.albedo.empty())
-        return "there is no albedo";
+        return "no albedo is given";
     return "";
 }
 

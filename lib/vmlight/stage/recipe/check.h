@@ -8,10 +8,10 @@
 
 namespace vmlight {
 
-/// Why `key` cannot change the picture, given the others, whatever its value; or "" if it can. The OCIO config always
-/// can: what it is good for depends on the files.
-std::string unused_reason(const VismapRecipe& recipe, const std::string& key);
-std::string unused_reason(const CfemRecipe& recipe, const std::string& key);
-std::string unused_reason(const LightmapRecipe& recipe, const std::string& key);
+/// Why no value of `key` can change the picture, given the other parameters, or "" if it can. The OCIO config always
+/// can: its effect depends on the files.
+#define VMLIGHT_DECLARE(Recipe) std::string unused_reason(const Recipe& recipe, const std::string& key);
+VMLIGHT_RECIPES(VMLIGHT_DECLARE)
+#undef VMLIGHT_DECLARE
 
 } // namespace vmlight

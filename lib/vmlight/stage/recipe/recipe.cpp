@@ -55,7 +55,7 @@ bool set_from_node(Recipe& recipe, const std::string& key, const toml::node& nod
         else
             error = key + ": " + reason;
     });
-    // For the name of the nearest.
+    // Fails with the nearest known name.
     return found ? good : set_param(recipe, key, "", error);
 }
 
@@ -71,9 +71,9 @@ bool read_bytes(std::string& dst, const std::string& path, std::string& error)
         return failed("not a file");
     const uint64_t size = OIIO::Filesystem::file_size(path);
     if (size > kLargestFile)
-        return failed(format("{} bytes are too many for a recipe; {} are allowed", size, kLargestFile));
+        return failed(format("{} bytes are too large for a recipe; the limit is {}", size, kLargestFile));
     if (size == 0)
-        return failed("an empty file");
+        return failed("the file is empty");
     dst.resize(size);
     if (OIIO::Filesystem::read_bytes(path, dst.data(), dst.size()) != dst.size())
         return failed("cannot be read");
@@ -99,7 +99,7 @@ bool split_name(std::string& path, Overrides& overrides, const std::string& name
     return true;
 }
 
-// What takes several names takes one a line.
+// A key with several paths takes one per line.
 template <class Recipe> bool takes_lines(Recipe recipe, const std::string& key)
 {
     bool lines = false;
@@ -109,7 +109,7 @@ template <class Recipe> bool takes_lines(Recipe recipe, const std::string& key)
     return lines;
 }
 
-// A file under the name of a tile is the recipe of that tile, unless it says another.
+// A file named after a tile is the recipe of that tile, unless it sets another.
 template <class Recipe> Recipe named_recipe(const std::string& path)
 {
     Recipe recipe;
@@ -126,8 +126,8 @@ template <class Recipe> bool apply(Recipe& recipe, const Overrides& overrides, s
         const auto same = [&](const auto& other) { return other.first == at->first; };
         if (std::any_of(overrides.begin(), at, same)) {
             if (takes_lines(recipe, at->first))
-                continue; // with the first
-            error = at->first + ": given twice";
+                continue; // joined with the first
+            error = at->first + ": set twice";
             return false;
         }
         std::string text = at->second;
@@ -149,7 +149,7 @@ bool read_recipe_text(Recipe& dst, string_view text, const std::string& path, st
     toml::table table;
     if (!parse_toml(table, text, path, error))
         return false;
-    // The table is sorted by key; the fault to tell is the first of the file.
+    // The table is sorted by key, but the error to report is the first in the file.
     Recipe recipe = named_recipe<Recipe>(path);
     recipe.udim_given |= table.contains("udim");
     const std::string folder = OIIO::Filesystem::parent_path(path);
@@ -189,12 +189,11 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
     return true;
 }
 
-template bool read_recipe(VismapRecipe&, const std::string&, std::string&);
-template bool read_recipe(CfemRecipe&, const std::string&, std::string&);
-template bool read_recipe(LightmapRecipe&, const std::string&, std::string&);
-template bool read_recipe_text(VismapRecipe&, string_view, const std::string&, std::string&);
-template bool read_recipe_text(CfemRecipe&, string_view, const std::string&, std::string&);
-template bool read_recipe_text(LightmapRecipe&, string_view, const std::string&, std::string&);
+#define VMLIGHT_DEFINE(Recipe)                                                                                         \
+    template bool read_recipe(Recipe&, const std::string&, std::string&);                                              \
+    template bool read_recipe_text(Recipe&, string_view, const std::string&, std::string&);
+VMLIGHT_RECIPES(VMLIGHT_DEFINE)
+#undef VMLIGHT_DEFINE
 
 std::string recipe_path(const std::string& name)
 {
@@ -203,11 +202,13 @@ std::string recipe_path(const std::string& name)
 
 std::string recipe_stage(const std::string& name)
 {
-    // OIIO, too, chooses a reader by the extension without regard to case.
+    // OIIO too ignores case when it chooses a reader by extension.
     const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(recipe_path(name), false));
-    for (const char* stage : { VismapRecipe::kStage, CfemRecipe::kStage, LightmapRecipe::kStage })
-        if (extension == stage)
-            return stage;
+#define VMLIGHT_COMPARE(Recipe)                                                                                        \
+    if (extension == Recipe::kStage)                                                                                   \
+        return Recipe::kStage;
+    VMLIGHT_RECIPES(VMLIGHT_COMPARE)
+#undef VMLIGHT_COMPARE
     return "";
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Recipes: a stage as a small TOML file, read instead of an image and made on first read.
+/// Recipes: a stage as a small TOML file that opens as an image, computed on first read.
 ///     # hero.lightmap
 ///     vismap = "hero.vismap"
 ///     environment = "studio.exr"
 ///     rotate = [0, 90, 0]
-/// Each recipe is one struct: what the stage reads, and its params. Keys, ?query keys, flags and metadata are those of
-/// visit(), with one spelling. It is flat: no tables, and texts of one line, in single or double quotes. Paths in a
-/// recipe start at its folder; those in a query or a flag where the user stands.
-/// UDIM: every recipe has the key `udim`, a tile's number, which "<UDIM>" in any of its paths stands for; for a vismap
-/// it is the part of uv space that is baked, too. Where it is not set, the recipe's own name may say it, as in
-/// "hero.1011.lightmap", so that one file under several names serves "hero.<UDIM>.lightmap"; else it is 1001.
+/// Each recipe is one struct: the stage's inputs and its params. visit() names the keys, ?query keys, flags and
+/// metadata, all spelled alike. The file is flat: no tables, and single-line strings in single or double quotes.
+/// Relative paths start at the folder of the recipe; in a query or a flag, at the current folder. UDIM: every recipe
+/// has the key `udim`, a tile number that replaces "<UDIM>" in its paths; for a vismap it also selects the tile to
+/// bake. If the key is not set, the file's name may give the tile, as in "hero.1011.lightmap", so that one file under
+/// several names serves "hero.<UDIM>.lightmap". Otherwise it is 1001.
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -33,9 +33,9 @@ struct VismapRecipe
     std::vector<std::string> occluder;
     MeshParams mesh_params;
     VismapParams vismap_params;
-    /// Seconds that the bake may take, 0 for no limit: of a command line alone. Machines differ, recipes do not.
+    /// Seconds that the bake may take; 0 is no limit. Set by a command line only: machines differ, recipes do not.
     double time_budget = 0;
-    /// Whether the tile was said: by the recipe, its name, a query or a flag.
+    /// Whether the recipe, its name, a query or a flag gave the tile.
     bool udim_given = false;
 
     template <class Visit> void visit(Visit&& field)
@@ -52,13 +52,13 @@ struct CfemRecipe
 {
     static constexpr const char* kStage = "cfem";
     std::string environment;
-    /// Its colour space, "" if its name and tags tell; the OCIO config, "" for $OCIO.
+    /// Its colour space, "" to detect it from name and tags; the OCIO config, "" for $OCIO.
     std::string colorspace, colorconfig;
     CfemParams cfem_params;
-    /// Make a stack (cfem_stack.h): the CFEM is then the first of several images in one file.
+    /// Make a stack (cfem/stack.h): the CFEM is then the first of several images in one file.
     bool stack = false;
     int udim = kFirstUdim;
-    /// Whether the tile was said: by the recipe, its name, a query or a flag.
+    /// Whether the recipe, its name, a query or a flag gave the tile.
     bool udim_given = false;
 
     template <class Visit> void visit(Visit&& field)
@@ -73,7 +73,7 @@ struct CfemRecipe
     }
 };
 
-/// `hero.lightmap`: exactly one of `environment` and `cfem` must be given.
+/// `hero.lightmap`: needs exactly one of `environment` and `cfem`.
 struct LightmapRecipe
 {
     static constexpr const char* kStage = "lightmap";
@@ -83,7 +83,7 @@ struct LightmapRecipe
     /// How the environment is filtered: keys cfem_filter, cfem_order, cfem_resolution, cfem_sanitize.
     CfemParams cfem_params;
     int udim = kFirstUdim;
-    /// Whether the tile was said: by the recipe, its name, a query or a flag.
+    /// Whether the recipe, its name, a query or a flag gave the tile.
     bool udim_given = false;
 
     template <class Visit> void visit(Visit&& field)
@@ -103,6 +103,12 @@ struct LightmapRecipe
     }
 };
 
+/// Every recipe, one a stage, in the order of the pipeline: a new stage adds its line here.
+#define VMLIGHT_RECIPES(APPLY)                                                                                         \
+    APPLY(VismapRecipe)                                                                                                \
+    APPLY(CfemRecipe)                                                                                                  \
+    APPLY(LightmapRecipe)
+
 /// The tile of a recipe.
 inline int& udim_of(VismapRecipe& recipe)
 {
@@ -114,43 +120,43 @@ template <class Recipe> int& udim_of(Recipe& recipe)
 }
 
 /// Read a recipe: the file before '?', then the overrides after it ("hero.lightmap?rotate=0,45,0&exposure=1").
-/// As in OIIO the first '?' parts them, '&' parts the overrides, and there is no %-decoding: what holds '&' goes into
-/// the file. A key comes once, but for one that takes several names. A file need not exist if there are overrides.
+/// As in OIIO the first '?' starts the overrides, '&' separates them, and nothing is %-decoded: a value with '&' must
+/// be in the file. Only a key that takes several paths may repeat. With overrides the file need not exist.
 ///
 /// @param error    set to one line that names file, key and line number, if the result is false
-/// @returns false if the file cannot be read, is empty, larger than 1 MiB or not TOML, a key is unknown (the nearest
-///          is told) or comes twice, a value is of the wrong type or out of range. Not checked: that the inputs exist.
+/// @returns false if the file cannot be read, is empty, larger than 1 MiB or not TOML, a key is unknown (the error
+///          suggests the nearest) or repeated, a value is of the wrong type or out of range. Not checked: that the
+///          inputs exist.
 template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, std::string& error);
-extern template VMLIGHT_API bool read_recipe(VismapRecipe&, const std::string&, std::string&);
-extern template VMLIGHT_API bool read_recipe(CfemRecipe&, const std::string&, std::string&);
-extern template VMLIGHT_API bool read_recipe(LightmapRecipe&, const std::string&, std::string&);
 
-/// As read_recipe(), from the bytes of a file that would have the name `path`.
+/// Like read_recipe(), from the contents of the file `path`, which need not exist.
 template <class Recipe>
 bool read_recipe_text(Recipe& dst, OIIO::string_view text, const std::string& path, std::string& error);
-extern template VMLIGHT_API bool read_recipe_text(VismapRecipe&, OIIO::string_view, const std::string&, std::string&);
-extern template VMLIGHT_API bool read_recipe_text(CfemRecipe&, OIIO::string_view, const std::string&, std::string&);
-extern template VMLIGHT_API bool read_recipe_text(LightmapRecipe&, OIIO::string_view, const std::string&, std::string&);
 
-/// The TOML text that read_recipe_text() reads back to the same recipe; only what differs from the defaults, and `udim`
-/// if it was given. Paths stand as they are in `recipe`: read_recipe() has resolved them already, but for <UDIM>.
+/// The TOML text that read_recipe_text() reads back as the same recipe: values that differ from the defaults, and
+/// `udim` if it was given. Paths are written as they are in `recipe`, in which read_recipe() has resolved all but
+/// <UDIM>.
 template <class Recipe> std::string recipe_text(const Recipe& recipe);
-extern template VMLIGHT_API std::string recipe_text(const VismapRecipe&);
-extern template VMLIGHT_API std::string recipe_text(const CfemRecipe&);
-extern template VMLIGHT_API std::string recipe_text(const LightmapRecipe&);
 
-/// Which stage's recipe does `name` (a path, with or without ?query) name: "vismap", "cfem", "lightmap"; or "" if its
-/// extension is none of these.
+/// The stage of the recipe `name` (a path, with or without ?query), from its extension: "vismap", "cfem" or "lightmap".
+/// "" for any other extension.
 VMLIGHT_API std::string recipe_stage(const std::string& name);
 
-/// Does `name` (a path, with or without ?query) have the extension of a recipe: .vismap, .cfem or .lightmap?
+/// Whether `name` (a path, with or without ?query) has the extension of a recipe.
 VMLIGHT_API bool is_recipe_name(const std::string& name);
 
-/// The file part of a recipe's name: what stands before the first '?'.
+/// The path in a recipe's name: everything before the first '?'.
 VMLIGHT_API std::string recipe_path(const std::string& name);
 
-/// Where a recipe gives a key, to begin a message with: `"hero.lightmap" line 3: albedo`; without a line if it is given
-/// after '?', or nowhere. Reads the file again: for messages only.
+/// Where a recipe sets a key, as the start of a message: `"hero.lightmap" line 3: albedo`; without a line if the key is
+/// set after '?' or not at all. Reads the file again: for error messages only.
 VMLIGHT_API std::string recipe_place(const std::string& name, const std::string& key);
+
+#define VMLIGHT_DECLARE(Recipe)                                                                                        \
+    extern template VMLIGHT_API bool read_recipe(Recipe&, const std::string&, std::string&);                           \
+    extern template VMLIGHT_API bool read_recipe_text(Recipe&, OIIO::string_view, const std::string&, std::string&);   \
+    extern template VMLIGHT_API std::string recipe_text(const Recipe&);
+VMLIGHT_RECIPES(VMLIGHT_DECLARE)
+#undef VMLIGHT_DECLARE
 
 } // namespace vmlight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recipes written: values as TOML.
+// Writes recipes as TOML.
 #include <vmlight/stage/recipe/recipe.h>
 
 #include <OpenImageIO/strutil.h>
@@ -87,8 +87,8 @@ template <class Recipe> std::string recipe_text(const Recipe& recipe)
     return text;
 }
 
-template std::string recipe_text(const VismapRecipe&);
-template std::string recipe_text(const CfemRecipe&);
-template std::string recipe_text(const LightmapRecipe&);
+#define VMLIGHT_DEFINE(Recipe) template std::string recipe_text(const Recipe&);
+VMLIGHT_RECIPES(VMLIGHT_DEFINE)
+#undef VMLIGHT_DEFINE
 
 } // namespace vmlight

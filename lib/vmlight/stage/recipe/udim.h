@@ -11,8 +11,8 @@
 
 namespace vmlight {
 
-/// The recipe with its tile's number in place of each "<UDIM>" of its paths. The one place where they are read so:
-/// whatever opens or makes a recipe begins with this, and keys, queries and printed recipes keep "<UDIM>".
+/// The recipe with "<UDIM>" in its paths replaced by its tile number. Opening a recipe starts with this; keys, queries
+/// and printed recipes keep "<UDIM>".
 template <class Recipe> Recipe resolve_udim(Recipe recipe)
 {
     const int udim = udim_of(recipe);
@@ -27,7 +27,7 @@ template <class Recipe> Recipe resolve_udim(Recipe recipe)
     return recipe;
 }
 
-/// The value of a recipe's parameter, as text; "" if it has none of that name.
+/// The value of a recipe's parameter as text; "" if there is no such parameter.
 template <class Recipe> std::string recipe_value(Recipe recipe, const std::string& key)
 {
     std::string text;
@@ -38,8 +38,7 @@ template <class Recipe> std::string recipe_value(Recipe recipe, const std::strin
     return text;
 }
 
-/// Add `vmlight:udim` to what a cfem or a lightmap says of itself, if the tile is not the usual one. A vismap has it
-/// among its parameters.
+/// Set `vmlight:udim` of a cfem or lightmap if its tile is not 1001. A vismap has it among its parameters.
 inline void tag_udim(OIIO::ImageSpec& spec, int udim)
 {
     if (udim != kFirstUdim)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/stored_environment.h>
+#include <vmlight/stage/streamed_environment.h>
 
 #include <vmlight/image/channels.h>
 
@@ -29,13 +29,13 @@ void convert_row(float* pixels, const OIIO::ImageSpec& spec, const std::array<in
 
 } // namespace
 
-bool is_large(const OIIO::ImageSpec& spec)
+bool is_too_large_to_hold(const OIIO::ImageSpec& spec)
 {
     return spec.image_pixels() * OIIO::imagesize_t(spec.nchannels) * sizeof(float) > kMostHeld;
 }
 
-bool read_as_it_goes(std::optional<Environment>& dst, const PixelSourcePointer& image, const std::string& path,
-                     const ColorSettings& settings, std::string& note, std::string& error)
+bool stream_environment(std::optional<Environment>& dst, const PixelSourcePointer& image, const std::string& path,
+                        const ColorSettings& settings, std::string& note, std::string& error)
 {
     OIIO::ImageSpec spec = image->spec();
     std::array<int, 3> channels;

@@ -3,7 +3,7 @@
 #include "temporary_folder.h"
 
 #include <vmlight/cfem/stack.h>
-#include <vmlight/stage/stored_environment.h>
+#include <vmlight/stage/streamed_environment.h>
 #include <vmlight/stage/stored_image.h>
 
 #include <OpenImageIO/imagebufalgo.h>
@@ -48,7 +48,7 @@ std::pair<std::vector<OIIO::ImageBuf>, std::vector<OIIO::ImageBuf>> filtered_bot
     const PixelSourcePointer file = opened(path);
     EXPECT_TRUE(read_all(whole, *file, error) && to_scene_linear(whole, path, settings, note, error)) << error;
     std::optional<Environment> by_rows;
-    EXPECT_TRUE(read_as_it_goes(by_rows, file, path, settings, note_by_rows, error)) << error;
+    EXPECT_TRUE(stream_environment(by_rows, file, path, settings, note_by_rows, error)) << error;
     EXPECT_EQ(note, note_by_rows);
     std::vector<OIIO::ImageBuf> a, b;
     EXPECT_TRUE(make_cfem_stack(a, whole, exact(16, 8), error)) << error;
@@ -88,21 +88,21 @@ TEST(StoredEnvironment, FaultsAreThoseOfTheWhole)
     std::optional<Environment> by_rows;
     std::string note, error;
     OIIO::ImageBuf dst;
-    ASSERT_TRUE(read_as_it_goes(by_rows, opened(path), path, {}, note, error)) << error;
+    ASSERT_TRUE(stream_environment(by_rows, opened(path), path, {}, note, error)) << error;
     EXPECT_FALSE(make_cfem(dst, *by_rows, exact(4, 2)));
     EXPECT_EQ(dst.geterror(), refusal(OIIO::ImageBuf(path)));
 
     OIIO::ImageSpec depth(4, 2, 2, OIIO::TypeFloat);
     depth.channelnames = { "Z", "A" };
     ASSERT_TRUE(OIIO::ImageBuf(depth).write(folder / "depth.exr"));
-    EXPECT_FALSE(read_as_it_goes(by_rows, opened(folder / "depth.exr"), "depth.exr", {}, note, error));
+    EXPECT_FALSE(stream_environment(by_rows, opened(folder / "depth.exr"), "depth.exr", {}, note, error));
     EXPECT_EQ(error.rfind("\"depth.exr\": ", 0), 0u) << error;
 }
 
 TEST(StoredEnvironment, WhatTakesMoreThanAQuarterGibibyteIsLarge)
 {
-    EXPECT_TRUE(is_large(OIIO::ImageSpec(8192, 4096, 3, OIIO::TypeHalf)));
-    EXPECT_FALSE(is_large(OIIO::ImageSpec(4096, 2048, 4, OIIO::TypeFloat)));
+    EXPECT_TRUE(is_too_large_to_hold(OIIO::ImageSpec(8192, 4096, 3, OIIO::TypeHalf)));
+    EXPECT_FALSE(is_too_large_to_hold(OIIO::ImageSpec(4096, 2048, 4, OIIO::TypeFloat)));
     const TemporaryFolder folder;
     ASSERT_TRUE(odd_image(4).write(folder / "small.exr"));
     for (const std::string& name : { folder / "small.exr", folder / "gone.exr", folder.write("text.exr", "no image") })
