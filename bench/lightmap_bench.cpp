@@ -7,11 +7,13 @@
 /// baked chart; `random`, where each texel looks anywhere, the worst case for the cache that holds the CFEM.
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/model.h>
+#include <vmlight/lightmap/model_lobe.h>
+#include <vmlight/lightmap/model_paper.h>
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/mesh/import/read_mesh.h>
-#include <vmlight/vismap/vismap.h>
+#include <vmlight/vismap/basis.h>
 
 #include <benchmark/benchmark.h>
 
@@ -100,13 +102,13 @@ void shading_against_streaming(benchmark::State& state)
     std::string error;
     if (!prepare_cfem(cfem, environment(), error))
         state.SkipWithError(error.c_str());
-    const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
+    const ShadeSetup setup { { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
 
     std::vector<double> shading, streaming;
     for (auto _ : state) {
         streaming.push_back(seconds([&] { stream(in, out.data()); }));
         shading.push_back(seconds([&] {
-            shade_paper(setup, VismapOrder::visibility_first, in, kTexels, out.data());
+            shade_paper(cfem, setup, TexelLayout::visibility_first, in, kTexels, out.data());
             benchmark::ClobberMemory();
         }));
         state.SetIterationTime(shading.back());
@@ -131,12 +133,14 @@ void lobe_against_paper(benchmark::State& state)
         state.SkipWithError(error.c_str());
         return;
     }
-    const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1, &lobes };
+    const ShadeSetup setup { { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
 
     std::vector<double> paper, lobe;
     for (auto _ : state) {
-        paper.push_back(seconds([&] { shade_paper(setup, VismapOrder::visibility_first, in, kTexels, out.data()); }));
-        lobe.push_back(seconds([&] { shade_lobe(setup, VismapOrder::visibility_first, in, kTexels, out.data()); }));
+        paper.push_back(
+            seconds([&] { shade_paper(cfem, setup, TexelLayout::visibility_first, in, kTexels, out.data()); }));
+        lobe.push_back(
+            seconds([&] { shade_lobe(lobes, setup, TexelLayout::visibility_first, in, kTexels, out.data()); }));
         state.SetIterationTime(lobe.back());
     }
     state.counters["ns_per_texel"] = best(lobe) / kTexels * 1e9;
@@ -144,29 +148,40 @@ void lobe_against_paper(benchmark::State& state)
     state.counters["times_paper"] = best(lobe) / best(paper);
 }
 
-struct Model
+struct BenchModel
 {
-    const char *name, *basis;
-    int order;
+    const ModelEntry* entry;
+    int order; // of its basis; 5 where that has no bands
 };
-constexpr Model kModels[]
-    = { { "ao", "vector", 5 }, { "lobe", "vector", 5 }, { "sh", "sh", 4 },     { "sh", "sh", 5 },
-        { "sh", "sh", 6 },     { "sh", "sh", 8 },       { "mask", "mask", 5 }, { "cells", "cells", 5 } };
+
+// All models but `paper`, which each is compared with; of a basis with bands several.
+std::vector<BenchModel> bench_models()
+{
+    std::vector<BenchModel> models;
+    for (const ModelEntry& entry : model_entries()) {
+        if (find_basis(entry.basis).parameter == std::string("order"))
+            for (const int order : { 4, 5, 6, 8 })
+                models.push_back({ &entry, order });
+        else if (entry.name != std::string("paper"))
+            models.push_back({ &entry, 5 });
+    }
+    return models;
+}
 
 // Texels of a baked mesh, as the model's kernel reads them: what the mesh covers, again and again.
-std::vector<float> baked_texels(const Model& model, const LightmapParams& params, ShadingModel& found)
+std::vector<float> baked_texels(const BenchModel& model, const LightmapParams& params, ShadingModel& found)
 {
     Mesh mesh;
     std::string error;
     VismapParams bake;
     bake.samples = 64;
     bake.margin = 0;
-    bake.basis = model.basis;
+    bake.basis = *model.entry->basis ? model.entry->basis : "vector";
     bake.order = model.order;
     bake.channels = { "normal", "coverage" };
     ImageBuf image;
     if (!read_mesh(mesh, VMLIGHT_BENCH_MESH, {}, error) || !make_vismap(image, mesh, {}, bake)
-        || !find_model(found, params, image.spec(), true, error))
+        || !choose_model(found, params, image.spec(), true, error))
         return {};
     const float* texel = static_cast<const float*>(image.localpixels());
     std::vector<float> texels;
@@ -182,14 +197,14 @@ std::vector<float> baked_texels(const Model& model, const LightmapParams& params
 // The kernels of the models in turn with that of `paper`, on one thread, over the texels of a mesh.
 void model_against_paper(benchmark::State& state)
 {
-    const Model& model = kModels[state.range(0)];
+    const BenchModel model = bench_models()[size_t(state.range(0))];
     LightmapParams params, paper_params;
-    params.model = model.name;
+    params.model = model.entry->name;
     paper_params.model = "paper";
     params.rotate = paper_params.rotate = { 20, 35, -50 };
     ShadingModel found, plain;
     const std::vector<float> in = baked_texels(model, params, found),
-                             four = baked_texels(kModels[1], paper_params, plain);
+                             four = baked_texels({ find_model_entry("paper"), 5 }, paper_params, plain);
     std::vector<float> out(3 * kTexels), scratch;
     std::vector<ImageBuf> stack;
     LightmapShader shader, paper_shader;
@@ -204,16 +219,16 @@ void model_against_paper(benchmark::State& state)
     for (auto _ : state) {
         ShadeFaults faults;
         paper.push_back(seconds(
-            [&] { paper_shader.shade(roi, VismapOrder::visibility_first, four.data(), out.data(), scratch, faults); }));
+            [&] { paper_shader.shade(roi, TexelLayout::visibility_first, four.data(), out.data(), scratch, faults); }));
         other.push_back(
-            seconds([&] { shader.shade(roi, VismapOrder::visibility_first, in.data(), out.data(), scratch, faults); }));
+            seconds([&] { shader.shade(roi, TexelLayout::visibility_first, in.data(), out.data(), scratch, faults); }));
         LightmapShader turned;
         turn.push_back(seconds([&] { turned.prepare(stack, params, found, error); }));
         state.SetIterationTime(other.back());
         if (faults.any())
             state.SkipWithError("faults");
     }
-    state.SetLabel(model.name + (std::string(model.name) == "sh" ? std::to_string(model.order) : ""));
+    state.SetLabel(model.entry->name + (model.order != 5 || found.name == "sh" ? std::to_string(model.order) : ""));
     state.counters["ns_per_texel"] = best(other) / kTexels * 1e9;
     state.counters["times_paper"] = best(other) / best(paper);
     state.counters["turn_ms"] = best(turn) * 1e3; // what a new rotation costs before the first texel
@@ -248,9 +263,9 @@ void scalar_shading(benchmark::State& state)
     std::string error;
     if (!prepare_cfem(cfem, environment(), error))
         state.SkipWithError(error.c_str());
-    const ShadeSetup setup { &cfem, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
+    const ShadeSetup setup { { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1 };
     for (auto _ : state) {
-        shade_paper_scalar(setup, VismapOrder::visibility_first, static_cast<const float*>(vismap.localpixels()),
+        shade_paper_scalar(cfem, setup, TexelLayout::visibility_first, static_cast<const float*>(vismap.localpixels()),
                            kTexels, out.data());
         benchmark::ClobberMemory();
     }
@@ -262,7 +277,11 @@ const std::vector<int64_t> kContents { smooth, random_directions };
 
 BENCHMARK(shading_against_streaming)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
 BENCHMARK(lobe_against_paper)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
-BENCHMARK(model_against_paper)->ArgName("model")->DenseRange(0, 7)->UseManualTime()->MinTime(1);
+BENCHMARK(model_against_paper)
+    ->ArgName("model")
+    ->DenseRange(0, int(bench_models().size()) - 1)
+    ->UseManualTime()
+    ->MinTime(1);
 BENCHMARK(one_thread_against_two)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
 BENCHMARK(scalar_shading)->ArgName("random")->ArgsProduct({ kContents });
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
+#include <vmlight/vismap/basis.h>
 
 using namespace vmlight;
 
@@ -30,8 +31,8 @@ int main(int argc, const char** argv)
 
     stage.check([&] {
         const std::string& basis = recipe.vismap_params.basis;
-        return stage.pixel_format() == "half" && (basis == "mask" || basis == "cells")
-            ? "--format half: the basis " + basis + " holds whole numbers that half floats do not keep"
+        return stage.pixel_format() == "half" && find_basis(basis).whole_numbers
+            ? "--format half: the basis " + basis + " holds whole numbers that half cannot store exactly"
             : std::string();
     });
 

@@ -39,8 +39,8 @@ VismapParams map_of(const Setting& setting, const CostParams& params)
     map.resolution = { side, side };
     map.samples = setting.samples;
     map.seed = params.seed;
-    if (const Model* model = find_model(setting.model))
-        model->needs(map);
+    if (const ModelVariant* variant = find_variant(setting.model))
+        variant->set_bake(map);
     return map;
 }
 
@@ -108,8 +108,8 @@ bool Bench::bake(const Setting& setting, const Progress& progress, std::string& 
 bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment,
                   const Progress& progress, std::string& error)
 {
-    const Model& model = *find_model(setting.model);
-    const FilteredLight* light = m_lights.find(environment, model.light, setting.cfem_width, progress, error);
+    const ModelVariant& variant = *find_variant(setting.model);
+    const FilteredLight* light = m_lights.find(environment, variant.model->light, setting.cfem_width, progress, error);
     if (!light)
         return false;
     const bool is_half = setting.storage == "half";
@@ -119,7 +119,7 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
         stored.copy(OIIO::ImageBuf(stored), OIIO::TypeDesc::FLOAT);
     }
     LightmapParams params;
-    params.model = model.shading;
+    params.model = variant.model->name;
     OIIO::ImageBuf lightmap;
     const auto make
         = [&] { return make_lightmap(lightmap, stored, light->images, params, nullptr, m_options.threads, progress); };
@@ -127,7 +127,7 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
         return failed(lightmap, error);
     row.bake = m_bake_seconds;
     row.light = light->seconds;
-    row.bytes = is_half ? model.half_bytes : model.float_bytes;
+    row.bytes = is_half ? variant.half_bytes() : variant.float_bytes();
     picture = shown(lightmap, m_inputs.environments[environment].reference);
     return true;
 }

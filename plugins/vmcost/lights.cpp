@@ -3,14 +3,14 @@
 
 #include "least_seconds.h"
 
-#include <vmlight/cfem/radiance.h>
-#include <vmlight/cfem/stack.h>
+#include <vmlight/lightmap/model_light.h>
 
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight::cost {
 
-const FilteredLight* Lights::find(size_t index, Light light, int width, const Progress& progress, std::string& error)
+const FilteredLight* Lights::find(size_t index, ModelLight light, int width, const Progress& progress,
+                                  std::string& error)
 {
     FilteredLight& dst = m_made[{ index, light, width }];
     if (!dst.images.empty())
@@ -20,15 +20,7 @@ const FilteredLight* Lights::find(size_t index, Light light, int width, const Pr
     params.resolution = { width, width / 2 };
     params.sanitize = m_params.sanitize;
     const auto make = [&] {
-        if (light == Light::Stack)
-            return make_cfem_stack(dst.images, environment.image, params, error, m_options.threads, progress);
-        dst.images.resize(1);
-        if (light == Light::Radiance)
-            return make_radiance(dst.images[0], environment.image, params, error, progress);
-        const bool made = make_cfem(dst.images[0], environment.image, params, m_options.threads, progress);
-        if (!made)
-            error = dst.images[0].geterror();
-        return made;
+        return make_model_light(dst.images, environment.image, params, light, error, m_options.threads, progress);
     };
     if (least_seconds(dst.seconds, make))
         return &dst;

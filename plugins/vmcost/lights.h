@@ -28,13 +28,14 @@ public:
     }
 
     /// nullptr, with the reason in `error`, if it cannot be made or `progress` stopped the work.
-    const FilteredLight* find(size_t environment, Light light, int width, const Progress& progress, std::string& error);
+    const FilteredLight* find(size_t environment, ModelLight light, int width, const Progress& progress,
+                              std::string& error);
 
 private:
     const Inputs& m_inputs;
     const CostParams& m_params;
     const MakeOptions& m_options;
-    std::map<std::tuple<size_t, Light, int>, FilteredLight> m_made;
+    std::map<std::tuple<size_t, ModelLight, int>, FilteredLight> m_made;
 };
 
 } // namespace vmlight::cost

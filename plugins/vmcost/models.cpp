@@ -1,65 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models.h"
 
+#include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/basis.h>
+
+#include <iterator>
+#include <vector>
+
 namespace vmlight::cost {
 namespace {
 
-void nothing(VismapParams&) { }
+constexpr int kOrders[] = { 4, 5, 6, 8 };
 
-void normals(VismapParams& map)
+// In the order of the ladder. They also differ in lightness, for colour-blind readers and for print.
+constexpr const char* kColors[] = { "#999999", "#0072b2", "#d55e00", "#a6dba0", "#5aae61", "#1b7837",
+                                    "#00441b", "#cc79a7", "#762a83", "#e69f00", "#56b4e9", "#f0e442" };
+
+std::vector<ModelVariant> make_variants()
 {
-    map.channels = { "normal" };
+    std::vector<ModelVariant> variants;
+    const auto add = [&](const ModelEntry& model, const std::string& name, int order) {
+        variants.push_back({ name, &model, order, kColors[variants.size() % std::size(kColors)] });
+    };
+    for (const ModelEntry& model : model_entries()) {
+        const bool has_bands = find_basis(model.basis).parameter == std::string("order");
+        for (const int order : kOrders)
+            if (has_bands)
+                add(model, model.name + std::to_string(order), order);
+        if (!has_bands)
+            add(model, model.name, 0);
+    }
+    return variants;
 }
-
-template <int kOrder> void harmonics(VismapParams& map)
-{
-    map.basis = "sh";
-    map.order = kOrder;
-}
-
-void mask(VismapParams& map)
-{
-    map.basis = "mask";
-}
-
-void cells(VismapParams& map)
-{
-    map.basis = "cells";
-}
-
-// Colours that also differ in lightness, for who sees few hues and for print.
-constexpr Model kModels[] = {
-    { "ao", "ao", normals, Light::Cosine, 16, 8, "#999999" },
-    { "paper", "paper", nothing, Light::Cosine, 16, 8, "#0072b2" },
-    { "lobe", "lobe", nothing, Light::Stack, 16, 8, "#d55e00" },
-    { "sh4", "sh", harmonics<4>, Light::Radiance, 64, 32, "#a6dba0" },
-    { "sh5", "sh", harmonics<5>, Light::Radiance, 100, 50, "#5aae61" },
-    { "sh6", "sh", harmonics<6>, Light::Radiance, 144, 72, "#1b7837" },
-    { "sh8", "sh", harmonics<8>, Light::Radiance, 256, 128, "#00441b" },
-    // V, n and the packed numbers. (The map has B, too, for paper and lobe.)
-    { "mask", "mask", mask, Light::Radiance, 60, 0, "#cc79a7" },
-    { "cells", "cells", cells, Light::Radiance, 64, 0, "#762a83" },
-};
 
 } // namespace
 
-OIIO::cspan<Model> models()
+void ModelVariant::set_bake(VismapParams& map) const
 {
-    return kModels;
+    if (*model->basis)
+        map.basis = model->basis;
+    if (*model->added_channel)
+        map.channels = { model->added_channel };
+    if (order)
+        map.order = order;
 }
 
-const Model* find_model(const std::string& name)
+int ModelVariant::float_bytes() const
 {
-    for (const Model& model : kModels)
-        if (name == model.name)
-            return &model;
+    VismapParams map;
+    set_bake(map);
+    const size_t channels = model->channels(describe_vismap("", map)).size();
+    return int(sizeof(float)) * (int(channels) - model->unread);
+}
+
+OIIO::cspan<ModelVariant> model_variants()
+{
+    static const std::vector<ModelVariant> variants = make_variants();
+    return variants;
+}
+
+const ModelVariant* find_variant(const std::string& name)
+{
+    for (const ModelVariant& variant : model_variants())
+        if (name == variant.name)
+            return &variant;
     return nullptr;
 }
 
 const char* color_of(const std::string& name)
 {
-    const Model* model = find_model(name);
-    return model ? model->color : "#000000";
+    const ModelVariant* variant = find_variant(name);
+    return variant ? variant->color : "#000000";
 }
 
 } // namespace vmlight::cost

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The ladder of shading models, from the cheapest up. A new model is one line of the table in models.cpp.
+/// The ladder of shading models, from the cheapest up: every row of the library's table, and of a basis that has bands
+/// several variants.
 #pragma once
 
+#include <vmlight/lightmap/model.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/span.h>
@@ -10,38 +12,32 @@
 
 namespace vmlight::cost {
 
-/// What an environment is made into before it lights.
-enum class Light
+/// One curve: a shading model, and the visibility map that it reads.
+struct ModelVariant
 {
-    Cosine, ///< make_cfem()
-    Stack, ///< make_cfem_stack()
-    Radiance ///< make_radiance()
-};
-
-struct Model
-{
-    /// Of its curve.
-    const char* name;
-    /// As LightmapParams::model.
-    const char* shading;
-    /// Sets what a visibility map needs beyond the defaults.
-    void (*needs)(VismapParams& map);
-    Light light;
-    /// That are read of a texel, as float and as half; half is 0 where it is not exact enough to be offered.
-    int float_bytes, half_bytes;
-    /// Of its curve.
+    std::string name;
+    const ModelEntry* model;
+    /// VismapParams::order; 0 if the model's basis has no bands.
+    int order;
     const char* color;
+
+    /// Set what the visibility map needs beyond the defaults.
+    void set_bake(VismapParams& map) const;
+    /// Bytes of a texel that are read, stored as float.
+    int float_bytes() const;
+    /// The same stored as half; 0 if half cannot hold them.
+    int half_bytes() const { return model->whole_numbers > 0 ? 0 : float_bytes() / 2; }
 };
 
-OIIO::cspan<Model> models();
+OIIO::cspan<ModelVariant> model_variants();
 
 /// The exact sibling of all models: rays to the light at each picture, and no map.
 constexpr const char* kTraced = "traced";
 
-/// The model of that name, or nullptr: kTraced is none.
-const Model* find_model(const std::string& name);
+/// The variant of that name, or nullptr: kTraced has none.
+const ModelVariant* find_variant(const std::string& name);
 
-/// Of the curve of a model, or of kTraced.
+/// Of the curve of a variant, or of kTraced.
 const char* color_of(const std::string& name);
 
 } // namespace vmlight::cost

@@ -85,7 +85,7 @@ private:
 std::vector<std::string> drawn_models()
 {
     std::vector<std::string> names;
-    for (const Model& model : models())
+    for (const ModelVariant& model : model_variants())
         names.push_back(model.name);
     names.push_back(kTraced);
     return names;
@@ -126,7 +126,7 @@ Plot time_plot(const std::vector<Point>& points)
 Plot bytes_plot(const std::vector<Point>& points)
 {
     Script script;
-    for (const Model& model : models()) {
+    for (const ModelVariant& model : model_variants()) {
         std::vector<Point> found;
         for (const Point& point : points) {
             Setting plain = point.setting;

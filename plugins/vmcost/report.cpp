@@ -114,7 +114,7 @@ std::string knees(const std::vector<Point>& points)
         + cells("th",
                 { "model", "rays", "error", "worst environment", "95 % of texels below", "bias", "bake", "filter",
                   "shade", "bytes" });
-    for (const Model& model : models()) {
+    for (const ModelVariant& model : model_variants()) {
         const std::vector<Point> line = curve(points, model.name);
         if (line.empty())
             continue;

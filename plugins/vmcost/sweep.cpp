@@ -29,7 +29,7 @@ void add(std::vector<Setting>& settings, const Setting& setting)
         settings.push_back(setting);
 }
 
-void add_model(std::vector<Setting>& settings, const Model& model, const Axes& axes)
+void add_model(std::vector<Setting>& settings, const ModelVariant& model, const Axes& axes)
 {
     const Setting middle = default_setting(model.name);
     const auto with = [&](auto Setting::*member, auto value) {
@@ -41,7 +41,7 @@ void add_model(std::vector<Setting>& settings, const Model& model, const Axes& a
         with(&Setting::samples, samples);
     for (const int width : axes.widths)
         with(&Setting::cfem_width, width);
-    if (model.half_bytes)
+    if (model.half_bytes())
         with(&Setting::storage, "half");
     for (const int divisor : axes.divisors)
         with(&Setting::divisor, divisor);
@@ -77,7 +77,7 @@ std::vector<Setting> sweep(bool quick)
 {
     const Axes values = axes(quick);
     std::vector<Setting> settings;
-    for (const Model& model : models())
+    for (const ModelVariant& model : model_variants())
         add_model(settings, model, values);
     for (const int samples : values.traced) {
         settings.push_back(default_setting(kTraced));

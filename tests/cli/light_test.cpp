@@ -60,7 +60,7 @@ TEST_F(Light, AoNeedsNormals)
 {
     done("makevismap {spot} -o vm.exr --resolution 64 --samples 16");
     done("makecfem {sky} -o cfem.exr --resolution 64");
-    refused(1, "the model ao needs what makevismap --channels normal bakes",
+    refused(1, "which makevismap --channels normal adds",
             "makelightmap vm.exr cfem.exr --model ao -o lit.exr");
     done("makevismap {spot} -o vmn.exr --resolution 64 --samples 16 --channels normal");
     done("makelightmap vmn.exr cfem.exr --model ao -o lit.exr");
@@ -101,9 +101,9 @@ TEST_F(Light, ABasisLightsByTheModelOfItsName)
             done(bake + " --order 3 --format half -o half.exr");
             done("makelightmap half.exr stack.exr -o x.exr");
         } else {
-            refused(2, "--format half: the basis " + basis + " holds whole numbers that half floats do not keep",
+            refused(2, "--format half: the basis " + basis + " holds whole numbers that half cannot store exactly",
                     bake + " --format half -o half.exr");
-            refused(1, "whole numbers below 2^24 any more", "makelightmap small.exr stack.exr -o x.exr");
+            refused(1, "no longer whole numbers below 2^24", "makelightmap small.exr stack.exr -o x.exr");
         }
         EXPECT_NE(attribute("b.exr", "vmlight:cfem_resolution"), "");
         EXPECT_EQ(attribute("b.exr", "vmlight:cfem_filter"), ""); // which was not used
@@ -112,7 +112,7 @@ TEST_F(Light, ABasisLightsByTheModelOfItsName)
                     light + ".exr {sky} --model " + basis + flag + " -o x2.exr");
     }
     refused(2, "only the basis sh uses it", "makevismap {spot} --order 4 -o x.exr");
-    refused(1, "basis: mask goes with the measure cosine, not with uniform",
+    refused(1, "basis: mask needs the measure cosine, not uniform",
             "makevismap {spot} --basis mask --measure uniform -o x.exr");
 }
 

@@ -41,11 +41,11 @@ inline std::vector<std::string> channels_of(Bytes& bytes)
     if (kind & 1)
         map.insert(map.end(), kNormalChannels.begin(), kNormalChannels.end());
     if (kind & 2)
-        add(kHarmonicChannel, 4, int(4 + bytes.below(40)));
+        add("sh.", 4, int(4 + bytes.below(40)));
     if (kind & 4)
-        add(kMaskChannel, 0, 11);
+        add("mask.", 0, 11);
     if (kind & 8)
-        add(kCellsChannel, 0, 12);
+        add("cells.", 0, 12);
     return map;
 }
 
@@ -101,7 +101,7 @@ inline OIIO::ImageBuf image_of(Bytes& bytes, const char* name)
     OIIO::ImageBuf image(name, spec);
     std::vector<float> pixels(size_t(spec.image_pixels()) * channels.size());
     // Whole numbers where the channels say so; all alike where the bytes end.
-    const bool packed = is_packed_channel(channels.back()) && (windows & 8);
+    const bool packed = holds_whole_numbers(channels.back()) && (windows & 8);
     const float last = windows & 16 ? 0.5f : 0.0f;
     for (float& value : pixels)
         value = bytes.empty() ? last : packed ? float(bytes.byte() * 65536 + bytes.byte()) : bytes.number();

@@ -125,7 +125,7 @@ TEST(CostSummary, TheSweepIsAllSamplesOfAllModelsAndEachOtherAxisAlone)
         for (size_t i = 0; i < settings.size(); ++i)
             for (size_t k = 0; k < i; ++k)
                 EXPECT_FALSE(settings[i] == settings[k]) << settings[i].model << settings[i].samples;
-        for (const Model& model : models()) {
+        for (const ModelVariant& model : model_variants()) {
             int others = 0, here = 0;
             for (const Setting& setting : settings) {
                 const Setting middle = default_setting(model.name);
@@ -138,7 +138,7 @@ TEST(CostSummary, TheSweepIsAllSamplesOfAllModelsAndEachOtherAxisAlone)
                 others += off == 1 && setting.samples == middle.samples;
             }
             EXPECT_EQ(here, 1) << model.name;
-            EXPECT_EQ(others, (quick ? 2 : 6) + (model.half_bytes > 0)) << model.name;
+            EXPECT_EQ(others, (quick ? 2 : 6) + (model.half_bytes() > 0)) << model.name;
         }
     }
 }

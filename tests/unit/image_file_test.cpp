@@ -190,22 +190,6 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
     EXPECT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
 }
 
-TEST(ImageFile, PackedNumbersAreRefusedAsHalfThoughTheyWouldFit)
-{
-    const TemporaryFolder folder;
-    std::string error;
-    for (const char* channel : { "mask.0", "cells.11" }) {
-        OIIO::ImageBuf image = vismap_like(8, 8);
-        image.specmod().channelnames[4] = channel;
-        EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
-        EXPECT_EQ(error,
-                  "\"" + folder / "a.exr" + "\": channel " + channel
-                      + " holds whole numbers below 2^24, of which half keeps those to 2048: write float");
-        EXPECT_TRUE(write(image, folder / "b.exr", error)) << error;
-    }
-    EXPECT_EQ(folder.names(), std::vector<std::string> { "b.exr" });
-}
-
 TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
 {
     const TemporaryFolder folder;

@@ -39,7 +39,7 @@ ImageBuf random_texels(const char* basis)
     const int channels = vm.nchannels();
     for (int i = 0; i < 256; ++i)
         for (int c = 0; c < channels; ++c) {
-            const bool packed = is_packed_channel(vm.spec().channelnames[size_t(c)]);
+            const bool packed = holds_whole_numbers(vm.spec().channelnames[size_t(c)]);
             pixels(vm)[i * channels + c] = packed ? float(random() >> 8) : c == 0 ? unit(random) : 2 * unit(random) - 1;
         }
     for (int c = 4; c < channels; ++c) // nothing but V; and no normal
@@ -197,17 +197,15 @@ TEST(LightmapBasis, WhatAModelLacksIsNamed)
     const std::vector<ImageBuf> stack = filtered_stack(random_cfem(32, 16));
     const ImageBuf plain = random_vismap(4, 4);
     for (const char* name : kModels) {
-        EXPECT_NE(refusal(plain, stack, model(name))
-                      .find(std::string("the model ") + name + " needs what makevismap --basis " + name + " bakes"),
+        EXPECT_NE(refusal(plain, stack, model(name)).find(std::string(", which makevismap --basis ") + name + " adds"),
                   std::string::npos)
             << refusal(plain, stack, model(name));
         EXPECT_EQ(refusal(baked(name, 1), stack[0], model(name)),
                   std::string("model ") + name
-                      + " needs the environment itself, which is the last image of a stack: make it anew with makecfem "
-                        "--stack");
+                      + " needs the unfiltered environment, the last image of a stack; make one with makecfem --stack");
     }
     EXPECT_EQ(refusal(plain, stack.back(), model("paper")),
-              "model paper needs a cosine-filtered environment, and this is the environment itself");
+              "model paper needs a cosine-filtered environment; this one is unfiltered");
 }
 
 TEST(LightmapBasis, PackedNumbersThatWereFilteredAreRefused)
@@ -218,8 +216,8 @@ TEST(LightmapBasis, PackedNumbersThatWereFilteredAreRefused)
             ImageBuf vm = baked(name, 8);
             pixels(vm)[3 * vm.nchannels() + 9] = bad;
             EXPECT_EQ(refusal(vm, stack, {}),
-                      std::string("visibility map has 1 value that is not whole numbers below 2^24 any more (was it "
-                                  "resized, mipped or stored as half?), at pixel (3, 0) channel \"")
+                      std::string("visibility map has 1 value that is no longer whole numbers below 2^24 (was the map "
+                                  "resized, mipmapped or stored as half?), at pixel (3, 0) channel \"")
                           + channel + "\"");
         }
     ImageBuf vm = baked("sh", 8);
@@ -235,7 +233,7 @@ TEST(LightmapBasis, ABasisGoesWithTheCosine)
     params.basis = "sh";
     ImageBuf vm;
     EXPECT_FALSE(make_vismap(vm, scenes::floor_facing_z(1), {}, params));
-    EXPECT_EQ(vm.geterror(), "basis: sh goes with the measure cosine, not with uniform");
+    EXPECT_EQ(vm.geterror(), "basis: sh needs the measure cosine, not uniform");
 }
 
 TEST(LightmapBasis, NoTexelIsLitBeyondWhatThereIs)

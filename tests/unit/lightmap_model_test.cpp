@@ -195,8 +195,8 @@ TEST(LightmapModel, AoLooksAlongTheNormal)
     EXPECT_TRUE(same_bits(lit(vm, stack, model("ao")), lit(vm, stack[0], model("ao"))));
 
     EXPECT_EQ(refusal(directions, map, model("ao")),
-              "no channel \"normal.x\" among visibility, direction.x, direction.y, direction.z: the model ao needs "
-              "what makevismap --channels normal bakes");
+              "model ao needs channel \"normal.x\", which makevismap --channels normal adds; found visibility, "
+              "direction.x, direction.y, direction.z");
     pixels(vm)[7 * 3 + 1] = NAN;
     EXPECT_EQ(refusal(vm, map, model("ao")),
               "visibility map has 1 value that is not finite, at pixel (3, 0) channel \"normal.y\"");
@@ -212,9 +212,9 @@ TEST(LightmapModel, ALobeWithoutItsStackIsRefused)
         change(levels[size_t(level)]);
         return levels;
     };
-    EXPECT_EQ(refusal(vm, map, model("lobe")),
-              "model lobe needs a stack of lobes, and this is one cosine-filtered environment: make it anew with "
-              "makecfem --stack");
+    EXPECT_EQ(
+        refusal(vm, map, model("lobe")),
+        "model lobe needs a stack of lobes, not a single cosine-filtered environment; make one with makecfem --stack");
     EXPECT_EQ(refusal(vm, OIIO::cspan<ImageBuf>(stack.data(), 5), {}), "a stack of 5 levels; 9 are needed");
     EXPECT_EQ(refusal(vm, with(2, [](ImageBuf& level) { level.specmod().erase_attribute("vmlight:lobe"); }), {}),
               "level 2 of the stack: vmlight:lobe is -1; 0.7374 is needed");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightmap_scene.h"
 
-#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/lookup_kernel.h>
+#include <vmlight/lightmap/model_paper.h>
 
 #include <hwy/highway.h>
 
@@ -117,7 +118,7 @@ TEST(ShadeKernel, EveryInstructionSetGivesTheBitsOfTheScalarForm)
     CfemLookup map;
     std::string error;
     ASSERT_TRUE(prepare_cfem(map, random_cfem(37, 18), error)) << error;
-    const ShadeSetup setup { &map, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1.5f };
+    const ShadeSetup setup { { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1.5f };
 
     constexpr int count = 997;
     std::mt19937 random(7);
@@ -136,11 +137,11 @@ TEST(ShadeKernel, EveryInstructionSetGivesTheBitsOfTheScalarForm)
         ++tested;
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        for (VismapOrder order : { VismapOrder::visibility_first, VismapOrder::visibility_last })
+        for (TexelLayout layout : { TexelLayout::visibility_first, TexelLayout::visibility_last })
             for (int texels : { 0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, count }) {
                 std::vector<float> expected(3 * count + 1, -7), got(3 * count + 1, -7);
-                EXPECT_EQ(shade_paper_scalar(setup, order, in.data(), texels, expected.data()),
-                          shade_paper(setup, order, in.data(), texels, got.data()));
+                EXPECT_EQ(shade_paper_scalar(map, setup, layout, in.data(), texels, expected.data()),
+                          shade_paper(map, setup, layout, in.data(), texels, got.data()));
                 EXPECT_EQ(std::memcmp(expected.data(), got.data(), 4 * expected.size()), 0)
                     << hwy::TargetName(target) << ", " << texels << " texels";
             }
@@ -157,7 +158,7 @@ TEST(ShadeKernel, NoInputLeadsOutsideTheMapAndNoBadOneGoesUnseen)
     std::string error;
     ASSERT_TRUE(prepare_cfem(map, random_cfem(5, 3), error)) << error;
     const float bad[] { NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 1e-45f, 0, -0.0f, 1 };
-    const ShadeSetup setup { &map, { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, 1 };
+    const ShadeSetup setup { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, 1 };
     for (float v : bad)
         for (float x : bad)
             for (float y : bad)
@@ -165,8 +166,8 @@ TEST(ShadeKernel, NoInputLeadsOutsideTheMapAndNoBadOneGoesUnseen)
                     const float in[4] { v, x, y, z };
                     float out[3], scalar[3];
                     const bool finite = std::isfinite(v) && std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-                    const bool sound = shade_paper(setup, VismapOrder::visibility_first, in, 1, out);
-                    EXPECT_EQ(sound, shade_paper_scalar(setup, VismapOrder::visibility_first, in, 1, scalar));
+                    const bool sound = shade_paper(map, setup, TexelLayout::visibility_first, in, 1, out);
+                    EXPECT_EQ(sound, shade_paper_scalar(map, setup, TexelLayout::visibility_first, in, 1, scalar));
                     EXPECT_TRUE(finite || !sound) << v << ", " << x << ", " << y << ", " << z;
                     EXPECT_TRUE(!sound || std::isfinite(out[0] + out[1] + out[2]));
                 }

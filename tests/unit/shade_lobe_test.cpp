@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stack_maps.h"
 
-#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/lookup_kernel.h>
+#include <vmlight/lightmap/model_lobe.h>
 
 #include <hwy/highway.h>
 
@@ -44,7 +45,7 @@ TEST(ShadeLobe, EveryInstructionSetGivesTheBitsOfTheScalarForm)
     LobeLookup lobes;
     std::string error;
     ASSERT_TRUE(prepare_lobes(lobes, random_stack(37, 18), error)) << error;
-    const ShadeSetup setup { nullptr, { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1.5f, &lobes };
+    const ShadeSetup setup { { 0.36f, 0.48f, -0.8f, -0.8f, 0.6f, 0, 0.48f, 0.64f, 0.6f }, 1.5f };
 
     constexpr int count = 997;
     std::mt19937 random(7);
@@ -71,11 +72,11 @@ TEST(ShadeLobe, EveryInstructionSetGivesTheBitsOfTheScalarForm)
         ++tested;
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        for (VismapOrder order : { VismapOrder::visibility_first, VismapOrder::visibility_last })
+        for (TexelLayout layout : { TexelLayout::visibility_first, TexelLayout::visibility_last })
             for (int texels : { 0, 1, 2, 3, 5, 8, 9, 17, 33, 257, count }) {
                 std::vector<float> expected(3 * count + 1, -7), got(3 * count + 1, -7);
-                EXPECT_EQ(shade_lobe_scalar(setup, order, in.data(), texels, expected.data()),
-                          shade_lobe(setup, order, in.data(), texels, got.data()));
+                EXPECT_EQ(shade_lobe_scalar(lobes, setup, layout, in.data(), texels, expected.data()),
+                          shade_lobe(lobes, setup, layout, in.data(), texels, got.data()));
                 EXPECT_EQ(std::memcmp(expected.data(), got.data(), 4 * expected.size()), 0)
                     << hwy::TargetName(target) << ", " << texels << " texels";
             }
@@ -91,7 +92,7 @@ TEST(ShadeLobe, NoInputLeadsOutsideTheMapsAndNoBadOneGoesUnseen)
     std::string error;
     ASSERT_TRUE(prepare_lobes(lobes, random_stack(5, 3), error)) << error;
     const float bad[] { NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 1e-45f, 0, -0.0f, 1 };
-    const ShadeSetup setup { nullptr, { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, 1, &lobes };
+    const ShadeSetup setup { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, 1 };
     for (float v : bad)
         for (float x : bad)
             for (float y : bad)
@@ -99,8 +100,8 @@ TEST(ShadeLobe, NoInputLeadsOutsideTheMapsAndNoBadOneGoesUnseen)
                     const float in[4] { v, x, y, z };
                     float out[3], scalar[3];
                     const bool finite = std::isfinite(v) && std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-                    const bool sound = shade_lobe(setup, VismapOrder::visibility_first, in, 1, out);
-                    EXPECT_EQ(sound, shade_lobe_scalar(setup, VismapOrder::visibility_first, in, 1, scalar));
+                    const bool sound = shade_lobe(lobes, setup, TexelLayout::visibility_first, in, 1, out);
+                    EXPECT_EQ(sound, shade_lobe_scalar(lobes, setup, TexelLayout::visibility_first, in, 1, scalar));
                     EXPECT_TRUE(finite || !sound) << v << ", " << x << ", " << y << ", " << z;
                     EXPECT_TRUE(!sound || std::isfinite(out[0] + out[1] + out[2]))
                         << v << ", " << x << ", " << y << ", " << z;

@@ -2,7 +2,7 @@
 // The error that a bake says it has, against the one it has. Errors that are asked for: vismap_target_test.cpp.
 #include "error_scenes.h"
 
-#include <vmlight/vismap/visibility.h>
+#include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
 #include <array>

@@ -9,6 +9,7 @@
 #include <vmlight/cli/progress_line.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/uv/udim.h>
+#include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -289,6 +290,11 @@ bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std:
 
 bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error)
 {
+    for (const OIIO::ImageBuf& image : images)
+        if (m_state->file.format == "half" && !(error = half_fault(image.spec())).empty()) {
+            error = OIIO::Strutil::fmt::format("\"{}\": {}", path, error);
+            return false;
+        }
     return write_images(
         images, path, m_state->file.format, [](double) { return !interrupted(); }, error);
 }

@@ -24,9 +24,12 @@ std::string converting_flag(const OIIO::ImageSpec& spec)
 
 } // namespace
 
-bool is_packed_channel(const std::string& name)
+std::vector<std::string> numbered_channels(const std::string& basis, int first, int end)
 {
-    return OIIO::Strutil::starts_with(name, kMaskChannel) || OIIO::Strutil::starts_with(name, kCellsChannel);
+    std::vector<std::string> names;
+    for (int i = first; i < end; ++i)
+        names.push_back(format("{}.{}", basis, i));
+    return names;
 }
 
 bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -22,18 +23,14 @@ constexpr std::array<const char*, 4> kVismapChannels { "visibility", "direction.
 /// Optional channels of a visibility map: the shading normal n, in object space, of unit length where a triangle covers
 /// the texel. What the model `ao` needs.
 constexpr std::array<const char*, 3> kNormalChannels { "normal.x", "normal.y", "normal.z" };
-/// Optional channels of a visibility map, for the model of the same name: `sh.4` ... `sh.<N^2 - 1>`, further bands of
-/// visibility than V and B; `mask.0` ... `mask.10` and `cells.0` ... `cells.11`, packed_visibility.h.
-constexpr const char* kHarmonicChannel = "sh.";
-constexpr const char* kMaskChannel = "mask.";
-constexpr const char* kCellsChannel = "cells.";
 /// Optional channel of a visibility map: the standard error of `visibility`.
 constexpr const char* kErrorChannel = "error";
 /// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
 constexpr const char* kCoverageChannel = "coverage";
 
-/// Whether the channel is one of `mask` or `cells`, whose whole numbers bear neither half floats nor filtering.
-VMLIGHT_API bool is_packed_channel(const std::string& name);
+/// Optional channels of a visibility map that a basis adds (VismapParams::basis): `<basis>.<first>` up to
+/// `<basis>.<end - 1>`.
+VMLIGHT_API std::vector<std::string> numbered_channels(const std::string& basis, int first, int end);
 
 /// Find the four channels of a visibility map.
 ///

@@ -4,7 +4,6 @@
 #include <vmlight/base/memory_need.h>
 #include <vmlight/base/oiio.h>
 #include <vmlight/base/output_file.h>
-#include <vmlight/image/channels.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -39,12 +38,6 @@ struct Watch
 
 bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 {
-    for (const std::string& channel : image.spec().channelnames)
-        if (is_packed_channel(channel)) {
-            error = format("channel {} holds whole numbers below 2^24, of which half keeps those to 2048: write float",
-                           channel);
-            return false;
-        }
     constexpr float kLargestHalf = 65504;
     const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
     for (size_t c = 0; c < stats.max.size(); ++c) {

@@ -101,8 +101,8 @@ void measure(CellLight& dst, const CfemLookup& map)
 
 } // namespace
 
-bool prepare_cells(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, bool triples,
-                   std::string& error)
+bool build_cell_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, bool triples,
+                      std::string& error)
 {
     constexpr int kMostWidth = 256;
     OIIO::ImageBuf reduced;

@@ -40,7 +40,7 @@ constexpr int kTriples = direction_grid::kCells / 3, kTripleCodes = 64;
 /// @param to_object    takes directions of the environment to the object's
 /// @param triples      whether `cells` is what it is for; else `running` alone is made
 /// @returns false, with the reason in `error`, if the image is none that prepare_cfem() would take.
-bool prepare_cells(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, bool triples,
-                   std::string& error);
+bool build_cell_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, bool triples,
+                      std::string& error);
 
 } // namespace vmlight

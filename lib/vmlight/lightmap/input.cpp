@@ -49,7 +49,7 @@ bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, boo
 {
     if (!check_input(image, "visibility map", error))
         return false;
-    if (!find_model(model, params, image.spec(), has_stack, error)) {
+    if (!choose_model(model, params, image.spec(), has_stack, error)) {
         error = named(image, error);
         return false;
     }
@@ -58,14 +58,14 @@ bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, boo
         m_index.push_back(image.spec().channelindex(channel));
     m_image = &image;
     m_pixels = nullptr;
-    m_order = VismapOrder::visibility_first;
+    m_layout = TexelLayout::visibility_first;
 
     const std::vector<int> first { 0, 1, 2, 3 }, last { 3, 0, 1, 2 };
     const bool packed = image.localpixels() && image.pixeltype() == OIIO::TypeFloat && image.nchannels() == 4
         && image.pixel_stride() == 16 && image.scanline_stride() == OIIO::stride_t(16) * image.spec().width;
     if (packed && (m_index == first || m_index == last)) {
         m_pixels = static_cast<const float*>(image.localpixels());
-        m_order = m_index == first ? VismapOrder::visibility_first : VismapOrder::visibility_last;
+        m_layout = m_index == first ? TexelLayout::visibility_first : TexelLayout::visibility_last;
     }
     return true;
 }

@@ -5,7 +5,6 @@
 #include <vmlight/base/faults.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
-#include <vmlight/lightmap/shade_kernel.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -24,19 +23,19 @@ bool check_input(const OIIO::ImageBuf& image, const char* what, std::string& err
 /// Add the values of `pixels`, which hold `roi` with `channels` channels, that are NaN or infinite.
 void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, Faults& faults);
 
-/// Hands out a visibility map as the kernels want it: the numbers of a texel side by side, in the model's order.
+/// Reads a visibility map as a model takes it: the floats of a texel side by side, in the model's order of channels.
 class VismapReader
 {
 public:
-    /// Set `model` to what `params` ask for of this map (find_model()). False, with the reason in `error`, if `image`
-    /// is not a visibility map, or has not all that the model reads. It must outlive the reader.
+    /// Set `model` to what `params` ask for of this map, by choose_model(). False, with the reason in `error`, if
+    /// `image` is not a visibility map or lacks a channel that the model reads. It must outlive the reader.
     bool open(const OIIO::ImageBuf& image, const LightmapParams& params, bool has_stack, ShadingModel& model,
               std::string& error);
 
-    VismapOrder order() const { return m_order; }
+    TexelLayout layout() const { return m_layout; }
 
-    /// Texels of `roi`, which spans whole rows: in place if they stand in memory as the kernels want them, else copied
-    /// to `scratch`. nullptr, with the reason in `error`, if they cannot be read.
+    /// Texels of `roi`, which spans whole rows: in place if memory already holds them as the model takes them, else
+    /// copied to `scratch`. nullptr, with the reason in `error`, if they cannot be read.
     const float* read(OIIO::ROI roi, std::vector<float>& scratch, std::string& error) const;
 
     std::string name() const { return m_image->name(); }
@@ -45,7 +44,7 @@ private:
     const OIIO::ImageBuf* m_image = nullptr;
     const float* m_pixels = nullptr;
     std::vector<int> m_index;
-    VismapOrder m_order = VismapOrder::visibility_first;
+    TexelLayout m_layout = TexelLayout::visibility_first;
 };
 
 /// Multiplies by an albedo: colour, or one channel for all three.

@@ -51,7 +51,7 @@ bool shade(ImageBuf& dst, const VismapReader& vismap, const LightmapShader& shad
         roi.yend = std::min(roi.ybegin + rows, all.yend);
         ShadeFaults found;
         if (const float* texels = vismap.read(roi, scratch[worker].vismap, found.error))
-            shader.shade(roi, vismap.order(), texels, pixels + 3 * size_t(item) * rows * all.width(),
+            shader.shade(roi, vismap.layout(), texels, pixels + 3 * size_t(item) * rows * all.width(),
                          scratch[worker].albedo, found);
         if (found.any()) {
             const std::lock_guard<std::mutex> lock(mutex);

@@ -15,6 +15,9 @@
 
 namespace vmlight {
 
+/// The words that LightmapParams::model takes.
+VMLIGHT_API Choices model_choices();
+
 struct LightmapParams
 {
     /// How a texel becomes light. `ao`: V C(R n), which knows no direction but the normal; needs a map with normals
@@ -33,8 +36,7 @@ struct LightmapParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("model", model, Choices { { "auto", "ao", "paper", "lobe", "sh", "mask", "cells" } },
-              "Shading model; auto is the best that map and light are fit for");
+        field("model", model, model_choices(), "Shading model; auto is the best that map and light are fit for");
         field("rotate", rotate, Numbers { 3 }, "Turn the object: x,y,z degrees about fixed x, then y, then z");
         field("matrix", matrix, Numbers { 9 }, "Turn the object: a rotation matrix, row major, for column vectors");
         field("quaternion", quaternion, Numbers { 4 }, "Turn the object: w,x,y,z");

@@ -17,6 +17,7 @@ namespace vmlight {
 namespace {
 
 using OIIO::ImageSpec;
+using OIIO::Strutil::fmt::format;
 
 void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
 {
@@ -24,8 +25,8 @@ void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
         dst.extra_attribs.push_back(*value);
 }
 
-// How the light was filtered, under the keys of a lightmap's recipe, whoever filtered it: `vmlight:order` of a CFEM is
-// `vmlight:cfem_order` here. Which level of a stack is at hand says nothing: the model does.
+// How the light was filtered, under the keys of a lightmap's recipe: `vmlight:order` of a CFEM is `vmlight:cfem_order`
+// here. The level of a stack is left out: the model implies it.
 void copy_filter(ImageSpec& dst, const ImageSpec& cfem, bool is_filtered)
 {
     const std::string prefix = "vmlight:";
@@ -45,12 +46,36 @@ void copy_filter(ImageSpec& dst, const ImageSpec& cfem, bool is_filtered)
     }
 }
 
-// Values that are not finite, visibilities that are none, and packed numbers that are none any more.
-void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const ShadingModel& model, const float* texels,
+// The images of `light` that the model reads; none, with the reason in `error`, if there are none.
+OIIO::cspan<OIIO::ImageBuf> images_for(const ShadingModel& model, OIIO::cspan<OIIO::ImageBuf> light, std::string& error)
+{
+    const OIIO::ImageBuf* radiance = find_radiance(light);
+    if (model.light == ModelLight::cfem) {
+        if (light.size() > 1 || !radiance)
+            return light.subspan(0, 1);
+        error = format("model {} needs a cosine-filtered environment; this one is unfiltered", model.name);
+    } else if (model.light == ModelLight::lobes) {
+        if (is_stack(light)) // the last image of a whole stack is not a lobe
+            return light.subspan(0, std::min<ptrdiff_t>(kStackLevels, light.size()));
+        error = format("model {} needs a stack of lobes, not a single cosine-filtered environment; make one with "
+                       "makecfem --stack",
+                       model.name);
+    } else {
+        if (radiance)
+            return { radiance, 1 };
+        error = format("model {} needs the unfiltered environment, the last image of a stack; make one with makecfem "
+                       "--stack",
+                       model.name);
+    }
+    return {};
+}
+
+// Values that are not finite, |V| out of range, and packed numbers that are no longer whole.
+void find_vismap_faults(OIIO::ROI roi, TexelLayout layout, const ShadingModel& model, const float* texels,
                         ShadeFaults& faults)
 {
-    const bool last = order == VismapOrder::visibility_last;
-    const int count = int(model.channels.size());
+    const bool last = layout == TexelLayout::visibility_last;
+    const int count = int(model.channels.size()), first_whole = count - model.entry->whole_numbers;
 
     for (int y = roi.ybegin; y < roi.yend; ++y)
         for (int x = roi.xbegin; x < roi.xend; ++x, texels += count)
@@ -60,8 +85,7 @@ void find_vismap_faults(OIIO::ROI roi, VismapOrder order, const ShadingModel& mo
                     faults.vismap.add(x, y, c);
                 else if (c == 0 && std::abs(value) > kLargestVisibility)
                     faults.visibility.add(x, y, c);
-                else if (is_packed_channel(model.channels[size_t(c)])
-                         && !(value >= 0 && value < 0x1p24f && value == std::floor(value)))
+                else if (c >= first_whole && !(value >= 0 && value < 0x1p24f && value == std::floor(value)))
                     faults.packed.add(x, y, c);
             }
 }
@@ -107,71 +131,28 @@ bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapPa
         if (!check_input(image, "cosine-filtered environment", error))
             return false;
     m_model = model;
-    m_setup.gain = float(std::exp2(params.exposure));
+    ModelInput input { images_for(model, light, error), rotation, {}, int(model.channels.size()) };
+    input.setup.gain = float(std::exp2(params.exposure));
     for (int i = 0; i < 9; ++i)
-        m_setup.rotation[i] = float(rotation[i / 3][i % 3]);
-    const bool prepared = model.light == ModelLight::cfem ? prepare_one(light, error)
-        : model.light == ModelLight::lobes                ? prepare_stack(light, error)
-                                                          : prepare_radiance(light, rotation, error);
-    if (!prepared)
+        input.setup.rotation[i] = float(rotation[i / 3][i % 3]);
+    m_shader = error.empty() ? model.entry->prepare(input, error) : nullptr;
+    if (!m_shader)
         error = named(light[0], error);
-    return prepared;
+    return m_shader != nullptr;
 }
 
-bool LightmapShader::prepare_one(OIIO::cspan<OIIO::ImageBuf> light, std::string& error)
-{
-    // `ao` is `paper` with the normal in the direction's place.
-    m_kernel = shade_paper;
-    m_setup.cfem = &m_lookup;
-    if (light.size() == 1 && find_radiance(light)) {
-        error = "model " + m_model.name + " needs a cosine-filtered environment, and this is the environment itself";
-        return false;
-    }
-    return prepare_cfem(m_lookup, light[0], error);
-}
-
-bool LightmapShader::prepare_stack(OIIO::cspan<OIIO::ImageBuf> light, std::string& error)
-{
-    m_kernel = shade_lobe;
-    m_setup.lobes = &m_lobes;
-    if (is_stack(light)) // the last image of a whole stack is no lobe
-        return prepare_lobes(m_lobes, light.subspan(0, std::min<ptrdiff_t>(kStackLevels, light.size())), error);
-    error = "model lobe needs a stack of lobes, and this is one cosine-filtered environment: make it anew with "
-            "makecfem --stack";
-    return false;
-}
-
-bool LightmapShader::prepare_radiance(OIIO::cspan<OIIO::ImageBuf> light, const Rotation& rotation, std::string& error)
-{
-    const OIIO::ImageBuf* radiance = find_radiance(light);
-    if (!radiance) {
-        error = OIIO::Strutil::fmt::format("model {} needs the environment itself, which is the last image of a stack: "
-                                           "make it anew with makecfem --stack",
-                                           m_model.name);
-        return false;
-    }
-    m_setup.harmonics = &m_harmonics;
-    m_setup.cells = &m_cells;
-    if (m_model.name == "sh") {
-        m_kernel = shade_harmonics;
-        return prepare_harmonics(m_harmonics, *radiance, m_model.order, rotation, error);
-    }
-    m_kernel = m_model.name == "mask" ? shade_mask : shade_cells;
-    return prepare_cells(m_cells, *radiance, rotation.transposed(), m_model.name == "cells", error);
-}
-
-void LightmapShader::shade(OIIO::ROI roi, VismapOrder order, const float* vismap, float* rgb,
+void LightmapShader::shade(OIIO::ROI roi, TexelLayout layout, const float* vismap, float* rgb,
                            std::vector<float>& scratch, ShadeFaults& faults) const
 {
     ShadeFaults found;
-    bool sound = m_kernel(m_setup, order, vismap, size_t(roi.width()) * roi.height(), rgb);
+    bool sound = m_shader->shade(layout, vismap, size_t(roi.width()) * roi.height(), rgb);
     if (!sound)
-        find_vismap_faults(roi, order, m_model, vismap, found);
+        find_vismap_faults(roi, layout, m_model, vismap, found);
     if (m_albedo) {
         m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);
         sound = false;
     }
-    // The kernel vouches for what it made, so that only doubtful regions, and those an albedo scaled, are read again.
+    // Only regions that the model did not vouch for, and those that an albedo scaled, are read again.
     if (!sound && !found.any())
         find_not_finite(roi, rgb, 3, found.result);
     if (found.any())
@@ -182,7 +163,7 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
                                        const std::string& albedo_name) const
 {
     const auto led_by = [](const std::string& name, const std::string& text) {
-        return name.empty() ? text : OIIO::Strutil::fmt::format("\"{}\": {}", name, text);
+        return name.empty() ? text : format("\"{}\": {}", name, text);
     };
     if (!faults.error.empty())
         return faults.error;
@@ -191,12 +172,12 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
     if (faults.visibility.any())
         return led_by(
             vismap_name,
-            faults.visibility.text("visibility map", "too far outside [0, 1] for a visibility", m_model.channels));
+            faults.visibility.text("visibility map", "outside [-2, 2] and so not a visibility", m_model.channels));
     if (faults.packed.any())
         return led_by(vismap_name,
                       faults.packed.text("visibility map",
-                                         "not whole numbers below 2^24 any more (was it resized, mipped or stored as "
-                                         "half?)",
+                                         "no longer whole numbers below 2^24 (was the map resized, mipmapped or stored "
+                                         "as half?)",
                                          m_model.channels));
     if (faults.albedo.any())
         return led_by(albedo_name, m_albedo->fault_text(faults.albedo));

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shading by the region: what make_lightmap() does for a whole map, a reader does for the tiles that are asked for.
-/// Neither the order of regions nor their shape changes a bit.
+/// Shading by region: make_lightmap() shades a whole map, a reader the tiles that are asked for. Neither the order nor
+/// the shape of regions changes a bit.
 #pragma once
 
 #include <vmlight/base/faults.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
-#include <vmlight/lightmap/shade_kernel.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -18,11 +17,11 @@
 
 namespace vmlight {
 
-/// The lightmap of these inputs: size, channels and metadata. `model` is the one that is used.
+/// Size, channels and metadata of the lightmap of these inputs. `model` is the one that choose_model() found.
 OIIO::ImageSpec describe_lightmap(const OIIO::ImageSpec& vismap, const OIIO::ImageSpec& cfem,
                                   const LightmapParams& params, const std::string& model);
 
-/// What shading found wrong.
+/// Bad values that shading met.
 struct ShadeFaults
 {
     Faults vismap, visibility, packed, albedo, result;
@@ -42,8 +41,10 @@ public:
     LightmapShader(const LightmapShader&) = delete;
     LightmapShader& operator=(const LightmapShader&) = delete;
 
-    /// `light`, one CFEM, or of the images of a stack at least those that `model` reads, is not needed any more
-    /// afterwards. False, with the reason in `error`, as make_lightmap() does.
+    /// Prepare the light for one model and rotation.
+    ///
+    /// @param light    a CFEM, or at least those images of a stack that `model` reads; not needed afterwards
+    /// @returns false, with the reason in `error`, if make_lightmap() would refuse them.
     bool prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapParams& params, const ShadingModel& model,
                  std::string& error);
 
@@ -52,28 +53,19 @@ public:
 
     /// Shade the pixels of `roi`. Any thread, with a `scratch` of its own.
     ///
-    /// @param vismap   the numbers of the model's channels, texel by texel
-    /// @param rgb      three floats a texel
-    /// @param faults   what is wrong is added
-    void shade(OIIO::ROI roi, VismapOrder order, const float* vismap, float* rgb, std::vector<float>& scratch,
+    /// @param vismap   the floats of the model's channels, texel by texel
+    /// @param rgb      set to three floats a texel
+    /// @param faults   bad values are added
+    void shade(OIIO::ROI roi, TexelLayout layout, const float* vismap, float* rgb, std::vector<float>& scratch,
                ShadeFaults& faults) const;
 
-    /// What to tell of `faults`. The names may be "".
+    /// The error message for `faults`. The names may be "".
     std::string fault_text(const ShadeFaults& faults, const std::string& vismap_name,
                            const std::string& albedo_name = "") const;
 
 private:
-    bool prepare_one(OIIO::cspan<OIIO::ImageBuf> light, std::string& error);
-    bool prepare_stack(OIIO::cspan<OIIO::ImageBuf> light, std::string& error);
-    bool prepare_radiance(OIIO::cspan<OIIO::ImageBuf> light, const Rotation& rotation, std::string& error);
-
-    ShadeTexels m_kernel = nullptr;
     ShadingModel m_model;
-    ShadeSetup m_setup {};
-    CfemLookup m_lookup;
-    LobeLookup m_lobes;
-    HarmonicLight m_harmonics;
-    CellLight m_cells;
+    std::unique_ptr<ModelShader> m_shader;
     std::shared_ptr<const AlbedoReader> m_albedo;
 };
 

@@ -49,7 +49,7 @@ public:
         // A stack, or its last image stored on its own.
         const bool has_all
             = m_inputs.cfem->subimages() > 1 || m_inputs.cfem->spec().get_float_attribute("vmlight:lobe") == 1;
-        if (!find_model(m_model, m_recipe.lightmap_params, vismap, has_all, error))
+        if (!choose_model(m_model, m_recipe.lightmap_params, vismap, has_all, error))
             error = with_location(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         Rotation rotation;
         if (!error.empty())
@@ -79,7 +79,7 @@ public:
             for (size_t c = 0; c < m_index.size(); ++c)
                 vismap[m_index.size() * i + c] = read[i * channels + size_t(m_index[c])];
         ShadeFaults faults;
-        m_shader.shade(roi, VismapOrder::visibility_first, vismap.data(), dst, scratch, faults);
+        m_shader.shade(roi, TexelLayout::visibility_first, vismap.data(), dst, scratch, faults);
         if (faults.any())
             error = m_shader.fault_text(faults, m_recipe.vismap, m_recipe.albedo);
         ++work_counts().tiles_shaded;
@@ -202,7 +202,7 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
     // Errors of the visibility map are reported by describe().
     ShadingModel model;
     std::string ignored;
-    find_model(model, recipe.lightmap_params, vismap, true, ignored);
+    choose_model(model, recipe.lightmap_params, vismap, true, ignored);
     CfemRecipe filter;
     filter.environment = recipe.environment;
     filter.colorspace = recipe.colorspace;

@@ -8,7 +8,7 @@
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/islands.h>
 #include <vmlight/version.h>
-#include <vmlight/vismap/visibility.h>
+#include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
 #include <array>
@@ -62,11 +62,11 @@ void BakeCounts::add(const BakeCounts& other)
     tiles += other.tiles;
 }
 
-struct VismapBaker::Scene
+struct VismapBaker::Setup
 {
-    Scene(BakeScenePointer the_shared, UvRaster&& the_raster, const VismapParams& the_params,
-          const VismapError& the_error)
-        : shared(std::move(the_shared))
+    Setup(BakeScenePointer the_scene, UvRaster&& the_raster, const VismapParams& the_params,
+          const SampleCount& the_error)
+        : scene(std::move(the_scene))
         , raster(std::move(the_raster))
         , params(the_params)
         , error(the_error)
@@ -77,10 +77,10 @@ struct VismapBaker::Scene
         , pattern(params.sampler, params.samples, params.measure == "uniform")
     {
     }
-    const BakeScenePointer shared;
+    const BakeScenePointer scene;
     const UvRaster raster;
     const VismapParams params;
-    const VismapError error;
+    const SampleCount error;
     const bool has_normal, has_error, has_coverage;
     const int basis_count;
     const SamplePattern pattern;
@@ -89,13 +89,13 @@ struct VismapBaker::Scene
 class VismapBaker::Scratch
 {
 public:
-    explicit Scratch(const Scene& scene)
-        : eye(scene.shared->occluder(), scene.pattern, scene.params, scene.shared->frame().scale)
-        , surface(scene.shared->mesh(), scene.shared->frame())
+    explicit Scratch(const Setup& setup)
+        : integrator(setup.scene->occluder(), setup.pattern, setup.params, setup.scene->frame().scale)
+        , surface(setup.scene->mesh(), setup.scene->frame())
     {
     }
     TileCover cover;
-    Eye eye;
+    VisibilityIntegrator integrator;
     Surface surface;
 };
 
@@ -112,17 +112,17 @@ bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, st
 {
     if (!check_params(params, error))
         return false;
-    if (params.basis != "vector" && params.measure != "cosine") {
-        error = "basis: " + params.basis + " goes with the measure cosine, not with " + params.measure;
+    if (find_basis(params.basis).accumulator && params.measure != "cosine") {
+        error = "basis: " + params.basis + " needs the measure cosine, not " + params.measure;
         return false;
     }
     UvRaster raster(scene->mesh(), width_of(params), height_of(params), params.udim);
-    VismapError measured;
-    if (!settle_samples(measured, *scene, raster, params, time_budget, nthreads, progress, error))
+    SampleCount chosen;
+    if (!choose_samples(chosen, *scene, raster, params, time_budget, nthreads, progress, error))
         return false;
     VismapParams settled = params;
-    settled.samples = measured.samples;
-    m_scene = std::make_unique<Scene>(std::move(scene), std::move(raster), settled, measured);
+    settled.samples = chosen.samples;
+    m_setup = std::make_unique<Setup>(std::move(scene), std::move(raster), settled, chosen);
     return true;
 }
 
@@ -136,68 +136,69 @@ bool VismapBaker::prepare(const Mesh& mesh, const std::vector<Mesh>& occluders, 
 
 int VismapBaker::width() const
 {
-    return width_of(m_scene->params);
+    return width_of(m_setup->params);
 }
 
 int VismapBaker::height() const
 {
-    return height_of(m_scene->params);
+    return height_of(m_setup->params);
 }
 
 int VismapBaker::channels() const
 {
-    return before_basis() + m_scene->basis_count + (m_scene->has_coverage ? 1 : 0);
+    return before_basis() + m_setup->basis_count + (m_setup->has_coverage ? 1 : 0);
 }
 
 int VismapBaker::before_basis() const
 {
-    return 4 + (m_scene->has_normal ? 3 : 0) + (m_scene->has_error ? 1 : 0);
+    return 4 + (m_setup->has_normal ? 3 : 0) + (m_setup->has_error ? 1 : 0);
 }
 
 MarginChannels VismapBaker::margin_channels() const
 {
-    return is_linear_basis(m_scene->params) ? MarginChannels { before_basis() + m_scene->basis_count, 0 }
-                                            : MarginChannels { before_basis(), m_scene->basis_count };
+    return find_basis(m_setup->params.basis).whole_numbers
+        ? MarginChannels { before_basis(), m_setup->basis_count }
+        : MarginChannels { before_basis() + m_setup->basis_count, 0 };
 }
 
 int VismapBaker::tiles_across() const
 {
-    return m_scene->raster.tiles_across();
+    return m_setup->raster.tiles_across();
 }
 
 int VismapBaker::tiles_down() const
 {
-    return m_scene->raster.tiles_down();
+    return m_setup->raster.tiles_down();
 }
 
 const UvReport& VismapBaker::uv_report() const
 {
-    return m_scene->raster.report();
+    return m_setup->raster.report();
 }
 
 void VismapBaker::count_islands(UvReport& report) const
 {
-    vmlight::count_islands(report, m_scene->shared->mesh(), m_scene->raster);
+    vmlight::count_islands(report, m_setup->scene->mesh(), m_setup->raster);
 }
 
 const VismapParams& VismapBaker::params() const
 {
-    return m_scene->params;
+    return m_setup->params;
 }
 
-const VismapError& VismapBaker::error() const
+const SampleCount& VismapBaker::error() const
 {
-    return m_scene->error;
+    return m_setup->error;
 }
 
 VismapBaker::ScratchPointer VismapBaker::scratch() const
 {
-    return ScratchPointer(new Scratch(*m_scene));
+    return ScratchPointer(new Scratch(*m_setup));
 }
 
 void VismapBaker::cover_tile(int tile, Scratch& scratch, TileBits& covered) const
 {
-    m_scene->raster.cover(tile, scratch.cover);
+    m_setup->raster.cover(tile, scratch.cover);
     covered.fill(0);
     for (int i = 0; i < kTileSize * kTileSize && scratch.cover.covered; ++i)
         covered[size_t(i / kTileSize)] |= uint64_t(scratch.cover.triangle[size_t(i)] != TileCover::kNone)
@@ -216,7 +217,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         return counts;
     const int tile_x = tile % tiles_across() * kTileSize, tile_y = tile / tiles_across() * kTileSize;
     const int channel_count = channels(), basis_at = before_basis();
-    const int64_t rays_before = scratch.eye.rays();
+    const int64_t rays_before = scratch.integrator.rays();
     // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).
     for (int i = 0; i < kTileSize * kTileSize / 8; ++i) {
         const int block = i / 8, left = block % 8 * 8, y = block / 8 * 8 + i % 8;
@@ -232,24 +233,25 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             columns[size_t(count++)] = x;
         }
         if (count > 0)
-            adjust_ray_origins(points.data(), count, m_scene->shared->occluder());
+            adjust_ray_origins(points.data(), count, m_setup->scene->occluder());
         for (int k = 0; k < count; ++k) {
             const int x = columns[size_t(k)];
             float* out = texels + size_t(y) * pitch + size_t(x) * channel_count;
-            const Visibility seen = scratch.eye.see(points[size_t(k)], tile_x + x, tile_y + y, out + basis_at);
+            const Visibility seen
+                = scratch.integrator.integrate(points[size_t(k)], tile_x + x, tile_y + y, out + basis_at);
             counts.dark += seen.visibility < 0.01;
             out[0] = float(seen.visibility);
             for (int c = 0; c < 3; ++c)
                 out[1 + c] = float(seen.direction[c]);
-            for (int c = 0; c < 3 && m_scene->has_normal; ++c)
+            for (int c = 0; c < 3 && m_setup->has_normal; ++c)
                 out[4 + c] = points[size_t(k)].normal[c];
-            if (m_scene->has_error)
-                out[basis_at - 1] = float(seen.error * m_scene->error.lane_scale);
-            if (m_scene->has_coverage)
+            if (m_setup->has_error)
+                out[basis_at - 1] = float(seen.error * m_setup->error.lane_scale);
+            if (m_setup->has_coverage)
                 out[channel_count - 1] = 1;
         }
     }
-    counts.rays = scratch.eye.rays() - rays_before;
+    counts.rays = scratch.integrator.rays() - rays_before;
     return counts;
 }
 

@@ -8,7 +8,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/uv/margin.h>
 #include <vmlight/uv/raster.h>
-#include <vmlight/vismap/error.h>
+#include <vmlight/vismap/sample_count.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imageio.h>
@@ -78,7 +78,7 @@ public:
     void count_islands(UvReport& report) const;
     /// With the samples that it bakes with; and what they come to.
     const VismapParams& params() const;
-    const VismapError& error() const;
+    const SampleCount& error() const;
 
     /// What one thread needs while it bakes.
     class Scratch;
@@ -105,8 +105,8 @@ public:
 private:
     int before_basis() const;
 
-    struct Scene;
-    std::unique_ptr<Scene> m_scene;
+    struct Setup;
+    std::unique_ptr<Setup> m_setup;
 };
 
 } // namespace vmlight

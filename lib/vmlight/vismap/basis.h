@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a visibility map can hold of a texel beside V and B, for models that know more of which part of the sky is
-/// seen.
+/// Bases: what a visibility map stores of a texel beside V and B, for shading models that read which part of the sky
+/// is visible. A basis is one row of the table in bases.cpp; everything else asks the table.
 #pragma once
 
-#include <vmlight/base/export.h>
-#include <vmlight/math/harmonics.h>
-#include <vmlight/math/packed_visibility.h>
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/vismap/vismap.h>
+
+#include <Imath/ImathVec.h>
+#include <OpenImageIO/span.h>
 
 #include <cstdint>
 #include <memory>
@@ -16,39 +16,61 @@
 
 namespace vmlight {
 
-/// Names of the channels that `params.basis` adds; none for `vector`.
-std::vector<std::string> basis_channels(const VismapParams& params);
-/// Whether these are linear in what is seen, so that means of them mean something.
-bool is_linear_basis(const VismapParams& params);
+/// The rays of one texel, after they were traced.
+struct TexelRays
+{
+    /// Directions around `normal`, with the density of the cosine; lane bits where nothing blocks the ray.
+    const RayFan& fan;
+    /// Lane bits of the rays that were traced: those above the geometric surface.
+    const std::vector<uint8_t>& traced;
+    /// Whether every ray of the fan was traced.
+    bool complete;
+    /// Unit length, object space: interpolated, and of the triangle.
+    Imath::V3f normal, geometric_normal;
+    /// V: the share of the traced rays that nothing blocks.
+    double visibility;
+};
 
-/// Turns the rays of a texel into those numbers. One to a thread.
-class VisibilityBasis
+/// Turns the rays of a texel into the numbers of a basis. One per thread.
+class BasisAccumulator
 {
 public:
-    explicit VisibilityBasis(const VismapParams& params);
-
-    int count() const { return m_count; }
-
-    /// Set `dst` to count() numbers.
-    ///
-    /// @param fan          rays around `normal`, with the density of the cosine; lane bits where nothing blocks them
-    /// @param asked        lane bits of those that lie above the surface
-    /// @param surface      the geometric normal
-    /// @param whole        whether all of the fan's rays do
-    /// @param visibility   the share of them that nothing blocks
-    void project(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole, const Imath::V3f& normal,
-                 const Imath::V3f& surface, double visibility, float* dst);
-
-private:
-    void project_harmonics(const RayFan& fan, const std::vector<uint8_t>& asked, bool whole, const Imath::V3f& normal,
-                           double visibility, float* dst);
-
-    const std::string m_basis;
-    int m_count = 0;
-    std::unique_ptr<Harmonics> m_harmonics;
-    std::vector<float> m_values, m_seen_lanes, m_all_lanes;
-    std::vector<double> m_seen, m_all;
-    std::unique_ptr<VisibilityGrid> m_grid;
+    virtual ~BasisAccumulator() = default;
+    /// Set `dst` to one number for each channel of the basis.
+    virtual void project(const TexelRays& rays, float* dst) = 0;
 };
+
+struct VisibilityBasis
+{
+    /// The word for VismapParams::basis. Its channels are `<name>.<number>`.
+    const char* name;
+    /// What it stores, for help texts.
+    const char* phrase;
+    /// The parameter that only this basis reads, or "".
+    const char* parameter;
+    /// Whether the map must also store the normal.
+    bool needs_normal;
+    /// Whether the channels hold whole numbers below 2^24, so that half floats, filters and mipmaps would corrupt them.
+    bool whole_numbers;
+    /// Names of the channels, in order.
+    std::vector<std::string> (*channels)(const VismapParams& params);
+    std::unique_ptr<BasisAccumulator> (*accumulator)(const VismapParams& params);
+};
+
+/// The table.
+OIIO::cspan<VisibilityBasis> visibility_bases();
+/// The basis of that name; the first, `vector`, if there is none (check_params() refuses such a name).
+const VisibilityBasis& find_basis(const std::string& name);
+
+/// Channels that `params.basis` adds.
+std::vector<std::string> basis_channels(const VismapParams& params);
+/// nullptr if `params.basis` adds no channels.
+std::unique_ptr<BasisAccumulator> make_accumulator(const VismapParams& params);
+
+/// Why the parameter `key` has no effect, or "": another basis reads it.
+std::string unused_basis_parameter(const VismapParams& params, const std::string& key);
+
+/// Why an image with these channels cannot be stored as half, or "".
+std::string half_fault(const OIIO::ImageSpec& spec);
 
 } // namespace vmlight

@@ -3,7 +3,7 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/math/sampling.h>
-#include <vmlight/vismap/visibility.h>
+#include <vmlight/vismap/visibility_integrator.h>
 
 #include <OpenImageIO/timer.h>
 
@@ -92,23 +92,25 @@ bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
 
     struct Worker
     {
-        std::array<std::unique_ptr<Eye>, 2> eyes;
+        std::array<std::unique_ptr<VisibilityIntegrator>, 2> integrators;
         std::vector<float> basis;
     };
     std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
     for (Worker& worker : workers) {
         for (size_t k = 0; k < 2; ++k)
-            worker.eyes[k] = std::make_unique<Eye>(m_scene.occluder(), pattern, params[k], m_scene.frame().scale);
+            worker.integrators[k]
+                = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), pattern, params[k], m_scene.frame().scale);
         worker.basis.resize(basis_channels(m_params).size());
     }
     std::vector<std::array<Visibility, 2>> seen(m_texels.size());
     const int64_t step = std::max<int64_t>(1, kRaysPerItem / samples);
     const auto bake = [&](int64_t item, int worker) {
-        auto& [eyes, basis] = workers[size_t(worker)];
+        auto& [integrators, basis] = workers[size_t(worker)];
         for (int64_t i = item * step; i < std::min(texels(), (item + 1) * step); ++i)
             for (size_t k = 0; k < 2; ++k) {
                 const Texel& texel = m_texels[size_t(i)];
-                seen[size_t(i)][k] = eyes[k]->see(texel.point, texel.x, texel.y, with_basis ? basis.data() : nullptr);
+                seen[size_t(i)][k]
+                    = integrators[k]->integrate(texel.point, texel.x, texel.y, with_basis ? basis.data() : nullptr);
             }
     };
     if (!parallel_items((texels() + step - 1) / step, m_threads, bake, m_progress))

@@ -12,11 +12,13 @@
 
 #include <OpenImageIO/imagebuf.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace vmlight {
+
+/// The words that VismapParams::basis takes.
+VMLIGHT_API Choices basis_choices();
 
 struct VismapParams
 {
@@ -63,12 +65,7 @@ struct VismapParams
     /// Five, as half floats, take 50 bytes a texel.
     int order = 5;
     /// Whether a further channel is stored; a normal also because the basis needs it.
-    bool has(const char* channel) const
-    {
-        if (std::string(channel) == "normal" && (basis == "mask" || basis == "cells"))
-            return true;
-        return std::find(channels.begin(), channels.end(), channel) != channels.end();
-    }
+    VMLIGHT_API bool has(const std::string& channel) const;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -85,11 +82,14 @@ struct VismapParams
         field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Texels to fill around what the mesh covers");
         field("channels", channels, Words { { "normal", "coverage", "error" } },
               "Add channels: the normal, for the model ao; 1 where the mesh covers the texel; V's standard error");
-        field("basis", basis, Choices { { "vector", "sh", "mask", "cells" } },
-              "Add what the model of this name reads; vector is nothing");
+        field("basis", basis, basis_choices(), "Add what the model of this name reads; vector is nothing");
         field("order", order, Range { 3, 8 }, "Bands of the basis sh");
     }
 };
+
+/// Whether a channel of this name holds whole numbers below 2^24, as those of the bases `mask` and `cells` do: half
+/// floats, filters and mipmaps would corrupt it.
+VMLIGHT_API bool holds_whole_numbers(const std::string& channel);
 
 /// What a bake did.
 struct VismapReport

@@ -2,6 +2,7 @@
 #include <vmlight/stage/recipe/check.h>
 
 #include <vmlight/lightmap/model.h>
+#include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -13,8 +14,9 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "flat normals ignore it";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
         return "width and height override it";
-    if (key == "order" && recipe.vismap_params.basis != "sh")
-        return "only the basis sh uses it";
+    const std::string other_basis = unused_basis_parameter(recipe.vismap_params, key);
+    if (!other_basis.empty())
+        return other_basis;
     const bool has_target = recipe.vismap_params.target_error > 0;
     if ((key == "samples" || key == "time_budget") && has_target)
         return "target_error sets the number of rays";

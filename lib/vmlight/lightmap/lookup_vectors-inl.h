@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps that the vector forms of several models share. Highway includes this anew for each instruction set.
-#if defined(VMLIGHT_SHADE_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef VMLIGHT_SHADE_VECTORS_INL_H
-#undef VMLIGHT_SHADE_VECTORS_INL_H
+#if defined(VMLIGHT_LOOKUP_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VMLIGHT_LOOKUP_VECTORS_INL_H
+#undef VMLIGHT_LOOKUP_VECTORS_INL_H
 #else
-#define VMLIGHT_SHADE_VECTORS_INL_H
+#define VMLIGHT_LOOKUP_VECTORS_INL_H
 #endif
 
-#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/lobe_lookup.h>
+#include <vmlight/lightmap/lookup_kernel.h>
 
 #include <hwy/highway.h>
 
@@ -43,12 +44,12 @@ template <class D, class V = hn::Vec<D>> HWY_INLINE V Dot(D d, const float* row,
                    hn::Mul(hn::Set(d, row[2]), z));
 }
 
-// What a group needs of its setup, as values on the stack: stores of colour may alias anything behind a pointer, and
-// what lies there would be loaded again for every texel.
+// What a group of texels reads of its setup, as values on the stack: stores of colour may alias anything behind a
+// pointer, so that the compiler would load it again for every texel.
 struct Light
 {
     template <class Lookup>
-    Light(const ShadeSetup& setup, const Lookup& lookup)
+    Light(const Lookup& lookup, const ShadeSetup& setup)
         : texels(lookup.texels.data())
         , width(lookup.width)
         , height(lookup.height)
@@ -64,9 +65,9 @@ struct Light
     float rotation[9], gain, limit;
 };
 
-// Where a block's texels look and with what weights: filled by vectors of texels, then used texel by texel. Two loops
-// and not one, since a group of texels is one long chain of operations: only when several groups are under way at once
-// does the processor keep busy, and the lookups would stand between them.
+// Where the texels of a block look, and with what weights: filled by vectors of texels, then used texel by texel. Two
+// loops, not one: a group of texels is one long dependency chain, which hides its latency only when several groups are
+// in flight, and lookups in between would prevent that.
 struct Lookups
 {
     static constexpr size_t kTexels = 256;
@@ -95,13 +96,13 @@ template <class D, class V = hn::Vec<D>> HWY_INLINE V LobePosition(D d, V r)
 
 // Lanes(d) texels of `vm`, to `dst` from `at` on. Places are texels of a CFEM, or floats of a stack of lobes.
 template <class Model, class D>
-HWY_INLINE bool Aim(D d, const Light& sky, VismapOrder order, const float* vm, Lookups& dst, size_t at)
+HWY_INLINE bool Aim(D d, const Light& sky, TexelLayout layout, const float* vm, Lookups& dst, size_t at)
 {
     using V = hn::Vec<D>;
     const float* r = sky.rotation;
 
     V v, bx, by, bz;
-    if (order == VismapOrder::visibility_first)
+    if (layout == TexelLayout::visibility_first)
         hn::LoadInterleaved4(d, vm, v, bx, by, bz);
     else
         hn::LoadInterleaved4(d, vm, bx, by, bz, v);
@@ -157,9 +158,9 @@ HWY_INLINE bool Aim(D d, const Light& sky, VismapOrder order, const float* vm, L
     return hn::AllTrue(d, sound);
 }
 
-// Shade by a model, which says how one texel of the block is looked up.
+// Shade a run of texels. `Model` looks up one texel of a block.
 template <class Model>
-HWY_INLINE bool Shade(const Light& sky, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+HWY_INLINE bool Shade(const Light& sky, TexelLayout layout, const float* vismap, size_t texels, float* rgb)
 {
     const hn::CappedTag<float, 64> d;
     const size_t lanes = hn::Lanes(d);
@@ -171,12 +172,12 @@ HWY_INLINE bool Shade(const Light& sky, VismapOrder order, const float* vismap, 
         const float* vm = vismap + 4 * begin;
         size_t at = 0;
         for (; at + lanes <= count; at += lanes)
-            sound &= Aim<Model>(d, sky, order, vm + 4 * at, lookups, at);
+            sound &= Aim<Model>(d, sky, layout, vm + 4 * at, lookups, at);
         if (at < count) {
             std::memcpy(rest, vm + 4 * at, 4 * (count - at) * sizeof(float));
-            sound &= Aim<Model>(d, sky, order, rest, lookups, at);
+            sound &= Aim<Model>(d, sky, layout, rest, lookups, at);
         }
-        // Each store writes one float past its texel, which the next one mends; the last of all must not.
+        // Each store writes one float past its texel, which the next one overwrites; the last of all must not.
         const bool last = begin + count == texels;
         for (size_t i = 0; i < count - last; ++i)
             Model::LookUp(sky, lookups, i, rgb + 3 * (begin + i));

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/model_lobe.h>
+
+#include <vmlight/lightmap/lookup_kernel.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "vmlight/lightmap/shade_lobe.cpp"
+#define HWY_TARGET_INCLUDE "vmlight/lightmap/model_lobe.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which includes this file once for each instruction set.
 #include <hwy/highway.h>
 
-#include <vmlight/lightmap/shade_vectors-inl.h>
+#include <vmlight/lightmap/lookup_vectors-inl.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -18,9 +20,10 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-bool ShadeLobe(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool ShadeLobe(const LobeLookup& lobes, const ShadeSetup& setup, TexelLayout layout, const float* vismap, size_t texels,
+               float* rgb)
 {
-    return shade_lobe_scalar(setup, order, vismap, texels, rgb);
+    return shade_lobe_scalar(lobes, setup, layout, vismap, texels, rgb);
 }
 
 #else
@@ -57,9 +60,10 @@ struct LobeModel
     }
 };
 
-bool ShadeLobe(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool ShadeLobe(const LobeLookup& lobes, const ShadeSetup& setup, TexelLayout layout, const float* vismap, size_t texels,
+               float* rgb)
 {
-    return Shade<LobeModel>(Light(setup, *setup.lobes), order, vismap, texels, rgb);
+    return Shade<LobeModel>(Light(lobes, setup), layout, vismap, texels, rgb);
 }
 
 #endif
@@ -73,20 +77,21 @@ namespace vmlight {
 
 HWY_EXPORT(ShadeLobe);
 
-bool shade_lobe(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool shade_lobe(const LobeLookup& lobes, const ShadeSetup& setup, TexelLayout layout, const float* vismap,
+                size_t texels, float* rgb)
 {
-    return HWY_DYNAMIC_DISPATCH(ShadeLobe)(setup, order, vismap, texels, rgb);
+    return HWY_DYNAMIC_DISPATCH(ShadeLobe)(lobes, setup, layout, vismap, texels, rgb);
 }
 
-bool shade_lobe_scalar(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool shade_lobe_scalar(const LobeLookup& lobes, const ShadeSetup& setup, TexelLayout layout, const float* vismap,
+                       size_t texels, float* rgb)
 {
-    const LobeLookup& lobes = *setup.lobes;
     const float* r = setup.rotation;
     const float w = float(lobes.width), h = float(lobes.height);
     const float limit = largest_light(lobes, setup.gain);
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += 4, rgb += 3) {
-        const bool first = order == VismapOrder::visibility_first;
+        const bool first = layout == TexelLayout::visibility_first;
         const float v = first ? vismap[0] : vismap[3];
         const float* b = first ? vismap + 1 : vismap;
         const float light = v * setup.gain;
@@ -125,6 +130,30 @@ bool shade_lobe_scalar(const ShadeSetup& setup, VismapOrder order, const float* 
         }
     }
     return sound;
+}
+
+namespace {
+
+struct LobeShader : ModelShader
+{
+    LobeLookup lobes;
+    ShadeSetup setup;
+
+    bool shade(TexelLayout layout, const float* vismap, size_t texels, float* rgb) const override
+    {
+        return shade_lobe(lobes, setup, layout, vismap, texels, rgb);
+    }
+};
+
+} // namespace
+
+std::unique_ptr<ModelShader> prepare_lobe(const ModelInput& input, std::string& error)
+{
+    auto shader = std::make_unique<LobeShader>();
+    shader->setup = input.setup;
+    if (!prepare_lobes(shader->lobes, input.light, error))
+        return nullptr;
+    return shader;
 }
 
 } // namespace vmlight

@@ -13,7 +13,7 @@
 namespace vmlight {
 
 /// Rays of a map, and what they come to.
-struct VismapError
+struct SampleCount
 {
     /// Rays a texel: those asked for, or those chosen.
     int samples = 0;
@@ -38,7 +38,7 @@ struct VismapError
 /// 64 rays do not scatter, on 256 texels or more or on none, the least count is tried; on fewer 64 it is. A measured 0
 /// of less than 64 rays counts as chance where 64 scatter. A function of scene and params, but for the samples that
 /// `time_budget` chooses.
-bool settle_samples(VismapError& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
+bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
                     double time_budget, int nthreads, const Progress& progress, std::string& error);
 
 } // namespace vmlight

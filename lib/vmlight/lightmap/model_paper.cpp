@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/lightmap/shade_kernel.h>
+#include <vmlight/lightmap/model_paper.h>
+
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/lookup_kernel.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "vmlight/lightmap/shade_kernel.cpp"
+#define HWY_TARGET_INCLUDE "vmlight/lightmap/model_paper.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which includes this file once for each instruction set.
 #include <hwy/highway.h>
 
-#include <vmlight/lightmap/shade_vectors-inl.h>
+#include <vmlight/lightmap/lookup_vectors-inl.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -20,9 +23,10 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
 // A processor without vectors, as Highway sees it: SSE2 alone is one.
-bool ShadePaper(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool ShadePaper(const CfemLookup& cfem, const ShadeSetup& setup, TexelLayout layout, const float* vismap, size_t texels,
+                float* rgb)
 {
-    return shade_paper_scalar(setup, order, vismap, texels, rgb);
+    return shade_paper_scalar(cfem, setup, layout, vismap, texels, rgb);
 }
 
 #else
@@ -45,9 +49,10 @@ struct PaperModel
     }
 };
 
-bool ShadePaper(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool ShadePaper(const CfemLookup& cfem, const ShadeSetup& setup, TexelLayout layout, const float* vismap, size_t texels,
+                float* rgb)
 {
-    return Shade<PaperModel>(Light(setup, *setup.cfem), order, vismap, texels, rgb);
+    return Shade<PaperModel>(Light(cfem, setup), layout, vismap, texels, rgb);
 }
 
 #endif
@@ -61,20 +66,21 @@ namespace vmlight {
 
 HWY_EXPORT(ShadePaper);
 
-bool shade_paper(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool shade_paper(const CfemLookup& cfem, const ShadeSetup& setup, TexelLayout layout, const float* vismap,
+                 size_t texels, float* rgb)
 {
-    return HWY_DYNAMIC_DISPATCH(ShadePaper)(setup, order, vismap, texels, rgb);
+    return HWY_DYNAMIC_DISPATCH(ShadePaper)(cfem, setup, layout, vismap, texels, rgb);
 }
 
-bool shade_paper_scalar(const ShadeSetup& setup, VismapOrder order, const float* vismap, size_t texels, float* rgb)
+bool shade_paper_scalar(const CfemLookup& cfem, const ShadeSetup& setup, TexelLayout layout, const float* vismap,
+                        size_t texels, float* rgb)
 {
-    const CfemLookup& cfem = *setup.cfem;
     const float* r = setup.rotation;
     const float w = float(cfem.width), h = float(cfem.height);
     const float limit = largest_light(cfem, setup.gain);
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += 4, rgb += 3) {
-        const bool first = order == VismapOrder::visibility_first;
+        const bool first = layout == TexelLayout::visibility_first;
         const float v = first ? vismap[0] : vismap[3];
         const float* b = first ? vismap + 1 : vismap;
         const float light = v * setup.gain;
@@ -105,6 +111,40 @@ bool shade_paper_scalar(const ShadeSetup& setup, VismapOrder order, const float*
             rgb[c] = (w00 * p[c] + w01 * p[c + 4]) + (w10 * q[c] + w11 * q[c + 4]);
     }
     return sound;
+}
+
+namespace {
+
+struct PaperShader : ModelShader
+{
+    CfemLookup cfem;
+    ShadeSetup setup;
+
+    bool shade(TexelLayout layout, const float* vismap, size_t texels, float* rgb) const override
+    {
+        return shade_paper(cfem, setup, layout, vismap, texels, rgb);
+    }
+};
+
+} // namespace
+
+std::vector<std::string> paper_model_channels(const OIIO::ImageSpec&)
+{
+    return { kVismapChannels.begin(), kVismapChannels.end() };
+}
+
+std::vector<std::string> ao_model_channels(const OIIO::ImageSpec&)
+{
+    return { kVismapChannels[0], kNormalChannels[0], kNormalChannels[1], kNormalChannels[2] };
+}
+
+std::unique_ptr<ModelShader> prepare_paper(const ModelInput& input, std::string& error)
+{
+    auto shader = std::make_unique<PaperShader>();
+    shader->setup = input.setup;
+    if (!prepare_cfem(shader->cfem, input.light[0], error))
+        return nullptr;
+    return shader;
 }
 
 } // namespace vmlight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/vismap/error.h>
+#include <vmlight/vismap/sample_count.h>
 
 #include <vmlight/vismap/pilot.h>
 
@@ -101,7 +101,7 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 
 } // namespace
 
-bool settle_samples(VismapError& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
+bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
                     double time_budget, int nthreads, const Progress& progress, std::string& error)
 {
     dst = {};

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/model.h>
+#include <vmlight/lightmap/model_cells.h>
+#include <vmlight/lightmap/model_lobe.h>
+#include <vmlight/lightmap/model_mask.h>
+#include <vmlight/lightmap/model_paper.h>
+#include <vmlight/lightmap/model_sh.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <array>
+
+namespace vmlight {
+namespace {
+
+using OIIO::Strutil::fmt::format;
+
+// Name, phrase, light, rank, basis, added channel, whole numbers, unread, channels, is_baked, prepare.
+constexpr ModelEntry kModels[] = {
+    { "ao", "ambient occlusion: V times the light around the normal", ModelLight::cfem, 0, "", "normal", 0, 0,
+      ao_model_channels, nullptr, prepare_paper },
+    { "paper", "V times the light around the mean visible direction", ModelLight::cfem, 1, "", "", 0, 0,
+      paper_model_channels, nullptr, prepare_paper },
+    { "lobe", "as paper, with a lobe as wide as the visible part of the sky", ModelLight::lobes, 2, "", "", 0, 0,
+      paper_model_channels, nullptr, prepare_lobe },
+    { "sh", "light and visibility in spherical harmonics", ModelLight::radiance, 3, "sh", "", 0, 0, sh_model_channels,
+      has_sh, prepare_sh },
+    { "mask", "light within the visible range of heights of 16 longitudes", ModelLight::radiance, 4, "mask", "",
+      kMaskFloats, 3, mask_model_channels, has_mask, prepare_mask },
+    { "cells", "light of 144 cells of the sphere, each weighted by visibility", ModelLight::radiance, 5, "cells", "",
+      kCellsFloats, 3, cells_model_channels, has_cells, prepare_cells },
+};
+
+const ModelEntry& best_entry(const OIIO::ImageSpec& vismap, bool has_stack)
+{
+    const ModelEntry* best = nullptr;
+    for (const ModelEntry& entry : kModels) {
+        const bool has_light = has_stack || entry.light == ModelLight::cfem;
+        if (entry.rank > (best ? best->rank : 0) && has_light && (!entry.is_baked || entry.is_baked(vismap)))
+            best = &entry;
+    }
+    return *best;
+}
+
+std::string bake_flags(const ModelEntry& entry)
+{
+    return *entry.basis ? format("--basis {}", entry.basis) : format("--channels {}", entry.added_channel);
+}
+
+} // namespace
+
+OIIO::cspan<ModelEntry> model_entries()
+{
+    return kModels;
+}
+
+const ModelEntry* find_model_entry(const std::string& name)
+{
+    for (const ModelEntry& entry : kModels)
+        if (name == entry.name)
+            return &entry;
+    return nullptr;
+}
+
+Choices model_choices()
+{
+    Choices choices { { "auto" } };
+    for (const ModelEntry& entry : kModels)
+        choices.words.push_back(entry.name);
+    return choices;
+}
+
+bool reads_radiance(const std::string& model)
+{
+    const ModelEntry* entry = find_model_entry(model);
+    return entry && entry->light == ModelLight::radiance;
+}
+
+bool choose_model(ShadingModel& dst, const LightmapParams& params, const OIIO::ImageSpec& vismap, bool has_stack,
+                  std::string& error)
+{
+    std::array<int, 4> ignored;
+    if (!find_vismap_channels(vismap, ignored, error))
+        return false;
+    const ModelEntry* named = find_model_entry(params.model);
+    const ModelEntry& entry = named ? *named : best_entry(vismap, has_stack);
+    dst = { entry.name, entry.light, entry.channels(vismap), &entry };
+    for (const std::string& name : dst.channels)
+        if (vismap.channelindex(name) < 0) {
+            error = format("model {} needs channel \"{}\", which makevismap {} adds; found {}", entry.name, name,
+                           bake_flags(entry), OIIO::Strutil::join(vismap.channelnames, ", "));
+            return false;
+        }
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The rays of one texel: the estimate of V, B and the basis behind each texel of a visibility map.
+#pragma once
+
+#include <vmlight/math/sampling.h>
+#include <vmlight/trace/occluder.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/vismap.h>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace vmlight {
+
+/// V and B, in double.
+struct Visibility
+{
+    double visibility = 0;
+    /// Standard error of V, from lane_scatter(); 0 unless the map stores the channel `error`.
+    double error = 0;
+    Imath::V3d direction { 0 };
+};
+
+/// Standard error of the share of rays that nothing blocks, `open` of `traced` (lane bits as in RayFan), from the
+/// scatter of lane 0 of all packets, lane 1, ... A packet's rays are neighbours, so that each lane covers the
+/// hemisphere as the whole fan does, and the eight lanes together do better than eight random sets would: an upper
+/// bound. Measured on eight scenes: 1.6 to 2.5 times the error at 16 rays, 1.7 to 4.6 at 64, 1.9 to 6.5 at 256. It
+/// ranks texels; the caller scales it. 0 if fewer than two lanes have rays.
+/// Source: W. G. Cochran, "Sampling Techniques", 3rd ed., section 6.3 (variance of a ratio).
+double lane_scatter(const std::vector<uint8_t>& traced, const std::vector<uint8_t>& open);
+
+/// Traces the rays of one surface point at a time. One per thread.
+class VisibilityIntegrator
+{
+public:
+    /// @param occluder, pattern, params  must outlive this
+    /// @param scale    from mesh units to the units of `occluder`, for VismapParams::max_distance
+    VisibilityIntegrator(const Occluder& occluder, const SamplePattern& pattern, const VismapParams& params,
+                         double scale)
+        : m_occluder(occluder)
+        , m_pattern(pattern)
+        , m_params(params)
+        , m_length(params.max_distance > 0 ? float(params.max_distance * scale)
+                                           : std::numeric_limits<float>::infinity())
+        , m_wants_error(params.has("error"))
+        , m_fan(pattern.count())
+        , m_basis(make_accumulator(params))
+    {
+    }
+
+    /// Integrate visibility over the hemisphere of `point`, the centre of texel (x, y), whose ray origin
+    /// adjust_ray_origins() has set. A function of scene, params and texel alone.
+    ///
+    /// @param basis    nullptr, or set to one number for each of basis_channels()
+    Visibility integrate(SurfacePoint point, int x, int y, float* basis = nullptr);
+
+    /// Rays traced so far.
+    int64_t rays() const { return m_rays; }
+
+private:
+    const Occluder& m_occluder;
+    const SamplePattern& m_pattern;
+    const VismapParams& m_params;
+    float m_length;
+    bool m_wants_error;
+    RayFan m_fan;
+    std::unique_ptr<BasisAccumulator> m_basis;
+    std::vector<uint8_t> m_traced; // lane bits before the rays are traced
+    int64_t m_rays = 0;
+};
+
+} // namespace vmlight
