@@ -59,7 +59,7 @@ TEST_F(Errors, TheChannelHoldsAnEstimate)
     EXPECT_EQ(error_line(done(bake + "--channels error --samples 32 -o a.exr")).rays, 32);
     EXPECT_THAT(channel_names("a.exr"), testing::Contains("error"));
     EXPECT_NE(attribute("a.exr", "vmlight:error"), "");
-    refused(1, "samples: 1 is too few for the channel error, which takes 2",
+    refused(1, "samples: 1 is too few for the channel error, which needs 2",
             bake + "-o x.exr --channels error --samples 1");
 }
 
@@ -81,7 +81,7 @@ TEST_F(Errors, OneTexelThatAgreesWithItselfTakes64Rays)
 
 TEST_F(Errors, AnErrorOutOfReachIsRefused)
 {
-    refused(1, "target_error: 1e-09 is out of reach: 1048576 rays a texel come to ",
+    refused(1, "target_error: 1e-09 is out of reach: 1048576 rays per texel give ",
             "makevismap {spot} --resolution 16 -o x.exr --target-error 1e-9");
 }
 

@@ -5,6 +5,7 @@
 #include "bytes.h"
 
 #include <vmlight/image/channels.h>
+#include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebuf.h>
 

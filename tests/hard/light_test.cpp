@@ -223,7 +223,7 @@ TEST(Light, WhatIsNoLight)
     OIIO::ImageBuf crop = image(Map(8, 4, 1)), dst;
     crop.specmod().full_height = 8;
     EXPECT_FALSE(make_lightmap(dst, scene::random_vismap(4, 4), crop));
-    EXPECT_EQ(dst.geterror(), "cosine-filtered environment is a crop: 8x4 pixels are stored of 8x8");
+    EXPECT_EQ(dst.geterror(), "cosine-filtered environment is cropped: it stores 8x4 pixels of 8x8");
     row.ours("refused");
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfem_maps.h"
 
-#include <vmlight/cfem/sh.h>
+#include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/math/harmonics.h>
 

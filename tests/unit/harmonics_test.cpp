@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/cfem/sh.h>
-#include <vmlight/lightmap/harmonic_light.h>
+#include <vmlight/cfem/spherical_harmonics.h>
+#include <vmlight/lightmap/model_sh.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/latlong.h>
 

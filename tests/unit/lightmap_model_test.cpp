@@ -215,11 +215,12 @@ TEST(LightmapModel, ALobeWithoutItsStackIsRefused)
     EXPECT_EQ(
         refusal(vm, map, model("lobe")),
         "model lobe needs a stack of lobes, not a single cosine-filtered environment; make one with makecfem --stack");
-    EXPECT_EQ(refusal(vm, OIIO::cspan<ImageBuf>(stack.data(), 5), {}), "a stack of 5 levels; 9 are needed");
+    EXPECT_EQ(refusal(vm, OIIO::cspan<ImageBuf>(stack.data(), 5), {}),
+              "a stack of 5 levels instead of 9; make it anew with makecfem --stack");
     EXPECT_EQ(refusal(vm, with(2, [](ImageBuf& level) { level.specmod().erase_attribute("vmlight:lobe"); }), {}),
-              "level 2 of the stack: vmlight:lobe is -1; 0.7374 is needed");
+              "level 2 of the stack: vmlight:lobe is -1 instead of 0.7374");
     EXPECT_EQ(refusal(vm, with(4, [](ImageBuf& level) { level.specmod().attribute("vmlight:lobe", 0.8f); }), {}),
-              "level 4 of the stack: vmlight:lobe is 0.8; 0.8535 is needed");
+              "level 4 of the stack: vmlight:lobe is 0.8 instead of 0.8535");
     EXPECT_EQ(refusal(vm, with(8, [](ImageBuf& level) { pixels(level)[4] = NAN; }), {}),
               "level 8 of the stack: cosine-filtered environment has 1 value that is not finite, at pixel (1, 0) "
               "channel \"G\"");
@@ -231,6 +232,6 @@ TEST(LightmapModel, ALobeWithoutItsStackIsRefused)
                                level.specmod().attribute("vmlight:lobe", 0.5f);
                            }),
                       {}),
-              "level 1 of the stack: 8x4 pixels, and 16x8 at level 0");
+              "level 1 of the stack: 8x4 pixels, but level 0 has 16x8");
     EXPECT_EQ(lit(vm, with(2, [](ImageBuf& level) { level.clear(); })[0]).spec().width, 4); // paper reads the first
 }

@@ -101,7 +101,7 @@ TEST(LightmapRefusal, AResultTooLargeForFloatIsRefused)
     EXPECT_EQ(refusal(one_texel(1, V3f(0, 1, 0)), bright, params),
               "lightmap has 1 value that is too large for float, at pixel (0, 0) channel \"R\"");
     EXPECT_EQ(refusal(kVismap, cfem(4, 2, [](V3d n) { return V3f(n.x > 0 && n.z > 0 ? -3e38f : 3e38f); })),
-              "cosine-filtered environment has values too large to be interpolated");
+              "cosine-filtered environment has values too large to interpolate");
 }
 
 TEST(LightmapRefusal, WhatIsNotAStagesImageIsRefused)
@@ -132,12 +132,12 @@ TEST(LightmapRefusal, ACfemIsTheWholeSphereByTexelsAtTheirCentres)
 {
     ImageBuf crop = random_cfem(16, 8);
     crop.specmod().full_width = 32;
-    EXPECT_EQ(refusal(kVismap, crop), "cosine-filtered environment is a crop: 16x8 pixels are stored of 32x8");
+    EXPECT_EQ(refusal(kVismap, crop), "cosine-filtered environment is cropped: it stores 16x8 pixels of 32x8");
     ImageBuf border = random_cfem(16, 8);
     border.specmod().attribute("oiio:sampleborder", 1);
     EXPECT_EQ(refusal(kVismap, border),
-              "cosine-filtered environment has samples on its borders, as maketx --envlatl makes them; plain maketx "
-              "keeps it as it is");
+              "cosine-filtered environment has samples on its borders, as maketx --envlatl makes them; use plain "
+              "maketx, which keeps the pixels");
 }
 
 TEST(LightmapRefusal, NamesOfSeveralLinesAreToldOnOne)

@@ -127,7 +127,7 @@ TEST(VismapError, OneRayDoesNotScatter)
 {
     OIIO::ImageBuf image;
     EXPECT_FALSE(make_vismap(image, floor_facing_z(1), {}, error_params(8, 1)));
-    EXPECT_EQ(image.geterror(), "samples: 1 is too few for the channel error, which takes 2");
+    EXPECT_EQ(image.geterror(), "samples: 1 is too few for the channel error, which needs 2");
 }
 
 TEST(VismapError, OfATexelIsItsRaysScatter)

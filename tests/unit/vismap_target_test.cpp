@@ -82,7 +82,7 @@ TEST(VismapError, AnErrorOutOfReachIsRefusedWithWhatIsReached)
     OIIO::ImageBuf image;
     EXPECT_FALSE(make_vismap(image, scene.mesh, scene.occluders, params));
     const std::string error = image.geterror();
-    EXPECT_EQ(error.find("target_error: 1e-09 is out of reach: 1048576 rays a texel come to "), 0u) << error;
+    EXPECT_EQ(error.find("target_error: 1e-09 is out of reach: 1048576 rays per texel give "), 0u) << error;
     params.target_error = -0.1;
     EXPECT_FALSE(make_vismap(image, scene.mesh, scene.occluders, params));
     EXPECT_EQ(image.geterror(), "target_error: -0.1 is not in [0, 1] or \"none\"");

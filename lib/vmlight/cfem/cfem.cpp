@@ -4,17 +4,13 @@
 #include <vmlight/base/fail.h>
 #include <vmlight/base/memory_need.h>
 #include <vmlight/cfem/exact.h>
-#include <vmlight/cfem/image.h>
 #include <vmlight/cfem/rows.h>
-#include <vmlight/cfem/sh.h>
+#include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/version.h>
 
 #include <OpenImageIO/filesystem.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 namespace vmlight {
@@ -61,33 +57,9 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
         return fail(dst, rows.error().empty() ? "interrupted" : rows.error());
 
     OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
-    note_mended(spec, rows.bad_values());
-    // Only rounding is below 0 in an exact sum; the harmonics' ringing is theirs to show.
-    return set_cfem(dst, spec, rgb, exact, error) || fail(dst, error);
-}
-
-bool set_cfem(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vector<double>& rgb, bool clamp,
-              std::string& error)
-{
-    constexpr float kLargest = std::numeric_limits<float>::max();
-    std::vector<float> pixels(rgb.size());
-    for (size_t i = 0; i < rgb.size(); ++i) {
-        // A mean of light is no brighter than its brightest: beyond the largest float is rounding, if it is no more.
-        const bool rounding = rgb[i] > kLargest && rgb[i] <= kLargest * (1 + 1e-6);
-        pixels[i] = rounding ? kLargest : float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
-        if (!std::isfinite(pixels[i])) {
-            error = OIIO::Strutil::fmt::format("filtered light of {:g} does not fit a float", rgb[i]);
-            return false;
-        }
-    }
-    dst.reset(spec, OIIO::InitializePixels::No);
-    return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
-}
-
-void note_mended(OIIO::ImageSpec& spec, int64_t values)
-{
-    if (values)
-        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(values, std::numeric_limits<int>::max())));
+    record_sanitized(spec, rows.bad_values());
+    // An exact sum is below 0 by rounding alone; the ringing of harmonics is kept.
+    return set_filtered(dst, spec, rgb, exact, error) || fail(dst, error);
 }
 
 } // namespace vmlight

@@ -16,18 +16,18 @@ using latlong::pi;
 
 namespace {
 
-constexpr int kNodes = 2; // a band
-// Rows are cut into bands of pi / 128 or less, or the ends of the arcs would be sampled too coarsely; and rows that
-// hold a sun into finer ones. Where the horizon crosses a bright pixel, a band of extent d that has a share of
-// all light in one place is wrong by up to 0.077 d times that share of the mean (measured: bench/cfem_bench.cpp),
-// and N bands in its stead N^2 times less.
+constexpr int kNodes = 2; // per band
+// Rows are split into bands of at most pi / 128, so that the ends of arcs are sampled finely enough, and rows with a
+// sun into finer ones. Where the horizon crosses a bright pixel, a band of extent d that has a share of all light in
+// one place errs by up to 0.077 d times that share of the mean (measured: bench/cfem_bench.cpp), and N bands in its
+// place by N^2 times less.
 constexpr double kBandsPerRadian = 128 / pi;
 constexpr double kHorizonError = 0.077, kTolerance = 5e-5;
-// Bytes of prefix cells that are made, then used, before the next rows are read. More is slower, for the caches; less
-// is slower on threads, which meet twice a block.
+// Bytes of prefix cells per block of rows. More is slower, because of the caches; less is slower because threads
+// synchronise twice per block.
 constexpr size_t kBlockBytes = size_t(4) << 20;
 
-// A band of latitude within a row of the environment, and its usual nodes.
+// A band of latitude within a row of the environment, and its default nodes.
 struct Band
 {
     int row; // of the block
@@ -38,11 +38,11 @@ struct Band
 struct ResultRow
 {
     double cos_theta, sin_theta;
-    // Circles with theta < near are wholly above the horizon of a pixel in the upper half of the result, circles with
-    // theta > far wholly below; for the lower half the other way round.
+    // Circles with theta < near are entirely above the horizon of a pixel in the upper half of the result, circles with
+    // theta > far entirely below; for the lower half, vice versa.
     double near, far;
-    Moments all; // of every circle, seen or not
-    double unit = 0; // the same sums for L = 1: what is seen ...
+    Moments all; // of all circles, visible or not
+    double unit = 0; // the same sums for L = 1: the visible part ...
     double unit_vertical = 0; // ... and the vertical moment of all
 };
 
@@ -134,7 +134,7 @@ private:
         }
     }
 
-    // The share that the brightest place of the row has of all light so far: rows below are not known yet.
+    // The share of the brightest place of the row in all light so far: rows below are not known yet.
     double sun_share(int r, double weight)
     {
         double share = 0;
@@ -161,7 +161,7 @@ private:
                 continue;
             }
             // The arc opens or closes within the band, as the power 3/2 of the distance: Gauss quadrature needs an
-            // end of the interval there.
+            // interval that ends there.
             scratch.nodes.clear();
             double from = band.theta0;
             for (double to : { near ? row.near : from, far ? row.far : band.theta1, band.theta1 }) {
@@ -227,10 +227,9 @@ private:
         add(right, m_width, reach - 2 * pi, -reach);
     }
 
-    // Divide by what L = 1 gives, which makes a constant map exact; and fill in the row of the antipodes by
-    // max(0, n.w) - max(0, -n.w) = n.w: what -n gets is what n gets less n . Int L w dw, by the same quadrature.
-    // Without the cosine, what n gets and what -n gets are all there is, and the same difference is that of -n times
-    // -1.
+    // Divide by the result for L = 1, which makes a constant map exact; and fill in the row of the antipodes by
+    // max(0, n.w) - max(0, -n.w) = n.w: the sum of -n is that of n less n . Int L w dw, by the same quadrature. Without
+    // the cosine, the sums of n and -n add up to the whole sphere, and the difference has the opposite sign.
     void finish(int r)
     {
         const ResultRow& row = m_rows[r];
@@ -253,8 +252,8 @@ private:
     EnvironmentGrid m_grid;
     int m_nthreads;
     LatitudeRule m_rule;
-    size_t m_stride; // prefix cells a row: one spare at either end
-    int m_block_rows; // depends on nothing but the width, so that the order of the sums does not either
+    size_t m_stride; // prefix cells per row, with a spare one at either end
+    int m_block_rows; // depends on the width alone, so that the order of the sums does too
     bool m_mirrored;
     int m_computed_rows;
     std::vector<ColumnAngle> m_edges, m_columns;

@@ -48,7 +48,7 @@ LatitudeRule::LatitudeRule(int nodes)
     : m_position(nodes)
     , m_weight(nodes)
 {
-    // Roots of the Legendre polynomial of degree `nodes` by Newton's method; the start is within its reach of each.
+    // Roots of the Legendre polynomial of degree `nodes` by Newton's method; it converges from this start for each.
     for (int k = 0; k < nodes; ++k) {
         double x = -std::cos(pi * (k + 0.75) / (nodes + 0.5)), slope = 1;
         for (int iteration = 0; iteration < 8; ++iteration) {

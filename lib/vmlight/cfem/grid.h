@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How the pixels of a lat-long environment divide the sphere, and where their rows are sampled in latitude.
-/// Longitude here is phi = 2 pi s, in [0, 2 pi] from the left edge: half a turn from that of latlong.h, so that no cell
-/// but the first begins at the seam. Only differences of longitude matter to a filter.
+/// How the pixels of a lat-long environment divide the sphere, and at which latitudes their rows are sampled.
+/// Longitude here is phi = 2 pi s, in [0, 2 pi] from the left edge: half a turn from that of latlong.h, so that only
+/// the first cell begins at the seam. Only differences of longitude matter to a filter.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace vmlight {
 
 /// Each pixel is constant over its cell. Cells are equal in s and t; or, with `border`, pixels are samples at
-/// s = i / (width - 1), t = j / (height - 1), and the cells reach half-way to the neighbours and end at seam and poles.
+/// s = i / (width - 1), t = j / (height - 1), and cells reach half-way to their neighbours and end at seam and poles.
 struct EnvironmentGrid
 {
     int width = 0, height = 0;
@@ -24,7 +24,7 @@ struct EnvironmentGrid
     double column_offset() const;
 };
 
-/// A circle of latitude that stands for a band around it; `weight` is the band's extent in cos theta.
+/// A circle of latitude that represents the band around it; `weight` is the band's extent in cos theta.
 struct LatitudeNode
 {
     double cos_theta, sin_theta, weight;
@@ -34,7 +34,7 @@ struct LatitudeNode
 class LatitudeRule
 {
 public:
-    /// @param nodes    nodes a band, from 1
+    /// @param nodes    per band, at least 1
     explicit LatitudeRule(int nodes);
 
     /// Append the nodes of the band theta0..theta1. Their weights hold sin theta and add up to

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The inner loop of the exact cosine filter: what one circle of latitude of the environment sends to one row of the
-/// result, when only an arc of the circle is above each pixel's horizon.
+/// The inner loop of the exact filter: the light of one circle of latitude of the environment in one row of the result,
+/// when only an arc of the circle is above each pixel's horizon.
 #pragma once
 
 #include <cstdint>
 
 namespace vmlight {
 
-/// The running integrals from longitude 0, anywhere in one pixel of a row of the environment (R, G, B and a spare
-/// lane):
+/// Prefix integrals from longitude 0 to anywhere in one pixel of a row of the environment (R, G, B and a spare lane):
 ///     Int L dphi     = zero + slope phi
 ///     Int L cos dphi = cosine + slope sin phi
 ///     Int L sin dphi = sine - slope cos phi
-/// where slope is the pixel's own L: so the ends of an arc need no trigonometry of their own.
+/// where slope is the pixel's L, so that the ends of an arc need no trigonometry.
 struct alignas(64) PrefixCell
 {
     double zero[4], slope[4], cosine[4], sine[4];
@@ -25,11 +24,11 @@ struct ColumnAngle
 };
 
 /// Arcs around a run of columns. In column c the arc ends at cells (end[0] + c step) >> 32 and, at its beginning,
-/// (end[1] + c step) >> 32, in fixed point of 32 fraction bits; a cell taken one too far left or right for rounding
-/// does no harm, because the running integrals are continuous.
+/// (end[1] + c step) >> 32, in fixed point of 32 fraction bits; a cell too far left or right by rounding
+/// does no harm, because prefix integrals are continuous.
 struct ArcRun
 {
-    int first, last; ///< columns, `last` not among them
+    int first, last; ///< columns, `last` excluded
     int64_t end[2], step; ///< cells
     double upward, sideward; ///< weight times a and b of n.w = a + b cos(phi - phi_column)
     double slope_at_end[2]; ///< factors of the slopes are upward phi_column + slope_at_end
@@ -42,9 +41,9 @@ struct alignas(64) ColumnSum
 };
 
 /// Add to sums[c], for each column c of the run, the integral of L (a + b cos(phi - phi_c)) over its arc.
-/// `cells` must be readable one cell left and right of the row. Vectorised for the machine that it runs on.
+/// `cells` must be readable one cell left and right of the row. Vectorised, for the CPU that it runs on.
 void add_arcs(ColumnSum* sums, const PrefixCell* cells, const ColumnAngle* columns, const ArcRun& run);
-/// The same in plain C++; add_arcs() differs from it by rounding alone.
+/// The same in scalar code; add_arcs() differs from it only by rounding.
 void add_arcs_scalar(ColumnSum* sums, const PrefixCell* cells, const ColumnAngle* columns, const ArcRun& run);
 
 } // namespace vmlight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Running integrals along a row of the environment.
+/// Prefix integrals along a row of the environment.
 #pragma once
 
 #include <vmlight/cfem/kernel.h>
@@ -8,7 +8,7 @@
 
 namespace vmlight {
 
-/// What a whole circle sends to direction n is n.y zero + sin theta_n (cos phi_n cosine + sin phi_n sine).
+/// The light of a whole circle for direction n is n.y zero + sin theta_n (cos phi_n cosine + sin phi_n sine).
 struct Moments
 {
     double zero[3] = {}, cosine[3] = {}, sine[3] = {};
@@ -27,15 +27,15 @@ struct Moments
     }
 };
 
-/// What a row of the environment holds in sum, and, of L alone, the most in one place: some 1/32 of the circle.
+/// Sums of a row of the environment, and the largest sum of L over about 1/32 of the circle.
 struct RowLight
 {
     Moments total;
     double brightest[3] = {};
 };
 
-/// Set the cells of a row, one spare at either end included: width + 2 cells, for fixed-point positions may round to
-/// one cell outside.
+/// Set the cells of a row: width + 2, with a spare one at either end, since fixed-point positions may round to one cell
+/// outside.
 ///
 /// @param pixels   R, G, B of the row
 /// @param edges    the columns' edges, one more than columns, from 0 to 2 pi

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/radiance.h>
 
-#include <vmlight/cfem/image.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/math/latlong.h>
@@ -16,14 +15,14 @@ using latlong::pi;
 
 namespace {
 
-// What part of one row, or column, of the result a row, or column, of the environment covers.
+// How much of a row (or column) of the result one row (or column) of the environment covers.
 struct Share
 {
     int index;
     double weight;
 };
 
-// The parts of [from, to] that fall between the edges k length / count; `measure` is that of an interval.
+// Split [from, to] at the edges k length / count; `measure` gives the weight of an interval.
 template <class Measure>
 std::vector<Share> shares(double from, double to, int count, double length, const Measure& measure)
 {
@@ -83,8 +82,8 @@ bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams
         for (int k = 0; k < 3 * width; ++k)
             sums[size_t(3) * width * j + k] *= width / (2 * pi * weights[size_t(j)]);
     OIIO::ImageSpec spec = describe_cfem_level(env.spec(), params, kStackLevels);
-    note_mended(spec, rows.bad_values());
-    return set_cfem(dst, spec, sums, true, error);
+    record_sanitized(spec, rows.bad_values());
+    return set_filtered(dst, spec, sums, true, error);
 }
 
 const OIIO::ImageBuf* find_radiance(OIIO::cspan<OIIO::ImageBuf> light)

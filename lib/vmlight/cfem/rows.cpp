@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace vmlight {
@@ -45,7 +46,7 @@ bool EnvironmentRows::open()
 
 bool EnvironmentRows::read(int row, float* rgb)
 {
-    // Mending needs the row below as well.
+    // A repair needs the row below as well.
     const int needed = std::min(m_grid.height, m_sanitize ? row + 2 : row + 1);
     while (m_loaded < needed)
         if (!load(m_loaded))
@@ -59,13 +60,13 @@ bool EnvironmentRows::read(int row, float* rgb)
                                               : "NaN, infinite or negative";
         Faults all = m_not_finite;
         all.merge(m_negative);
-        m_error = one_line(all.text("environment", wrong, m_env.spec().channelnames)) + "; --sanitize mends "
+        m_error = one_line(all.text("environment", wrong, m_env.spec().channelnames)) + "; --sanitize repairs "
             + plural(all.count(), "it", "them");
         return false;
     }
     std::copy(window(row).begin(), window(row).end(), rgb);
     if (m_window_bad[row % 3])
-        mend(row, rgb);
+        repair(row, rgb);
     return true;
 }
 
@@ -103,7 +104,7 @@ bool EnvironmentRows::load(int row)
     return true;
 }
 
-void EnvironmentRows::mend(int row, float* rgb) const
+void EnvironmentRows::repair(int row, float* rgb) const
 {
     const int width = m_grid.width;
     for (int x = 0; x < width; ++x)
@@ -125,6 +126,30 @@ void EnvironmentRows::mend(int row, float* rgb) const
                 }
             value = count > 0 ? float(sum / count) : 0;
         }
+}
+
+bool set_filtered(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vector<double>& rgb, bool clamp,
+                  std::string& error)
+{
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    std::vector<float> pixels(rgb.size());
+    for (size_t i = 0; i < rgb.size(); ++i) {
+        // A mean does not exceed its largest value: a little beyond the largest float is rounding.
+        const bool rounding = rgb[i] > kLargest && rgb[i] <= kLargest * (1 + 1e-6);
+        pixels[i] = rounding ? kLargest : float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
+        if (!std::isfinite(pixels[i])) {
+            error = OIIO::Strutil::fmt::format("filtered light of {:g} is too large for a float", rgb[i]);
+            return false;
+        }
+    }
+    dst.reset(spec, OIIO::InitializePixels::No);
+    return dst.set_pixels(dst.roi(), OIIO::TypeFloat, pixels.data());
+}
+
+void record_sanitized(OIIO::ImageSpec& spec, int64_t values)
+{
+    if (values)
+        spec.attribute("vmlight:sanitized", int(std::min<int64_t>(values, std::numeric_limits<int>::max())));
 }
 
 } // namespace vmlight

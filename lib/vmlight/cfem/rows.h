@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Rows of an environment's colour, checked on the way: NaN, infinite and negative values are counted, and mended if
-/// asked. Holds three rows at a time.
+/// Both ends of a filter: the rows of an environment that it reads, and the image that its sums become.
 #pragma once
 
 #include <vmlight/base/faults.h>
@@ -15,28 +14,30 @@
 
 namespace vmlight {
 
+/// Rows of an environment's colour. NaN, infinite and negative values are counted, and repaired on request. Holds three
+/// rows at a time.
 class EnvironmentRows
 {
 public:
-    /// The image that `env` may be must outlive this.
+    /// If `env` is an image, it must outlive this.
     EnvironmentRows(Environment env, bool sanitize);
 
     /// False, with the reason in error(), if there is no colour to read.
     bool open();
     const EnvironmentGrid& grid() const { return m_grid; }
 
-    /// Set `rgb` to the 3 x width floats of a row; to be called for rows 0, 1, 2, ... in order. False, with the reason
-    /// in error(), if the row cannot be read, or if it holds a bad value that is not to be mended: then all rows that
-    /// are left are read too, so that the reason counts every bad value.
+    /// Set `rgb` to the 3 x width floats of a row; call it for rows 0, 1, 2, ... in order. False, with the reason in
+    /// error(), if the row cannot be read, or without `sanitize` has a bad value: then the remaining rows are read too,
+    /// so that the message counts all bad values.
     bool read(int row, float* rgb);
 
-    /// Bad values met so far.
+    /// NaN, infinite and negative values so far.
     int64_t bad_values() const { return m_not_finite.count() + m_negative.count(); }
     const std::string& error() const { return m_error; }
 
 private:
     bool load(int row);
-    void mend(int row, float* rgb) const;
+    void repair(int row, float* rgb) const;
     std::vector<float>& window(int row) { return m_window[row % 3]; }
     const std::vector<float>& window(int row) const { return m_window[row % 3]; }
 
@@ -52,5 +53,13 @@ private:
     Faults m_not_finite, m_negative;
     std::string m_error;
 };
+
+/// Set `dst` to a float image of `spec` with the values `rgb`, those below 0 as 0 if `clamp`. False, with the reason in
+/// `error`, if one does not fit a float.
+bool set_filtered(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::vector<double>& rgb, bool clamp,
+                  std::string& error);
+
+/// Set `vmlight:sanitized` to the number of values that were repaired, if any.
+void record_sanitized(OIIO::ImageSpec& spec, int64_t values);
 
 } // namespace vmlight

@@ -2,20 +2,19 @@
 #include <vmlight/cfem/stack.h>
 
 #include <vmlight/cfem/exact.h>
-#include <vmlight/cfem/image.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/rows.h>
-#include <vmlight/cfem/sh.h>
+#include <vmlight/cfem/spherical_harmonics.h>
 
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
 namespace {
 
-// Bands of the projection. What the lobes leave of those beyond is in the errors that the header tells.
+// Bands of the projection. The errors in the header include what is cut off beyond them.
 constexpr int kOrder = 32;
 
-// The steps of the work, of which each reports to one share of the whole.
+// Progress of one step, as a share of the whole.
 Progress share(const Progress& progress, double from, double to)
 {
     if (!progress)
@@ -38,7 +37,7 @@ OIIO::ImageSpec describe_cfem_level(const OIIO::ImageSpec& env, const CfemParams
     OIIO::ImageSpec spec = describe_cfem(env, params);
     spec.attribute("vmlight:stack", "true");
     spec.attribute("vmlight:lobe", float(stack_lobe(level)));
-    // EXR wants a name for each of several images, and each another.
+    // EXR requires a unique name for each of several images.
     spec.attribute("oiio:subimagename", OIIO::Strutil::fmt::format("lobe{:.4f}", stack_lobe(level)));
     return spec;
 }
@@ -66,9 +65,9 @@ bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const 
         error = levels[0].geterror();
         return false;
     }
-    const int mended = levels[0].spec().get_int_attribute("vmlight:sanitized");
+    const int sanitized = levels[0].spec().get_int_attribute("vmlight:sanitized");
     levels[0].specmod() = describe_cfem_level(env.spec(), params, 0);
-    note_mended(levels[0].specmod(), mended);
+    record_sanitized(levels[0].specmod(), sanitized);
 
     const auto filter = [&](auto&& work) {
         EnvironmentRows rows(env, params.sanitize);
@@ -80,8 +79,8 @@ bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const 
     };
     const auto keep = [&](int level, const std::vector<double>& rgb) {
         OIIO::ImageSpec spec = describe_cfem_level(env.spec(), params, level);
-        note_mended(spec, mended);
-        return set_cfem(levels[size_t(level)], spec, rgb, true, error);
+        record_sanitized(spec, sanitized);
+        return set_filtered(levels[size_t(level)], spec, rgb, true, error);
     };
     std::vector<double> rgb, coefficients;
     if (!filter([&](const EnvironmentGrid& grid, const ReadRow& read) {

@@ -20,20 +20,20 @@ namespace {
 using Moments = std::array<double, kMomentFloats>;
 using Grid = std::vector<Moments>; // kColumns times kSlices
 
-// The part of [middle - half, middle + half], in units of cells, that lies in cell `k`.
+// The share of [middle - half, middle + half], in units of cells, that is in cell `k`.
 double share(double middle, double half, int k)
 {
     return std::max(0.0, std::min(middle + half, k + 1.0) - std::max(middle - half, double(k))) / (2 * half);
 }
 
-// Of a patch `size` radians wide around `w`. Near the poles of the grid it reaches around the sphere.
+// Add a patch `size` radians wide around `w`. Near the poles of the grid it wraps around.
 void add_patch(Grid& grid, const V3d& w, double size, const double* color, double solid_angle)
 {
     const double across = std::hypot(w.x, w.z);
     const double column = latlong::position(w).x * kColumns;
     const double half_column = std::min(0.5, 0.25 * size / pi / std::max(across, 1e-9)) * kColumns;
     const double half_slice = std::min(0.5, 0.25 * size * std::max(across, 0.5 * size)) * kSlices;
-    // Moved inside where it would stick out of the sphere.
+    // Moved inside where it would reach beyond the pole.
     const double slice = std::clamp((w.y + 1) * 0.5 * kSlices, half_slice, kSlices - half_slice);
     const int first = std::max(0, int(slice - half_slice)), last = std::min(kSlices - 1, int(slice + half_slice));
     for (int c = int(std::floor(column - half_column)); c < column + half_column; ++c) {
@@ -66,7 +66,7 @@ void set_triples(CellLight& dst)
                     + float(code & 3) * band(3 * triple + 2, k);
 }
 
-// Nearly square parts of the pixels of a map, at most a cell's height apart.
+// How pixels are cut into nearly square patches, at most a cell high.
 struct Parts
 {
     int across, down; // of a pixel
@@ -92,7 +92,7 @@ void measure(CellLight& dst, const CfemLookup& map)
                 least = std::min(least, value);
                 most = std::max(most, value);
             }
-        // What is the same everywhere is its own mean, to the last bit.
+        // A constant is its own mean, to the last bit.
         dst.mean[c] = std::clamp(float(mean), least, most);
         dst.least[c] = least;
         dst.most[c] = most;

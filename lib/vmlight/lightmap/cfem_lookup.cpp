@@ -16,7 +16,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Row by row, and only the channels in use, so that a map in a cache costs no second copy of itself.
+// Row by row, and only the channels in use, so that a map in a cache is not copied as a whole.
 bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int, 3>& index, std::string& error)
 {
     const OIIO::ImageSpec& spec = cfem.spec();
@@ -35,7 +35,7 @@ bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int
         for (int x = 0; x < dst.width; ++x, texel += 4)
             for (int c = 0; c < 3; ++c) {
                 texel[c] = row[size_t(x) * channels + index[c] - *first];
-                // A gray map is three channels here and one to the user.
+                // A gray map is three channels here, but one to the user.
                 if (!std::isfinite(texel[c]) && (c == 0 || index[c] != index[0]))
                     faults.add(spec.x + x, spec.y + y, index[c]);
             }
@@ -101,18 +101,20 @@ bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& erro
     if (!find_color_channels(spec, index, error))
         return false;
     if (OIIO::get_roi(spec) != OIIO::get_roi_full(spec)) {
-        error = format("cosine-filtered environment is a crop: {}x{} pixels are stored of {}x{}", spec.width,
+        error = format("cosine-filtered environment is cropped: it stores {}x{} pixels of {}x{}", spec.width,
                        spec.height, spec.full_width, spec.full_height);
         return false;
     }
     if (spec.get_int_attribute("oiio:sampleborder")) {
-        error = "cosine-filtered environment has samples on its borders, as maketx --envlatl makes them; plain maketx "
-                "keeps it as it is";
+        error = "cosine-filtered environment has samples on its borders, as maketx --envlatl makes them; use plain "
+                "maketx, "
+                "which keeps the pixels";
         return false;
     }
-    // The kernel counts texels in 32 bits.
+    // The vector kernel indexes texels with 32 bits.
     if ((int64_t(spec.width) + 2) * (int64_t(spec.height) + 4) > int64_t(1) << 28) {
-        error = format("cosine-filtered environment of {}x{} pixels is too large", spec.width, spec.height);
+        error = format("cosine-filtered environment of {}x{} pixels is too large; the limit is 2^28", spec.width,
+                       spec.height);
         return false;
     }
     dst = {};
@@ -126,7 +128,7 @@ bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& erro
     for (float value : dst.texels)
         dst.largest = std::max(dst.largest, std::abs(value));
     if (!std::isfinite(dst.largest)) {
-        error = "cosine-filtered environment has values too large to be interpolated";
+        error = "cosine-filtered environment has values too large to interpolate";
         return false;
     }
     return true;

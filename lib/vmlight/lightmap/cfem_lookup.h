@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A CFEM made ready to be looked up along any direction: bilinear in (s, t), continuous over the seam and the poles,
-/// with no test for either in the inner loop.
+/// A CFEM prepared for lookups along any direction: bilinear in (s, t), continuous across the seam and the poles,
+/// without a test for either in the inner loop.
 ///
-/// The texels stand in a frame of one more texel on each side. The extra columns repeat the column across the seam.
-/// The extra row above row 0 is 2 P - row 0, where P, the mean of row 0, is the value of the pole: halfway between the
-/// two, where the pole is, interpolation gives P from whatever side it is reached. Unlike the row that lies across
-/// the pole (row 0, half a turn away), this asks for no even width, and the pole has one value.
+/// The texels have a frame one texel wide. Its columns repeat the column across the seam. The row above row 0 is
+/// 2 P - row 0, where P, the mean of row 0, is the value of the pole: halfway between the two rows, at the pole,
+/// interpolation gives P along every meridian. Repeating row 0 rotated by half a turn instead would need an even width
+/// and give the pole no single value.
 #pragma once
 
 #include <OpenImageIO/imagebuf.h>
@@ -21,8 +21,8 @@ struct CfemLookup
     int width = 0, height = 0;
     /// Texels from one row of `texels` to the next: width + 2.
     int pitch = 0;
-    /// R, G, B and a 0, so that one 128-bit load fetches a texel: height + 2 rows, then two rows of nothing but the
-    /// mean of the map over the sphere, where a lookup without a direction goes.
+    /// R, G, B and a 0, so that one 128-bit load fetches a texel: height + 2 rows, then two rows that hold the mean of
+    /// the map over the sphere, for lookups without a direction.
     std::vector<float> texels;
     /// Largest absolute value in `texels`.
     float largest = 0;
@@ -32,12 +32,12 @@ struct CfemLookup
     int mean_texel() const { return (height + 2) * pitch; }
 };
 
-/// Make `cfem` ready.
+/// Prepare `cfem`.
 ///
 /// @param cfem     a lat-long map of R, G, B, or of one channel, of any size from 1x1 to 2^28 texels, frame included.
-///                 Negative values pass: filters that ring make them
-/// @returns false, with the reason in `error`, if `vmlight:stage` says that the image is no CFEM, it has no colour,
-///          cannot be read, or has values that are not finite or so large that interpolating them would not be.
+///                 Negative values are allowed: filters that ring make them
+/// @returns false, with the reason in `error`, if `vmlight:stage` names another stage, the image has no colour, is a
+///          crop, cannot be read, or has values that are not finite or too large to interpolate.
 bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& error);
 
 } // namespace vmlight

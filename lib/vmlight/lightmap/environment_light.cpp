@@ -27,11 +27,11 @@ double cell_width(const EnvironmentGrid& grid, int column)
     return grid.column_edge(column + 1) - grid.column_edge(column);
 }
 
-// The first entry above `x`, and how far `x` has come from the one before to it.
+// The first entry above `x`, and the position of `x` between the entry before and this one.
 template <class Sums> int find_share(const Sums* sums, int count, double x, double& within)
 {
     const int found = int(std::upper_bound(sums, sums + count, x) - sums);
-    // What rounding leaves past the end belongs to the last entry that has a share.
+    // Beyond the end by rounding: the last entry with a share.
     const int last = int(std::lower_bound(sums, sums + count, sums[count - 1]) - sums);
     const int index = std::min(found, last);
     const double low = index ? double(sums[index - 1]) : 0, high = double(sums[index]);
@@ -81,7 +81,8 @@ EnvironmentSample EnvironmentLight::sample(double u, double v) const
     const int row = find_share(m_rows.data(), m_grid.height, v, down);
     const int column = find_share(&m_columns[size_t(row) * m_grid.width], m_grid.width, u, across);
     const double phi = m_grid.column_edge(column) + across * cell_width(m_grid, column);
-    // Even in cos theta, from the upper edge: cos theta = cos a - x, so that sin^2(theta / 2) = sin^2(a / 2) + x / 2.
+    // Uniform in cos theta, from the upper edge: cos theta = cos a - x, so that sin^2(theta / 2) = sin^2(a / 2) + x
+    // / 2.
     const double half_sine = std::sin(0.5 * m_grid.row_edge(row));
     const double square = std::min(1.0, half_sine * half_sine + 0.5 * down * cell_height(m_grid, row));
     const double cosine = 1 - 2 * square, sine = 2 * std::sqrt(square * (1 - square));

@@ -109,7 +109,7 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
     if (own.width() == roi.width() && own.height() == roi.height())
         return true;
 
-    // Looked at first: a filter would spread a NaN, and average a negative value away.
+    // Checked before: a filter would spread a NaN and hide a negative value.
     Faults faults;
     std::vector<float> row;
     for (int y = stored.ybegin; y < stored.yend; ++y)
@@ -149,7 +149,7 @@ bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, Faults& faults, st
     for (size_t i = 0; i < texels; ++i, read += channels)
         for (int c = 0; c < 3; ++c, ++texel) {
             *texel = read[m_index[c] - *first];
-            // The negated test is true for NaN, too. One gray value is one fault.
+            // The negated test is also true for NaN. A gray value is one fault.
             if (!(*texel >= 0 && *texel <= FLT_MAX) && (c == 0 || !gray))
                 faults.add(roi.xbegin + int(i % roi.width()), roi.ybegin + int(i / roi.width()), m_index[c]);
         }

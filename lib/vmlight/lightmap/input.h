@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What shading reads, in whatever form it comes: any pixel type, order of channels, and storage.
+/// Inputs of shading, of any pixel type, channel order and storage.
 #pragma once
 
 #include <vmlight/base/faults.h>
@@ -14,13 +14,14 @@
 
 namespace vmlight {
 
-/// `reason`, led by the image's name in quotes if it has one.
+/// `reason` after the image's name in quotes, if it has one.
 std::string named(const OIIO::ImageBuf& image, const std::string& reason);
 
-/// False, with the reason in `error`, if `image` cannot be read, or is deep or a volume. `what` says what it should be.
+/// False, with the reason in `error`, if `image` cannot be read, or is deep or a volume. `what` names what was
+/// expected.
 bool check_input(const OIIO::ImageBuf& image, const char* what, std::string& error);
 
-/// Add the values of `pixels`, which hold `roi` with `channels` channels, that are NaN or infinite.
+/// Add the NaN and infinite values of `pixels`, which hold `roi` with `channels` channels.
 void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, Faults& faults);
 
 /// Reads a visibility map as a model takes it: the floats of a texel side by side, in the model's order of channels.
@@ -51,13 +52,13 @@ private:
 class AlbedoReader
 {
 public:
-    /// The albedo's display window is the texture, black where the file stores nothing. Resizes it to `roi` by a
-    /// triangle filter, which never rings, if its size differs. False, with the reason in `error`, if check_window()
-    /// refuses it, it is no colour, or was resized and has a negative value or one that is not finite.
+    /// The albedo's display window is the texture, black where the file stores no pixels. If its size differs, it is
+    /// resized to `roi` by a triangle filter, which does not ring. False, with the reason in `error`, if check_window()
+    /// refuses it, it has no colour, or it must be resized and has a value that is negative or not finite.
     bool open(const OIIO::ImageBuf& image, OIIO::ROI roi, int nthreads, std::string& error);
 
-    /// Multiply `rgb`, the pixels of `roi`. Adds what is negative or not finite to `faults`, and says in `error` if
-    /// the albedo cannot be read.
+    /// Multiply `rgb`, the pixels of `roi`. Values that are negative or not finite are added to `faults`; `error` is
+    /// set if the albedo cannot be read.
     void multiply(OIIO::ROI roi, float* rgb, std::vector<float>& scratch, Faults& faults, std::string& error) const;
 
     std::string fault_text(const Faults& faults) const;
@@ -65,8 +66,8 @@ public:
 private:
     bool read(OIIO::ROI roi, std::vector<float>& scratch, Faults& faults, std::string& error) const;
 
-    const OIIO::ImageBuf* m_original = nullptr; // what the user named
-    const OIIO::ImageBuf* m_image = nullptr; // what is read: the original, or the resized copy
+    const OIIO::ImageBuf* m_original = nullptr; // as given, for messages
+    const OIIO::ImageBuf* m_image = nullptr; // the original, or the resized copy
     OIIO::ImageBuf m_resized;
     std::array<int, 3> m_index {};
     int m_dx = 0, m_dy = 0; // from the map's pixel coordinates to those of m_image

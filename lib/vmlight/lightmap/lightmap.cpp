@@ -22,8 +22,8 @@ using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 using OIIO::Strutil::fmt::format;
 
-// A turntable calls for image after image of one size: memory that is there and fits is used again, since fresh pages
-// cost as much as the shading.
+// A turntable makes image after image of one size: memory that fits is reused, since fresh pages cost as much as the
+// shading.
 bool has_room(const ImageBuf& dst, const ImageSpec& spec)
 {
     return dst.initialized() && dst.storage() == ImageBuf::LOCALBUFFER && dst.pixeltype() == OIIO::TypeFloat
@@ -38,7 +38,7 @@ struct Scratch
 bool shade(ImageBuf& dst, const VismapReader& vismap, const LightmapShader& shader, int nthreads,
            const Progress& progress, std::string& error)
 {
-    // Blocks of whole rows: some 16 thousand texels are long against the hand-out, and short for Ctrl-C.
+    // Blocks of whole rows, about 16 thousand texels: long enough to schedule, short enough for Ctrl-C.
     const OIIO::ROI all = dst.roi();
     const int rows = std::max(1, 16384 / all.width());
     std::vector<Scratch> scratch(worker_count(nthreads));

@@ -11,7 +11,7 @@ namespace {
 using OIIO::Strutil::fmt::format;
 
 constexpr double kLobeTolerance = 1e-4;
-// The kernel counts floats in 32 bits.
+// The vector kernel indexes floats with 32 bits.
 constexpr int64_t kMostFloats = (int64_t(1) << 31) - 1;
 
 int knot_of(int level)
@@ -19,7 +19,7 @@ int knot_of(int level)
     return level == 0 ? kCfemKnot : level == 1 ? 1 : level + 1;
 }
 
-// In the maps of both its pairs.
+// Store a knot in the maps of both its pairs.
 void set_knot(LobeLookup& dst, int knot, int64_t place, const float* texel)
 {
     const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
@@ -35,9 +35,9 @@ std::string level_fault(const LobeLookup& dst, const OIIO::ImageBuf& image, int 
     const float lobe = spec.get_float_attribute("vmlight:lobe", -1);
     std::string error;
     if (!(std::abs(lobe - stack_lobe(level)) < kLobeTolerance))
-        return format("vmlight:lobe is {:g}; {:.4f} is needed", lobe, stack_lobe(level));
+        return format("vmlight:lobe is {:g} instead of {:.4f}", lobe, stack_lobe(level));
     if (level > 0 && (spec.width != dst.width || spec.height != dst.height))
-        return format("{}x{} pixels, and {}x{} at level 0", spec.width, spec.height, dst.width, dst.height);
+        return format("{}x{} pixels, but level 0 has {}x{}", spec.width, spec.height, dst.width, dst.height);
     return prepare_cfem(map, image, error) ? "" : error;
 }
 
@@ -47,7 +47,8 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
 {
     dst = {};
     if (levels.size() != kStackLevels) {
-        error = format("a stack of {} levels; {} are needed", levels.size(), kStackLevels);
+        error = format("a stack of {} levels instead of {}; make it anew with makecfem --stack", levels.size(),
+                       kStackLevels);
         return false;
     }
     const OIIO::ImageSpec& spec = levels[0].spec();
@@ -56,7 +57,8 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
     dst.pitch = spec.width + 2;
     const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
     if (texels * kLobeFloats * (kLobeKnots - 1) > kMostFloats) {
-        error = format("a stack of {} levels of {}x{} pixels is too large", kStackLevels, spec.width, spec.height);
+        error = format("a stack of {} levels of {}x{} pixels is too large; the limit is 39 million pixels per level",
+                       kStackLevels, spec.width, spec.height);
         return false;
     }
     dst.texels.resize(kLobeFloats * size_t(texels) * (kLobeKnots - 1) + 2);

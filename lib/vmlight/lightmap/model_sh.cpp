@@ -2,7 +2,7 @@
 #include <vmlight/lightmap/model_sh.h>
 
 #include <vmlight/cfem/rows.h>
-#include <vmlight/cfem/sh.h>
+#include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/math/four_floats.h>
 #include <vmlight/math/harmonics.h>
@@ -14,7 +14,7 @@
 namespace vmlight {
 namespace {
 
-// Bands that the channels of `vismap` complete: 2, those of V and B, if it has no others.
+// Bands that `vismap` has all channels of; 2, those of V and B, if it has no others.
 int complete_bands(const OIIO::ImageSpec& vismap)
 {
     for (int bands = Harmonics::kLargestOrder; bands > 2; --bands) {
@@ -32,7 +32,7 @@ bool shade_harmonics(const HarmonicLight& harmonics, const ShadeSetup& setup, co
     const float* light = harmonics.coefficients.data();
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += count, rgb += 3) {
-        // Two sums, so that each waits for the one before the last.
+        // Two sums, to halve the dependency chain.
         FourFloats even {}, odd {};
         int k = 0;
         for (; k + 1 < count; k += 2) {

@@ -22,7 +22,7 @@ struct HarmonicLight
 /// Project `radiance` onto the first `bands` bands, then rotate them.
 ///
 /// @param radiance         as make_radiance() makes it
-/// @param to_environment   takes directions of the object to the environment's
+/// @param to_environment   rotates directions from object to environment space
 /// @returns false, with the reason in `error`, if make_cfem() would refuse the image.
 bool build_harmonic_light(HarmonicLight& dst, const OIIO::ImageBuf& radiance, int bands, const Rotation& to_environment,
                           std::string& error);

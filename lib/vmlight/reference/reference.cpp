@@ -25,9 +25,9 @@ using latlong::pi;
 using OIIO::Strutil::fmt::format;
 
 constexpr int kChannels = 7;
-constexpr int kPairs = 128; // whose rays are asked about at once
+constexpr int kPairs = 128; // traced at once
 
-// Independent numbers in [0, 1): a function of the texel, the pair and the seed alone.
+// Independent random numbers in [0, 1), a function of texel, pair and seed alone.
 // Source: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (SplitMix64).
 class Random
 {
@@ -52,7 +52,7 @@ private:
     uint64_t m_state;
 };
 
-// Means and squared deviations of three channels, pair by pair.
+// Running means and squared deviations of three channels.
 // Source: B. P. Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.
 struct Moments
 {
@@ -71,7 +71,7 @@ struct Moments
     }
 };
 
-// One to a thread.
+// One per thread.
 class Tracer
 {
 public:
@@ -111,7 +111,8 @@ public:
     }
 
 private:
-    // What the ray brings if nothing blocks it: with the balance heuristic, light over the sum of both densities.
+    // Set the ray, and the light that it carries if nothing blocks it: by the balance heuristic, light over the sum of
+    // both densities.
     void take(int ray, const SurfacePoint& point, const V3d& direction, const EnvironmentSample& light)
     {
         const double cosine = direction.dot(V3d(point.normal));
@@ -173,7 +174,7 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
     float* pixels = static_cast<float*>(dst.localpixels());
     const int width = dst.spec().width, height = dst.spec().height;
     if (!pixels)
-        return fail(dst, format("no memory for {} x {} texels", width, height));
+        return fail(dst, format("no memory for {}x{} texels", width, height));
     const float length
         = map.max_distance > 0 ? float(map.max_distance * scene.frame().scale) : std::numeric_limits<float>::infinity();
     const double gain = std::exp2(light.exposure);

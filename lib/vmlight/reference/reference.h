@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The truth that shading models are measured by: light traced ray by ray, with its own standard error.
+/// The ray-traced reference that shading models are compared with, and its standard error.
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -19,7 +19,7 @@ class BakeScene;
 
 struct ReferenceParams
 {
-    /// Pairs of rays a texel: one with the density of the cosine, one with that of the environment.
+    /// Pairs of rays per texel: one distributed as the cosine, one as the environment.
     int samples = 1024;
     int seed = 0;
     /// As CfemParams::sanitize.
@@ -27,24 +27,27 @@ struct ReferenceParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("samples", samples, Range { 2, 1 << 24 }, "Pairs of rays a texel");
-        field("seed", seed, Range { 0, 2147483647 }, "Another seed, other noise");
-        field("sanitize", sanitize, Flag {}, "Mend NaN, infinite and negative pixels of the environment");
+        field("samples", samples, Range { 2, 1 << 24 }, "Pairs of rays per texel");
+        field("seed", seed, Range { 0, 2147483647 }, "Random seed: changes the noise");
+        field("sanitize", sanitize, Flag {}, "Repair NaN, infinite and negative pixels of the environment");
     }
 };
 
 /// Trace (1/pi) Int L(R w) vis(w) max(0, n.w) dw for each texel of a mesh, by multiple importance sampling of the
-/// cosine and the environment. Independent random numbers and no clamping: unbiased, and its standard error is that of
-/// a mean of independent pairs. Where the shading normal n leans away from the surface's, directions under the surface
-/// are left out and the rest is divided by the share of the cosine above it, (1 + n.g) / 2, as visibility maps do.
+/// cosine and the environment. Independent random numbers and no clamping: the estimate is unbiased, and its standard
+/// error is that of the mean of independent pairs. Where the shading normal n differs from the geometric normal g,
+/// directions below the surface are left out and the result is divided by the share of the cosine above it,
+/// (1 + n.g) / 2, as in visibility maps.
 ///
-/// @param dst      set to a float image of the size that `map` asks for: `R`, `G`, `B`, their standard errors
-///                 `error.R`, `error.G`, `error.B`, and `coverage`: 1 where a triangle covers the texel, else 0 and
-///                 black. There is no margin
+/// @param dst      set to a float image of the size of `map`, in the units of `env`: `R`, `G`, `B`, their standard
+///                 errors `error.R`, `error.G`, `error.B`, and `coverage`: 1 where a triangle covers the texel, else 0
+///                 and black. Without a margin
+/// @param occluders meshes in the same space that cast and are not shaded
 /// @param env      a lat-long map in linear light, as for make_cfem(): pixels are constant over their area
-/// @param map      what a visibility map of the same texels would be made with; its rays and measure mean nothing here
-/// @param light    rotation and exposure; the model means nothing here
-/// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
+/// @param map      size, UDIM tile and maximum distance, as for a visibility map of the same texels; its rays and
+///                 measure have no effect
+/// @param light    rotation and exposure; the model has no effect
+/// @param nthreads 0 means OIIO's default. The result is the same bits for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no triangle or no
 ///          uvs, `env` has no colour or bad pixels, memory runs out, or `progress` stopped the work ("interrupted").
 /// Source: E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2 (balance
@@ -53,7 +56,7 @@ VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std
                                 const OIIO::ImageBuf& env, const VismapParams& map, const LightmapParams& light = {},
                                 const ReferenceParams& params = {}, int nthreads = 0, const Progress& progress = {});
 
-/// The same, of a scene that is built and that other maps may share.
+/// The same with a scene that other maps may share.
 VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env,
                                 const VismapParams& map, const LightmapParams& light, const ReferenceParams& params,
                                 int nthreads, const Progress& progress);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The work behind a visibility map, tile by tile: what make_vismap() does for a whole map, a reader does for the tiles
-/// that are asked for. Neither the order of tiles nor what else is baked changes a bit.
+/// Baking by tile: make_vismap() bakes all tiles of a map, a reader those that are asked for. Neither their order nor
+/// what else is baked changes a bit.
 #pragma once
 
 #include <vmlight/base/progress.h>
@@ -21,16 +21,16 @@
 
 namespace vmlight {
 
-/// The map that `params` ask for: size, channels and metadata, but for what takes the mesh itself to know, as the
-/// samples that a target error takes do.
+/// Size, channels and metadata of the map that `params` ask for, except what depends on the mesh, such as the samples
+/// for a target error.
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
 
-/// make_vismap(), from a scene that other maps may share. With a `time_budget`, in seconds, the samples are those that
-/// the bake has time for on this machine, and at least one; the report tells.
+/// make_vismap() from a scene that other maps may share. With a `time_budget`, in seconds, the bake traces as many rays
+/// per texel as it has time for on this machine, at least one; the report has their number.
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
                  int nthreads, const Progress& progress, double time_budget = 0);
 
-/// What was baked.
+/// Counts of a bake, or of some tiles of it.
 struct BakeCounts
 {
     int64_t covered = 0, overlapping = 0, dark = 0, rays = 0;
@@ -38,7 +38,7 @@ struct BakeCounts
     void add(const BakeCounts& other);
 };
 
-/// Which texels of a tile are covered: bit x of word y.
+/// The covered texels of a tile: bit x of word y.
 using TileBits = std::array<uint64_t, kTileSize>;
 
 class VismapBaker
@@ -47,13 +47,15 @@ public:
     VismapBaker();
     ~VismapBaker();
 
-    /// Build what the tiles of this map share: the UV raster of its UDIM tile, the directions; bake some texels twice,
-    /// where an error or a time was asked for. The scene it shares with others.
+    /// Prepare what the tiles of this map share: the UV raster of its UDIM tile, the sample pattern, and, for a target
+    /// error or a time budget, the number of rays, for which some texels are baked twice.
     ///
-    /// @param scene    built
+    /// @param scene    built; other maps may share it
     /// @param time_budget as for make_vismap()
-    /// @returns false, with the reason in `error`, if a parameter is out of range, the error is out of reach, or
-    ///          `progress`, which is told 0, stopped it
+    /// @param progress called with 0; returning false stops the work
+    /// @returns false, with the reason in `error`, if a parameter is out of range, the target error is out of reach,
+    /// the
+    ///          basis needs another measure, or `progress` stopped it
     bool prepare(BakeScenePointer scene, const VismapParams& params, std::string& error, int nthreads = 0,
                  const Progress& progress = {}, double time_budget = 0);
 
@@ -69,18 +71,18 @@ public:
     int width() const;
     int height() const;
     int channels() const;
-    /// How many of them the margin has too.
+    /// Which of them the margin fills, and how.
     MarginChannels margin_channels() const;
     int tiles_across() const;
     int tiles_down() const;
     const UvReport& uv_report() const;
-    /// Fill in what uv_report() leaves out.
+    /// Fill in the counts of islands, which uv_report() leaves out.
     void count_islands(UvReport& report) const;
-    /// With the samples that it bakes with; and what they come to.
+    /// The parameters, with the chosen number of rays; and its error.
     const VismapParams& params() const;
     const SampleCount& error() const;
 
-    /// What one thread needs while it bakes.
+    /// Working memory of one thread.
     class Scratch;
     struct FreeScratch
     {
@@ -89,13 +91,14 @@ public:
     using ScratchPointer = std::unique_ptr<Scratch, FreeScratch>;
     ScratchPointer scratch() const;
 
-    /// Which texels tile number `tile` (row by row) covers: no ray is traced. Any thread, with a scratch of its own.
+    /// Find the covered texels of tile number `tile` (row by row). Traces no ray. Any thread, with a scratch of its
+    /// own.
     void cover_tile(int tile, Scratch& scratch, TileBits& covered) const;
 
     /// Bake tile number `tile`. Any thread, with a scratch of its own.
     ///
     /// @param texels   the tile's first texel, of channels() floats; rows are `pitch` floats apart. Texels that no
-    ///                 triangle covers are left as they are: there is no margin yet
+    ///                 triangle covers are not written: there is no margin yet
     BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered) const;
 
     /// Bake every tile into the whole map. False if `progress` stopped it.

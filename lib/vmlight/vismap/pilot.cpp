@@ -15,7 +15,7 @@
 namespace vmlight {
 namespace {
 
-// Rays between two looks at the progress: few enough to stop in well under a second.
+// Rays between two progress checks: few enough to stop in well under a second.
 constexpr int64_t kRaysPerItem = 1 << 14;
 
 } // namespace
@@ -51,7 +51,7 @@ bool VismapPilot::pick(const UvRaster& raster)
     m_covered = before.back();
     m_texels.resize(size_t(std::min(m_covered, kTexels)));
 
-    // One of each run of equally many, by chance: at equal steps they might fall into one column.
+    // A random one of each run of equal length: equal steps might all fall into one column.
     std::vector<int64_t> ranks(m_texels.size());
     const double run = double(m_covered) / double(std::max<int64_t>(1, texels()));
     for (size_t i = 0; i < ranks.size(); ++i)
@@ -86,7 +86,7 @@ bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
     const SamplePattern pattern(m_params.sampler, samples, m_params.measure == "uniform");
     const Point32 hash = texel_hash(uint32_t(samples), 0, uint32_t(m_params.seed));
     std::array<VismapParams, 2> params { m_params, m_params };
-    // The highest bit is set in no seed that can be asked for.
+    // No user seed has the highest bit set.
     params[0].seed = int(hash.u | 0x80000000u);
     params[1].seed = int((hash.v == hash.u ? ~hash.v : hash.v) | 0x80000000u);
 

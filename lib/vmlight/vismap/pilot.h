@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Some texels of a visibility map, baked twice: what its error is, before it is baked.
+/// A sample of the texels of a visibility map, baked twice to estimate its error before the bake.
 #pragma once
 
 #include <vmlight/base/progress.h>
@@ -13,7 +13,7 @@
 
 namespace vmlight {
 
-/// At one count of rays.
+/// The error at one number of rays.
 struct PilotError
 {
     int samples = 0;
@@ -21,33 +21,33 @@ struct PilotError
     double rms = 0;
     /// Root mean square of Visibility::error; 0 unless the channel is asked for.
     double lane_rms = 0;
-    /// What it took.
+    /// Time of the measurement.
     double seconds = 0;
 };
 
 class VismapPilot
 {
 public:
-    /// As many texels as this, or all if fewer are covered.
+    /// Texels to pick, or all if fewer are covered.
     static constexpr int64_t kTexels = 4096;
 
     /// @param scene    must outlive this
-    /// @param progress told 0 while it works, since the bake is yet to come; false stops it
+    /// @param progress called with 0, since the bake is yet to come; returning false stops the work
     VismapPilot(const BakeScene& scene, const VismapParams& params, int nthreads, const Progress& progress);
 
-    /// Choose covered texels evenly over the map. A function of what is covered alone. False if stopped.
+    /// Pick covered texels evenly over the map. A function of coverage alone. False if stopped.
     bool pick(const UvRaster& raster);
 
     // After pick().
-    /// Covered texels of the whole map, and of them those that were picked.
+    /// Covered texels of the whole map, and picked ones.
     int64_t covered() const { return m_covered; }
     int64_t texels() const { return int64_t(m_texels.size()); }
 
-    /// Bake the texels twice, with two seeds of which neither is the map's: the root mean square of the difference over
-    /// sqrt(2) is an estimate of the root mean square standard error, whatever the sampler, and its square is unbiased.
-    /// Bit-equal for every number of threads, but for the seconds. False if stopped.
+    /// Bake the texels twice, with two seeds other than the map's: the root mean square of the difference over sqrt(2)
+    /// estimates the root mean square standard error for any sampler, and its square is unbiased. The same bits for
+    /// every number of threads, except the seconds. False if stopped.
     ///
-    /// @param with_basis make the channels of the basis too, which change the seconds alone: they are the bake's then
+    /// @param with_basis also compute the channels of the basis, so that the seconds are those of the bake
     bool measure(int samples, PilotError& dst, bool with_basis = false) const;
 
 private:

@@ -13,9 +13,9 @@ namespace vmlight {
 namespace {
 
 constexpr int kFirst = 64, kMost = 1 << 20;
-// The error is known no better than to some per cent: counts nearer than this are as good.
+// The error is known to a few per cent only: closer counts are equally good.
 constexpr double kNear = 1.04;
-// Fewer texels may well agree by chance, all of them.
+// All of fewer texels may agree by chance.
 constexpr int64_t kTelling = 256;
 
 // error ~ samples^-0.75, the rate of all samplers.
@@ -34,7 +34,7 @@ int to_count(double samples, double least, double most)
     return int(std::ceil(std::min(std::max(samples, least), most)));
 }
 
-// Between a count that misses and one that reaches; both ends excluded, by kNear where there is room.
+// A count between one that misses the target and one that reaches it; both excluded, by kNear where there is room.
 int between(const PilotError& misses, const PilotError& reaches, double target, bool halve)
 {
     double share = 0.5;
@@ -52,7 +52,7 @@ enum class Outcome
     OutOfReach
 };
 
-// `dst` is the least that reaches the target, or the most that was tried.
+// `dst` is the lowest count that reaches the target, or the highest that was tried.
 Outcome reach(PilotError& dst, const VismapPilot& pilot, double target, int least)
 {
     PilotError misses, reaches; // samples 0: none yet
@@ -65,7 +65,7 @@ Outcome reach(PilotError& dst, const VismapPilot& pilot, double target, int leas
             still = pilot.texels() == 0 || pilot.texels() >= kTelling;
             least = still ? least : samples;
         }
-        // Few rays may all go the same way where many would not.
+        // A few rays may agree by chance.
         const bool by_chance = dst.rms == 0 && samples < kFirst && !still;
         (dst.rms <= target && !by_chance ? reaches : misses) = dst;
         if (reaches.samples && (reaches.samples == least || reaches.samples - 1 <= misses.samples * kNear)) {
@@ -74,19 +74,19 @@ Outcome reach(PilotError& dst, const VismapPilot& pilot, double target, int leas
         }
         if (misses.samples == kMost || (!reaches.samples && samples > kFirst && error_at(kMost, misses) > 2 * target))
             return Outcome::OutOfReach;
-        if (!reaches.samples) // no farther at once than the rate is to be trusted
+        if (!reaches.samples) // no farther in one step than the rate can be trusted
             samples = to_count(samples_for(misses, target), samples * kNear, std::min(kMost, samples * kFirst));
         else if (!misses.samples)
             samples = reaches.rms > 0
                 ? std::min(to_count(samples_for(reaches, target), least, samples / kNear), samples - 1)
                 : least;
         else
-            // Some counts are better than their neighbours: what follows the rate may never close in.
+            // Some counts are better than their neighbours: following the rate may never converge.
             samples = between(misses, reaches, target, tries > 6);
     }
 }
 
-// Seconds a texel and ray on all threads, from runs that grow until they are long enough to be timed.
+// Seconds per texel and ray on all threads, from runs that grow until they are long enough to time.
 bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 {
     PilotError timed;
@@ -116,7 +116,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& ra
     // One ray does not scatter.
     const int least = params.has("error") ? 2 : 1;
     if (target <= 0 && time_budget <= 0 && params.samples < least) {
-        error = "samples: 1 is too few for the channel error, which takes 2";
+        error = "samples: 1 is too few for the channel error, which needs 2";
         return false;
     }
     const OIIO::Timer timer;
@@ -129,7 +129,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& ra
         if (outcome == Outcome::Stopped)
             return stopped();
         if (outcome == Outcome::OutOfReach) {
-            error = OIIO::Strutil::fmt::format("target_error: {:.6g} is out of reach: {} rays a texel come to {:.2g}",
+            error = OIIO::Strutil::fmt::format("target_error: {:.6g} is out of reach: {} rays per texel give {:.2g}",
                                                target, kMost, error_at(kMost, measured));
             return false;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How many rays a visibility map needs for the error, or the time, that was asked for; and what error that is.
+/// Rays per texel for a target error or a time budget, and the error that they give.
 #pragma once
 
 #include <vmlight/base/progress.h>
@@ -12,32 +12,31 @@
 
 namespace vmlight {
 
-/// Rays of a map, and what they come to.
+/// Rays per texel of a map, and their error.
 struct SampleCount
 {
-    /// Rays a texel: those asked for, or those chosen.
+    /// Rays per texel, as asked for or as chosen.
     int samples = 0;
     /// As VismapReport::error.
     double rms = 0;
-    /// Texels that were baked twice for it; 0 if it was not measured.
+    /// Texels that were baked twice to measure it; 0 if it was not measured.
     int64_t texels = 0;
-    /// What Visibility::error is multiplied with, so that its root mean square is `rms`.
+    /// Factor for Visibility::error that makes its root mean square `rms`.
     double lane_scale = 1;
-    /// What the bake will take, if that was asked for; what this took.
+    /// Expected time of the bake, if it has a time budget; time of the measurement.
     double bake_seconds = 0, pilot_seconds = 0;
 };
 
-/// Choose the samples of a map, or measure the error at those it has.
+/// Choose the rays per texel of a map, or measure the error of those that `params` asks for.
 ///
-/// @param dst      samples alone, if neither an error, a time nor the channel `error` was asked for
-/// @param time_budget seconds that the bake may take on all threads; 0 is no limit. If one ray a texel takes longer,
-///                 one it is
-/// @returns false, with the reason in `error`, if `params.target_error` is out of reach, `progress` stopped it, or
-///          the channel `error` is asked for with 1 ray a texel
-/// For a target, a count that measured at most as much, where one 4 % lower (if there is one) measured more. Where
-/// 64 rays do not scatter, on 256 texels or more or on none, the least count is tried; on fewer 64 it is. A measured 0
-/// of less than 64 rays counts as chance where 64 scatter. A function of scene and params, but for the samples that
-/// `time_budget` chooses.
+/// @param dst      only `samples` is set if neither a target error, a time budget nor the channel `error` is asked for
+/// @param time_budget seconds for the bake on all threads, at least one ray per texel; 0 is unlimited
+/// @returns false, with the reason in `error`, if `params.target_error` is out of reach, `progress` stopped it, or the
+///          channel `error` is asked for with 1 ray per texel
+/// For a target error: a count that measured at most that error, where a count 4 % lower (if there is one) measured
+/// more. If 64 rays show no scatter on 256 or more texels (or there are no texels), the lowest count is tried; with
+/// fewer texels the count is 64. A measured error of 0 with less than 64 rays is taken as chance if 64 rays show
+/// scatter. A function of scene and params alone, except for a time budget.
 bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
                     double time_budget, int nthreads, const Progress& progress, std::string& error);
 

@@ -10,13 +10,13 @@
 namespace vmlight {
 namespace {
 
-// A margin up to this asks for two tiles on each side; beyond it the whole map is baked.
+// A margin up to this needs two tiles on each side; beyond it the whole map is baked.
 constexpr int kFarthestMargin = 2 * kTileSize;
 
 // Map, tile, and whether its margin is filled.
 using TileKey = std::tuple<uint64_t, int, bool>;
 
-// Never taken down: threads of the host may still read while the process ends.
+// Never destroyed: threads of the host may still read while the process exits.
 OnceCache<TileKey, MapTile>& cache()
 {
     static auto& tiles = *new OnceCache<TileKey, MapTile>(size_t(512) << 20);
@@ -37,8 +37,8 @@ OIIO::ROI tile_roi(const VismapBaker& baker, int tile)
 
 } // namespace
 
-// A tile and as much around it as its margin depends on: a texel of the margin is made of covered ones that are no
-// farther away than the margin is wide, through filled ones that are nearer still.
+// A tile and the surroundings that its margin depends on: a margin texel is made of covered ones at most one margin
+// width away, through filled ones that are nearer.
 struct VismapTiles::Window
 {
     Window(OIIO::ROI the_roi, int the_channels)
@@ -99,7 +99,7 @@ MapTilePointer VismapTiles::baked(int tile)
     });
 }
 
-// Baked only if a texel that it covers lies in the window. Returns whether one does.
+// Add a tile to the window; baked only if the window has one of its covered texels. Returns whether it does.
 bool VismapTiles::add_tile(Window& window, int tile, VismapBaker::Scratch& scratch)
 {
     TileBits bits;

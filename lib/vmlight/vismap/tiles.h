@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A visibility map by the tile, margin included: bit for bit the texels of make_vismap(), at the cost of the tiles
-/// that are asked for and of those whose texels reach into their margin.
+/// A visibility map by tile, margin included: bit for bit the texels of make_vismap(), at the cost of the tiles that
+/// are asked for and of those whose texels reach into their margin.
 #pragma once
 
 #include <vmlight/base/cache.h>
@@ -18,9 +18,9 @@ namespace vmlight {
 /// A tile of kTileSize x kTileSize texels.
 struct MapTile
 {
-    /// Rows without padding; empty if all is 0.
+    /// Rows without padding; empty if all values are 0.
     std::vector<float> texels;
-    /// Covered by a triangle: the margin is not.
+    /// Texels that a triangle covers; excludes the margin.
     TileBits covered {};
 
     size_t bytes() const { return sizeof(*this) + texels.size() * sizeof(float); }
@@ -37,16 +37,16 @@ public:
     VismapTiles(const VismapTiles&) = delete;
     VismapTiles& operator=(const VismapTiles&) = delete;
 
-    /// Tile number `tile` (row by row). Any thread; a tile is baked once while the cache has room for it.
+    /// Tile number `tile` (row by row). Any thread; a tile is baked once as long as the cache has room for it.
     MapTilePointer tile(int tile);
 
     /// Texels of `roi`, all channels, rows without padding.
     void read(OIIO::ROI roi, float* dst);
 
-    /// Whether the margin reaches so far that the first read bakes all, and this keeps it.
+    /// Whether the margin is so wide that the first read bakes the whole map, which this then keeps.
     bool is_whole() const { return m_whole; }
 
-    /// The process's cache of tiles, shared by all maps: 512 MiB unless set.
+    /// Limit of the tile cache that all maps of the process share: 512 MiB by default.
     static void set_cache_limit(size_t bytes);
 
 private:
@@ -58,7 +58,7 @@ private:
 
     const VismapBaker& m_baker;
     const int m_margin;
-    const bool m_whole; // the margin reaches too far: all is baked at once
+    const bool m_whole; // the margin is too wide: bake all at once
     const uint64_t m_id;
     Once m_bake_map;
     std::vector<float> m_map;

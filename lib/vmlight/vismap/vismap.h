@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Visibility maps: how much of its hemisphere each texel of a mesh sees, and which way on average.
+/// Visibility maps: how much of its hemisphere each texel of a mesh sees, and in which mean direction.
 /// Source: I. Neulander, "Image-Based Diffuse Lighting Using Visibility Maps", section 2.
 #pragma once
 
@@ -22,67 +22,70 @@ VMLIGHT_API Choices basis_choices();
 
 struct VismapParams
 {
-    /// One number is a square map; width and height, if not 0, replace its sides.
+    /// Texels. Width and height, if not 0, replace its sides.
     Size resolution { 1024, 1024 };
     int width = 0, height = 0;
-    /// The part of uv space that is baked: 1001 + u + 10 v for the square with its lower left corner at (u, v).
+    /// The UDIM tile of uv space to bake: 1001 + u + 10 v for the square with its lower left corner at (u, v).
     int udim = kFirstUdim;
     Size size() const { return { width ? width : resolution.width, height ? height : resolution.height }; }
-    /// Measured on six scenes: at 64 rays the paper's model is within 2.2 % of the shading error it has at 4096 rays, a
-    /// model that also uses |B| is within 2 % at 128.
+    /// Rays per texel. Measured on six scenes: with 64 rays the paper's model is within 2.2 % of the shading error it
+    /// has with 4096, a model that also uses |B| is within 2 % with 128.
     int samples = 128;
-    /// The most that VismapReport::error may be: the samples are then those that some texels, baked twice, say it
-    /// takes, and `samples` says nothing. 0 is none. Where nothing is occluded, one ray is enough.
+    /// The largest VismapReport::error, 0 to 1: the bake then chooses the rays per texel from some texels that it bakes
+    /// twice, and ignores `samples`. 0 is off.
     double target_error = 0;
-    /// `fibonacci` has the least error at a fixed number of rays (README, "What it costs"); `halton` is the paper's.
+    /// Sample pattern. `fibonacci` has the least error at a fixed number of rays (docs/accuracy.md); `halton` is the
+    /// paper's.
     std::string sampler = "fibonacci";
     /// Same seed, same pixels, for any number of threads.
     int seed = 0;
-    /// `cosine`: V and B as in make_vismap(). `uniform`: V is the share of the hemisphere's solid angle that is seen,
-    /// B has the direction of the cosine-weighted mean: the paper's literal words.
+    /// `cosine`: V and B as in make_vismap(). `uniform`: V is the visible share of the hemisphere's solid angle, B has
+    /// the direction of the cosine-weighted mean: the paper, read literally.
     std::string measure = "cosine";
-    /// Ignore what is farther than this, in the mesh's units; 0 is no limit.
+    /// Maximum occluder distance, in mesh units; 0 is unlimited.
     double max_distance = 0;
-    /// Texels around what the mesh covers that are filled from it; -1 is all.
+    /// Texels to fill around the texels that the mesh covers; -1 fills the whole map.
     int margin = 16;
-    /// What to store beside V and B. `normal`: channels `normal.x`, `normal.y`, `normal.z`, the interpolated normal in
-    /// object space, of unit length; in the margin a mean of neighbours, as B is, and so shorter: what uses it must not
-    /// rely on its length. `coverage`: a channel that is 1 where a triangle covers the texel's centre.
-    /// `error`: a channel with the standard error of V, from how the rays of each texel scatter, all scaled by one
-    /// factor so that its root mean square is VismapReport::error. It tells where the error is large better than how
-    /// large: below 16 rays of a texel little more than whether they agree. 0, where all agree, is no proof: the next
-    /// ray may not. In the margin a mean of neighbours, as V is. It takes 2 rays to scatter.
+    /// Channels to add. `normal`: `normal.x`, `normal.y`, `normal.z`, the interpolated normal in object space, of unit
+    /// length; in the margin a mean of neighbours, as B is, and so shorter: do not rely on its length. `coverage`: 1
+    /// where a triangle covers the texel's centre, else 0. `error`: the standard error of V, from the scatter of each
+    /// texel's rays, scaled so that its root mean square is VismapReport::error. It shows where the error is large
+    /// better than how large it is: below 16 rays it is little more than whether the rays agree, and 0 does not prove
+    /// that the next ray would. In the margin a mean of neighbours, as V is. Needs 2 rays per texel.
     std::vector<std::string> channels;
-    /// What more to store, for models that know more than V and B tell (README, "What accuracy costs"): `vector` is
-    /// nothing; `sh` the spherical harmonics of (1/pi) vis(w) max(0, n.w) below `order`, of which V and B are the first
-    /// two bands: channels `sh.4` ... `sh.<order^2 - 1>`, linear as V and B are; `mask` an interval of heights and how
-    /// much of it is seen, in each of 16 columns of longitude; `cells` how much is seen of each of 144 cells of the
-    /// sphere. The last two pack whole numbers into floats, which must be neither filtered nor stored as half, and
-    /// bring the normal along; in the margin they are those of a neighbour.
+    /// What to store for shading models that read more than V and B (docs/accuracy.md). `vector`: nothing more. `sh`:
+    /// the spherical harmonics of (1/pi) vis(w) max(0, n.w) below band `order`, of which V and B are the first two
+    /// bands: channels `sh.4` ... `sh.<order^2 - 1>`, linear as V and B are. `mask`: for each of 16 columns of
+    /// longitude, a visible range of heights and its density; channels `mask.0` ... `mask.10`. `cells`: how much of
+    /// each of 144 cells of the sphere is visible; channels `cells.0` ... `cells.11`. The last two pack whole numbers
+    /// below 2^24 into floats, which must be neither filtered nor stored as half, and add the channel `normal`; in the
+    /// margin they repeat those of a neighbour. All but `vector` need the measure `cosine`.
     std::string basis = "vector";
-    /// Bands of `sh`. Measured on six scenes under four skies (bench/ladder.py), in parts of the error of `paper`:
-    /// 4 bands leave .59, 5 leave .51, 6 leave .46, 8 leave .38 (README, "What accuracy costs").
-    /// Five, as half floats, take 50 bytes a texel.
+    /// Bands of the basis `sh`. Measured on six scenes under four skies (bench/ladder.py), relative to the error of
+    /// `paper`: 4 bands leave .59, 5 leave .51, 6 leave .46, 8 leave .38. Five bands take 50 bytes per texel as half.
     int order = 5;
-    /// Whether a further channel is stored; a normal also because the basis needs it.
+    /// Whether the channel (a word of `channels`) is stored; `normal` also because a basis needs it.
     VMLIGHT_API bool has(const std::string& channel) const;
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("resolution", resolution, SizeRange { 32768, 1 }, "Size of the map, in texels; one number is a square");
-        field("width", width, Range { 0, 32768 }, "Width alone; 0 is that of resolution");
-        field("height", height, Range { 0, 32768 }, "Height alone; 0 is that of resolution");
-        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile to bake; <UDIM> in a name stands for it");
-        field("samples", samples, Range { 1, 1 << 20 }, "Rays a texel");
-        field("target_error", target_error, Range { 0, 1, "none", 0 }, "Take as many as it takes: RMS of V's error");
-        field("sampler", sampler, Choices { { "fibonacci", "sobol", "halton" } }, "Where they go");
+        field("resolution", resolution, SizeRange { 32768, 1 },
+              "Size of the map, in texels; one number makes a square");
+        field("width", width, Range { 0, 32768 }, "Width, if other than that of resolution");
+        field("height", height, Range { 0, 32768 }, "Height, if other than that of resolution");
+        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile to bake; replaces <UDIM> in file names");
+        field("samples", samples, Range { 1, 1 << 20 }, "Rays per texel");
+        field("target_error", target_error, Range { 0, 1, "none", 0 },
+              "Trace until the RMS error of V is this; replaces samples");
+        field("sampler", sampler, Choices { { "fibonacci", "sobol", "halton" } }, "Sample pattern of the rays");
         field("seed", seed, Range { 0, 2147483647 }, "Same seed, same pixels, for any number of threads");
         field("measure", measure, Choices { { "cosine", "uniform" } }, "Weight of a direction in visibility");
-        field("max_distance", max_distance, Range { 0, 1e30, "infinite", 0 }, "Ignore what is farther, in mesh units");
-        field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Texels to fill around what the mesh covers");
+        field("max_distance", max_distance, Range { 0, 1e30, "infinite", 0 },
+              "Maximum occluder distance, in mesh units");
+        field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Texels to fill around UV islands");
         field("channels", channels, Words { { "normal", "coverage", "error" } },
-              "Add channels: the normal, for the model ao; 1 where the mesh covers the texel; V's standard error");
-        field("basis", basis, basis_choices(), "Add what the model of this name reads; vector is nothing");
+              "Channels to add: normal (for the model ao), coverage (1 where the mesh covers the texel), error (of V)");
+        field("basis", basis, basis_choices(), "Channels to add for the shading model of this name; vector adds none");
         field("order", order, Range { 3, 8 }, "Bands of the basis sh");
     }
 };
@@ -91,52 +94,51 @@ struct VismapParams
 /// floats, filters and mipmaps would corrupt it.
 VMLIGHT_API bool holds_whole_numbers(const std::string& channel);
 
-/// What a bake did.
+/// Counts, error and times of a bake.
 struct VismapReport
 {
     UvReport uv;
     int64_t texels = 0; ///< of the whole map
-    int64_t covered = 0; ///< of them covered by a triangle
-    int64_t overlapping = 0; ///< of them covered by more than one
-    int64_t tiny = 0; ///< triangles smaller than 4e-6 of the mesh: what is that near to them is not told apart
-    /// By how much, in parts of the mesh's size (within a factor of 2), its farthest coordinate may be off if its
-    /// coordinates are those of a file of floats: 3e-8 around the origin, more far from it. 0 if some are no floats.
+    int64_t covered = 0; ///< texels that a triangle covers
+    int64_t overlapping = 0; ///< texels that several triangles cover
+    int64_t tiny = 0; ///< triangles smaller than 4e-6 of the mesh: occluders as close as that are not resolved
+    /// Rounding of the coordinate farthest from the origin if they came from a file of floats, relative to the size of
+    /// the mesh (within a factor of 2): 3e-8 for a mesh at the origin, more far from it. 0 if some were not floats.
     double rounding = 0;
-    int64_t dark = 0; ///< of those covered, with visibility below 0.01: most, if normals point inwards
-    int samples = 0; ///< rays a texel
-    /// An estimate of the root mean square, over all covered texels, of V's distance from its limit for infinitely many
-    /// rays from the same points by the same measure, from the scatter of some texels that are baked twice. It knows
-    /// nothing of what none of their rays found, of the mesh's own errors, of the margin, or of how V varies within a
-    /// texel. Measured on eight scenes, within 5 %. And how many texels: none unless an error, a time or the channel
-    /// `error` was asked for.
+    int64_t dark = 0; ///< covered texels with V below 0.01: most of them, if normals point inwards
+    int samples = 0; ///< rays per texel
+    /// Estimated root mean square error of V over the covered texels, against infinitely many rays from the same points
+    /// by the same measure: from the scatter of `error_texels` texels that were baked twice. It excludes what none of
+    /// their rays hit, errors of the mesh, the margin, and how V varies within a texel. Measured on eight scenes:
+    /// within 5 %. 0 unless a target error, a time budget or the channel `error` was asked for.
     double error = 0;
     int64_t error_texels = 0;
-    double expected_seconds = 0; ///< of the bake, if it was given a time
+    double expected_seconds = 0; ///< of the bake, if it had a time budget
     double pilot_seconds = 0; ///< of the texels that were baked twice
-    int64_t rays = 0; ///< traced; directions below the surface are not
+    int64_t rays = 0; ///< rays traced: directions below the surface are not
     double build_seconds = 0, bake_seconds = 0, margin_seconds = 0;
 };
 
 /// Bake the visibility map of `mesh`.
 ///
-/// @param dst      set to a float image of the asked-for size with channels `visibility`, `direction.x`, `direction.y`,
-///                 `direction.z` (and those that `params.channels` asks for): V = (1/pi) Int vis(w) max(0, n.w) dw in
-///                 [0, 1], and B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <= V. An
-///                 open texel has V = 1 exactly and B = (2/3) n, one that sees nothing has 0 and 0. n is the
-///                 interpolated normal; directions under the geometric surface count neither as seen nor as blocked.
-///                 Texels that no triangle covers are 0 outside the margin. Row 0 is the top of the UDIM tile, v = 1.
-///                 Tagged as data
+/// @param dst      set to a float image of params.size() with channels `visibility`, `direction.x`, `direction.y`,
+///                 `direction.z` (and those of `params.channels` and `params.basis`): V = (1/pi) Int vis(w) max(0, n.w)
+///                 dw in [0, 1], and B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <= V.
+///                 An unoccluded texel has V = 1 exactly and B = (2/3) n, a closed one 0 and 0. n is the interpolated
+///                 normal; directions below the geometric surface count neither as visible nor as blocked. Texels
+///                 outside triangles and margin are 0. Row 0 is the top of the UDIM tile, v = 1. Tagged as data
 /// @param mesh     triangles with uvs; a texel that several triangles cover goes to the lowest triangle index.
-///                 Triangles without uvs cast and are not baked
-/// @param occluders meshes in the same space that cast and are not baked
+///                 Triangles without uvs occlude and are not baked
+/// @param occluders meshes in the same space that occlude and are not baked
 /// @param report   nullptr, or set to counts and times
-/// @param nthreads 0 means OIIO's default. The result is bit-equal for every value.
-/// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no uvs, a mesh
-///          fails check_mesh() or reaches 1e18 times as far as `mesh`, the target
-///          error is out of reach, the channel `error` is asked for with 1 ray, or memory runs out; `dst` then has no
-///          pixels. Overlap, mirroring and texels outside the tile are counted, not refused.
-/// Error (root mean square) of V, and of B as a vector, at n rays: at most 0.47 n^-0.75 by `fibonacci`, 0.6 n^-0.75 by
-/// `sobol` and 0.65 n^-0.75 by `halton`, in any scene with a closed form that was tried.
+/// @param nthreads 0 means OIIO's default. The result is the same bits for every value.
+/// @returns false, with the reason in `dst.geterror()` and no pixels in `dst`, if a parameter is out of range, the mesh
+///          has no uvs, a mesh fails check_mesh() or extends 1e18 times as far as `mesh`, the target error is out of
+///          reach, the channel `error` is asked for with 1 ray, the basis needs another measure, memory runs out, or
+///          `progress` stopped the work ("interrupted"). Overlapping, mirrored and outside uvs are counted in the
+///          report, not refused.
+/// Root mean square error of V, and of B as a vector, with n rays: at most 0.47 n^-0.75 by `fibonacci`, 0.6 n^-0.75 by
+/// `sobol` and 0.65 n^-0.75 by `halton`, in every scene with a closed form that was tried.
 VMLIGHT_API bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders = {},
                              const VismapParams& params = {}, VismapReport* report = nullptr, int nthreads = 0,
                              const Progress& progress = {});

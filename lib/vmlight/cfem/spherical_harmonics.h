@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The cosine filter by spherical harmonics: fast where few bands do, but it rings around small bright lights.
+/// The cosine filter by spherical harmonics: fast where few bands suffice, but it rings around small bright lights.
 /// A cosine filter multiplies band l by A_l / pi = 1, 2/3, 1/4, 0, -1/24, 0, 1/64, ...
 /// Source: R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001.
 #pragma once
@@ -10,12 +10,12 @@
 
 namespace vmlight {
 
-/// Orthonormal harmonics of the rows that `read` gives, for l < order. With P_lm >= 0 at the pole-side end (no
+/// Project the rows of `read` onto orthonormal harmonics, for l < order. With P_lm >= 0 at the pole-side end (no
 /// Condon-Shortley sign), theta from +y and phi = 2 pi s:
 ///     Y_l0 = P_l0(cos theta), Y_lm = sqrt 2 P_lm cos m phi, Y_l-m = sqrt 2 P_lm sin m phi,  Int P_lm^2 dw = 1.
 ///
 /// @param coefficients  set to 3 order^2 numbers: R, G, B of (l, m) at 3 (l^2 + l + m)
-/// @returns false if `read` or `progress` ended the work.
+/// @returns false if `read` or `progress` stopped it.
 bool project_harmonics(std::vector<double>& coefficients, int order, const EnvironmentGrid& grid, const ReadRow& read,
                        int nthreads, const Progress& progress);
 
@@ -23,7 +23,7 @@ bool project_harmonics(std::vector<double>& coefficients, int order, const Envir
 void evaluate_harmonics(std::vector<double>& rgb, const Size& resolution, const std::vector<double>& coefficients,
                         int order, int nthreads);
 
-/// Filter the rows that `read` gives, with l < order. False if `read` or `progress` ended the work.
+/// Filter the rows of `read` with l < order. False if `read` or `progress` stopped it.
 bool filter_harmonics(std::vector<double>& rgb, const Size& resolution, int order, const EnvironmentGrid& grid,
                       const ReadRow& read, int nthreads, const Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/cfem/sh.h>
+#include <vmlight/cfem/spherical_harmonics.h>
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/math/harmonics.h>
@@ -16,7 +16,7 @@ namespace {
 
 // Rows read before they are projected on threads.
 constexpr int kBlockRows = 64;
-// Four nodes a band follow P_lm of the highest band, 63, in the coarsest bands, 1/128 of pi, to 1e-6.
+// Four nodes per band follow P_lm of the highest band, 63, in the coarsest bands, 1/128 of pi, to 1e-6.
 constexpr int kNodes = 4;
 constexpr int kLeastBands = 128;
 
