@@ -6,7 +6,7 @@
 
 #include <vmlight/math/sampling.h>
 #include <vmlight/uv/raster.h>
-#include <vmlight/vismap/visibility.h>
+#include <vmlight/vismap/visibility_integrator.h>
 
 using namespace vmlight;
 using namespace vmlight::scenes;
