@@ -79,12 +79,13 @@ VismapRecipe small_bake(const std::string& mesh)
 TEST_F(Files, DamagedMeshesOneByOne)
 {
     HardCase row("OBJ, binary PLY and GLB, each truncated at 40 places and with one bit flipped at 100");
-    for (const auto& [name, whole] :
-         { std::pair<std::string, std::string>("m.obj", kQuad), { "m.ply", quad_ply() }, { "m.glb", quad_glb() } }) {
+    const std::pair<std::string, std::string> files[]
+        = { { "m.obj", kQuad }, { "m.ply", quad_ply() }, { "m.glb", quad_glb() } };
+    for (const auto& file : files) {
         OIIO::ImageBuf image;
-        ASSERT_TRUE(make_image(image, small_bake(write(name, whole)))) << image.geterror();
-        survive(damages_of(whole),
-                [&](const Damage& damage) { return try_to_make(small_bake(write(name, damage.bytes))); });
+        ASSERT_TRUE(make_image(image, small_bake(write(file.first, file.second)))) << image.geterror();
+        survive(damages_of(file.second),
+                [&](const Damage& damage) { return try_to_make(small_bake(write(file.first, damage.bytes))); });
     }
     row.naive("assimp 5.2 reads out of bounds or ends the process for one PLY in four");
     row.ours("420 times finite pixels or a one-line error");

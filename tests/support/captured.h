@@ -2,6 +2,7 @@
 /// What a main prints, when it runs in this process.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
