@@ -2,6 +2,7 @@
 // The main of the test binaries. Hundreds of tests share a process, so the limit of each is kept here: a test may take
 // VMLIGHT_TEST_LIMIT (60) seconds of processor time. Unlike the clock's, these are the same on a busy machine. A test
 // that waits for something that never comes uses none, so ten times the limit by the clock ends it too.
+#include "captured.h"
 #include "watchdog.h"
 
 #include <gtest/gtest.h>
@@ -30,16 +31,21 @@ void write_text(const char* text)
     [[maybe_unused]] const ssize_t written = ::write(s_stderr, text, std::strlen(text));
 }
 
-void name_test(int number)
+void write_name(const char* what)
 {
-    const bool hangs = number == SIGPROF || number == SIGALRM;
-    write_text(hangs ? "\nTEST TOOK TOO LONG: " : "\nTEST CRASHED: ");
+    write_text(what);
     write_text(s_test);
     if (s_case[0]) {
         write_text(": ");
         write_text(s_case);
     }
     write_text("\n");
+}
+
+void name_test(int number)
+{
+    const bool hangs = number == SIGPROF || number == SIGALRM;
+    write_name(hangs ? "\nTEST TOOK TOO LONG: " : "\nTEST CRASHED: ");
     std::signal(SIGABRT, SIG_DFL);
     if (hangs)
         std::abort();
@@ -94,8 +100,14 @@ int main(int argc, char** argv)
     using namespace vmlight;
     testing::InitGoogleTest(&argc, argv);
     testing::UnitTest::GetInstance()->listeners().Append(new Watchdog);
-    for (int number : { SIGPROF, SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL })
+    for (int number : { SIGPROF, SIGALRM })
         std::signal(number, name_test);
+#ifdef VMLIGHT_ADDRESS_SANITIZER // which has handlers of its own, and a report to add to
+    __sanitizer_set_death_callback([] { write_name("\nTEST CRASHED: "); });
+#else
+    for (int number : { SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL })
+        std::signal(number, name_test);
+#endif
     s_stderr = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
     if (const char* limit = std::getenv("VMLIGHT_TEST_LIMIT"))
         s_limit = std::max(1, std::atoi(limit));
