@@ -119,7 +119,7 @@ TEST(Light, AFewPixelsInALargeWindow)
     spec.full_width = 65536;
     spec.full_height = 32768;
     EXPECT_EQ(refusal(OIIO::ImageBuf(spec)),
-              "environment: a display window of 65536x32768 pixels, nearly all of it empty: 64x32 are stored");
+              "environment: display window of 65536x32768 pixels is almost empty: only 64x32 are stored");
     spec.full_width = 640;
     spec.full_height = 320;
     OIIO::ImageBuf cropped(spec);

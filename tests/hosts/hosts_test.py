@@ -78,7 +78,7 @@ class Host(unittest.TestCase):
         result = subprocess.run([os.path.join(BIN, "makelightmap"), "converted.exr", SKY, "-o", "x.exr"],
                                 capture_output=True, text=True, cwd=self.folder, env=self.environment)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn('"converted.exr": not a visibility map any more: ', result.stderr)
+        self.assertIn('"converted.exr": no longer a visibility map: ', result.stderr)
 
     def largest_difference(self, a, b):
         environment = {k: v for k, v in self.environment.items() if k != "OIIO_LIBRARY_PATH"}

@@ -96,7 +96,7 @@ TEST_F(Color, AFileKeepsItsWholeNumbersInMind)
 
 TEST_F(Color, RefusalsNameTheNearest)
 {
-    const std::string start = "ERROR the OCIO config \"" + kConfig + "\" has no colour space ";
+    const std::string start = "ERROR OCIO config \"" + kConfig + "\" has no colour space ";
     EXPECT_EQ(said("sky.exr", { kConfig, "ACEScgg" }), start + "\"ACEScgg\"; did you mean \"ACEScg\"?");
     EXPECT_EQ(said("sky.exr", { kConfig, "lin_rec708" }), start + "\"lin_rec708\"; did you mean \"lin_rec709\"?");
     // OIIO would take "linear" for the role scene_linear; most who say it mean Rec.709.

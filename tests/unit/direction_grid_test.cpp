@@ -36,7 +36,7 @@ template <class Open> VisibilityGrid looking(const V3f& normal, int rays, Open&&
         if (!open(V3f(fan.x[ray], fan.y[ray], fan.z[ray])))
             fan.lanes[size_t(ray / 8)] &= uint8_t(~(1 << ray % 8));
     VisibilityGrid grid;
-    grid.take(fan, asked);
+    grid.set_rays(fan, asked);
     return grid;
 }
 
@@ -51,11 +51,11 @@ std::vector<uint32_t> codes(const std::vector<float>& packed)
     return result;
 }
 
-template <class Open> std::array<ColumnView, kColumns> mask_of(const V3f& normal, int rays, Open&& open)
+template <class Open> std::array<MaskColumn, kColumns> mask_of(const V3f& normal, int rays, Open&& open)
 {
     std::vector<float> packed(kMaskFloats);
     looking(normal, rays, open).mask(packed.data(), V3d(normal), V3d(normal));
-    std::array<ColumnView, kColumns> columns;
+    std::array<MaskColumn, kColumns> columns;
     for (int c = 0; c < kColumns; ++c)
         columns[size_t(c)] = unpack_mask(codes(packed).data(), c);
     return columns;
@@ -137,8 +137,8 @@ TEST(PackedVisibility, EveryColumnKeepsItsBits)
 {
     std::mt19937 random(2);
     for (int repeat = 0; repeat < 200; ++repeat) {
-        std::array<ColumnView, kColumns> columns;
-        for (ColumnView& view : columns)
+        std::array<MaskColumn, kColumns> columns;
+        for (MaskColumn& view : columns)
             view = { int(random() % 64), int(random() % 64), int(random() % 16) };
         if (repeat == 0)
             columns.fill({ 63, 63, 15 });
@@ -146,7 +146,7 @@ TEST(PackedVisibility, EveryColumnKeepsItsBits)
         pack_mask(packed.data(), columns.data());
         const std::vector<uint32_t> whole = codes(packed);
         for (int c = 0; c < kColumns; ++c) {
-            const ColumnView back = unpack_mask(whole.data(), c), view = columns[size_t(c)];
+            const MaskColumn back = unpack_mask(whole.data(), c), view = columns[size_t(c)];
             EXPECT_TRUE(back.low == view.low && back.high == view.high && back.density == view.density) << c;
         }
     }
@@ -158,7 +158,7 @@ TEST(PackedVisibility, AnOpenPointSeesEachColumnDownToTheHorizon)
         const auto columns = mask_of(normal, 1024, [](const V3f&) { return true; });
         for (int c = 0; c < kColumns; ++c) {
             const V3d middle = column_middle(c);
-            const ColumnView view = columns[size_t(c)];
+            const MaskColumn view = columns[size_t(c)];
             for (int s = 0; s < kSlices; ++s) {
                 const double y = 0.5 * (edge(s) + edge(s + 1)), across = std::sqrt(1 - y * y);
                 const double cosine = V3d(normal).dot(V3d(middle.x * across, y, middle.z * across));
@@ -191,7 +191,7 @@ TEST(PackedVisibility, AWallShutsTheColumnsBehindIt)
 TEST(PackedVisibility, ALidLeavesTheSlicesBelowIt)
 {
     const auto columns = mask_of(V3f(0, 1, 0), 4096, [](const V3f& w) { return w.y < 0.5f; });
-    for (const ColumnView& view : columns) {
+    for (const MaskColumn& view : columns) {
         EXPECT_NEAR(edge(view.low), 0, 0.04);
         EXPECT_NEAR(edge(view.high), 0.5, 0.04);
         EXPECT_GE(view.density, 13);
@@ -202,7 +202,7 @@ TEST(PackedVisibility, DensityIsTheShareOfTheIntervalThatIsSeen)
 {
     // Every second of very thin slices: a blind.
     const auto blind = [](const V3f& w) { return int(w.y * 4096) % 2 == 0; };
-    for (const ColumnView& view : mask_of(V3f(0, 1, 0), 4096, blind))
+    for (const MaskColumn& view : mask_of(V3f(0, 1, 0), 4096, blind))
         EXPECT_NEAR(view.density, 7.5, 1.6);
     const std::vector<int> thirds = cells_of(V3f(0, 1, 0), 4096, blind);
     const int best = *std::max_element(thirds.begin(), thirds.end());
@@ -213,7 +213,7 @@ TEST(PackedVisibility, DensityIsTheShareOfTheIntervalThatIsSeen)
 
 TEST(PackedVisibility, NothingSeenIsNothingStored)
 {
-    for (const ColumnView& view : mask_of(V3f(0, 1, 0), 256, [](const V3f&) { return false; }))
+    for (const MaskColumn& view : mask_of(V3f(0, 1, 0), 256, [](const V3f&) { return false; }))
         EXPECT_EQ(view.density + view.low + view.high, 0);
     for (const int third : cells_of(V3f(0, 1, 0), 256, [](const V3f&) { return false; }))
         EXPECT_EQ(third, 0);
@@ -224,12 +224,12 @@ TEST(PackedVisibility, WhereNoRayWentAsMuchIsSeenAsOfTheWhole)
     // Four rays, of which three go up: no column or cell that none went to is shut, and none below the horizon is open.
     const auto open = [] { return [rays = 0](const V3f&) mutable { return ++rays != 4; }; };
     const V3f normal(0, 1, 0);
-    for (const ColumnView& view : mask_of(normal, 4, open())) {
+    for (const MaskColumn& view : mask_of(normal, 4, open())) {
         EXPECT_GE(edge(view.low), view.density ? -0.04 : -1);
         EXPECT_TRUE(view.density == 0 || view.high > view.low);
     }
     int unasked = 0;
-    for (const ColumnView& view : mask_of(normal, 4, open()))
+    for (const MaskColumn& view : mask_of(normal, 4, open()))
         unasked += view.density == 11 && view.high == kSlices; // three quarters of fifteen
     EXPECT_GE(unasked, kColumns - 4);
     const std::vector<int> thirds = cells_of(normal, 4, open());

@@ -146,7 +146,7 @@ TEST(ImageFile, AHeaderWithASideBeyondAllImagesIsRefused)
     OIIO::ImageSpec spec(1 << 20, 1, 1);
     EXPECT_EQ(header_fault(spec), "");
     spec.full_height = (1 << 20) + 1;
-    EXPECT_EQ(header_fault(spec), "its header says 1048576x1048577 pixels, of at most 1048576 a side");
+    EXPECT_EQ(header_fault(spec), "its header says 1048576x1048577 pixels; the maximum is 1048576 per side");
 }
 
 TEST(ImageFile, AnInterruptedOutputLeavesTheOldFileAsItWas)
@@ -178,14 +178,14 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
         EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
         EXPECT_EQ(error,
                   "\"" + folder / "a.exr" + "\": channel direction.y reaches " + (value > 0 ? "65505" : "1e+06")
-                      + ", beyond the range of half (65504): write float");
+                      + ", but the maximum of half is 65504: write float");
         EXPECT_TRUE(folder.bytes("a.exr") == old);
     }
     image.setpixel(3, 4, std::vector<float> { 0, 0, 0, std::numeric_limits<float>::infinity(), 0 });
     EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
     EXPECT_EQ(error,
               "\"" + folder / "a.exr"
-                  + "\": channel direction.z reaches inf, beyond the range of half (65504): write float");
+                  + "\": channel direction.z reaches inf, but the maximum of half is 65504: write float");
     image.setpixel(3, 4, std::vector<float> { 65504, 0, 0, -65504, 0 });
     EXPECT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
 }
@@ -200,10 +200,10 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
         return error;
     };
     EXPECT_EQ(refusal(folder / "a.png"),
-              "\"" + folder / "a.png" + "\": outputs are EXR files; name it .exr, then convert it with oiiotool");
-    EXPECT_EQ(refusal(""), "\"\": outputs are EXR files; name it .exr, then convert it with oiiotool");
+              "\"" + folder / "a.png" + "\": output must be .exr; convert it with oiiotool afterwards");
+    EXPECT_EQ(refusal(""), "\"\": output must be .exr; convert it with oiiotool afterwards");
     EXPECT_EQ(refusal(folder / "none/a.exr"),
-              "\"" + folder / "none/a.exr" + "\": no folder \"" + folder / "none" + "\"");
+              "\"" + folder / "none/a.exr" + "\": no such folder: \"" + folder / "none" + "\"");
     ASSERT_EQ(::mkdir((folder / "dir.exr").c_str(), 0755), 0);
     EXPECT_EQ(refusal(folder / "dir.exr"), "\"" + folder / "dir.exr" + "\": is a folder");
     EXPECT_EQ(output_fault("a.exr"), "");
@@ -213,8 +213,8 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
     if (::geteuid() != 0) { // nothing is forbidden to root
         ASSERT_EQ(::chmod((folder / "dir.exr").c_str(), 0555), 0);
         EXPECT_EQ(refusal(folder / "dir.exr/a.exr"),
-                  "\"" + folder / "dir.exr/a.exr" + "\": the folder \"" + folder / "dir.exr"
-                      + "\" cannot be written: Permission denied");
+                  "\"" + folder / "dir.exr/a.exr" + "\": folder \"" + folder / "dir.exr"
+                      + "\" is not writable: Permission denied");
     }
 }
 
@@ -240,8 +240,8 @@ TEST(ImageFile, ALinkStaysAndWhatItLeadsToIsWritten)
     ASSERT_EQ(::symlink("none/a.exr", (folder / "nowhere.exr").c_str()), 0);
     ASSERT_EQ(::symlink("circle.exr", (folder / "circle.exr").c_str()), 0);
     ASSERT_EQ(::symlink("disk", (folder / "folder.exr").c_str()), 0);
-    for (const auto& [link, reason] : { std::pair("nowhere.exr", "no folder \"" + folder / "none" + "\""),
-                                        { "circle.exr", "a link that leads in circles" },
+    for (const auto& [link, reason] : { std::pair("nowhere.exr", "no such folder: \"" + folder / "none" + "\""),
+                                        { "circle.exr", "too many levels of symbolic links" },
                                         { "folder.exr", "is a folder" } }) {
         EXPECT_FALSE(write(vismap_like(4, 4), folder / link, error));
         EXPECT_EQ(error, "\"" + folder / link + "\": " + reason);

@@ -153,7 +153,7 @@ TEST(LightmapRefusal, AnAlbedoOfNoSizeIsRefused)
 {
     ImageBuf albedo = random_cfem(30, 20);
     albedo.specmod().full_width = 0;
-    EXPECT_EQ(refusal(kVismap, kCfem, {}, &albedo), "a display window of 0x20 pixels; sides of 1 to 65536 are allowed");
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &albedo), "display window of 0x20 pixels: sides must be 1 to 65536");
 }
 
 TEST(LightmapRefusal, ParametersAreChecked)
@@ -164,17 +164,17 @@ TEST(LightmapRefusal, ParametersAreChecked)
               "model: \"radiosity\" is not one of auto, ao, paper, lobe, sh, mask, cells");
     params = {};
     params.rotate = { 1, 2 };
-    EXPECT_EQ(refusal(kVismap, kCfem, params), "rotate: \"1,2\" has 2 numbers, 3 are needed");
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "rotate: \"1,2\" has 2 numbers, expected 3");
     params.rotate = { 0, 90, 0 };
     params.quaternion = { 1, 0, 0, 0 };
     EXPECT_EQ(refusal(kVismap, kCfem, params), "only one of rotate, matrix and quaternion may be given");
     params = {};
     params.matrix = { 2, 0, 0, 0, 1, 0, 0, 0, 1 };
     EXPECT_EQ(refusal(kVismap, kCfem, params),
-              "matrix: not a rotation: R R^T differs from the identity by 3, the limit is 1e-4");
+              "matrix: not a rotation: R R^T differs from the identity by 3, at most 1e-4 is allowed");
     params = {};
     params.quaternion = { 0, 0, 0, 0 };
-    EXPECT_EQ(refusal(kVismap, kCfem, params), "quaternion: 0,0,0,0 has no direction");
+    EXPECT_EQ(refusal(kVismap, kCfem, params), "quaternion: 0,0,0,0 is zero or not finite");
     params = {};
     params.exposure = 65;
     EXPECT_EQ(refusal(kVismap, kCfem, params), "exposure: 65 is not in [-64, 64]");

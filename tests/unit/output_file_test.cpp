@@ -24,15 +24,15 @@ mode_t rights_of(const std::string& path)
     return status.st_mode & 07777;
 }
 
-bool put(const std::string& path, const std::string& bytes, PartKind kind)
+bool put(const std::string& path, const std::string& bytes, TemporaryFileKind kind)
 {
     OutputFile file(path, kind);
     file.write(bytes.data(), bytes.size());
-    return file.keep();
+    return file.commit();
 }
 
 // A process that has written half of `path` when it is killed.
-void die_writing(const std::string& path, PartKind kind)
+void die_writing(const std::string& path, TemporaryFileKind kind)
 {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -47,9 +47,9 @@ void die_writing(const std::string& path, PartKind kind)
 
 } // namespace
 
-class OutputFileOf : public testing::TestWithParam<PartKind>
+class OutputFileOf : public testing::TestWithParam<TemporaryFileKind>
 { };
-INSTANTIATE_TEST_SUITE_P(Kinds, OutputFileOf, testing::Values(PartKind::Nameless, PartKind::Hidden));
+INSTANTIATE_TEST_SUITE_P(Kinds, OutputFileOf, testing::Values(TemporaryFileKind::Unnamed, TemporaryFileKind::Hidden));
 
 TEST(OutputFile, IsThereWithAllItsBytesOrNotAtAll)
 {
@@ -69,7 +69,7 @@ TEST_P(OutputFileOf, WhatIsNotKeptLeavesTheOldOne)
     folder.write("text", "old");
     {
         OutputFile file(folder / "text", GetParam());
-        ASSERT_TRUE(file.sound());
+        ASSERT_TRUE(file.ok());
         file.write("new", 3);
     }
     EXPECT_EQ(folder.bytes("text"), "old");
@@ -93,17 +93,17 @@ TEST(OutputFile, SaysWhyAPlaceWillNotDo)
     const std::string file = folder.write("file", "");
     std::string error;
     EXPECT_FALSE(write_file(folder / "no/file", "x", error));
-    EXPECT_EQ(error, "\"" + (folder / "no/file") + "\": no folder \"" + (folder / "no") + "\"");
+    EXPECT_EQ(error, "\"" + (folder / "no/file") + "\": no such folder: \"" + (folder / "no") + "\"");
     EXPECT_FALSE(write_file(folder / "file/x", "x", error));
-    EXPECT_EQ(error, "\"" + (folder / "file/x") + "\": no folder \"" + file + "\"");
+    EXPECT_EQ(error, "\"" + (folder / "file/x") + "\": no such folder: \"" + file + "\"");
     EXPECT_FALSE(write_file("/dev/null", "x", error));
-    EXPECT_EQ(error, "\"/dev/null\": is a device or a pipe, which a file would replace");
+    EXPECT_EQ(error, "\"/dev/null\": is a device or a pipe, not a file");
     EXPECT_EQ(output_folder_fault(file), "\"" + file + "\": is a file, not a folder");
     EXPECT_EQ(output_folder_fault(folder / ""), "");
     EXPECT_EQ(output_folder_fault(folder / "new"), "");
     EXPECT_EQ(output_folder_fault(folder / "new/"), "");
     EXPECT_NE(output_folder_fault(folder / "no/new"), "");
-    EXPECT_NE(output_folder_fault("/proc").find("cannot be written"), std::string::npos);
+    EXPECT_NE(output_folder_fault("/proc").find("is not writable"), std::string::npos);
     EXPECT_EQ(folder.names(), std::vector<std::string> { "file" }) << "asking leaves nothing";
 }
 
@@ -153,10 +153,10 @@ TEST(OutputFile, OfAKilledProcessIsGoneAtOnceOrWithTheNextRun)
 {
     const TemporaryFolder folder;
     folder.write("text", "old");
-    die_writing(folder / "text", PartKind::Nameless);
+    die_writing(folder / "text", TemporaryFileKind::Unnamed);
     EXPECT_EQ(folder.names(), std::vector<std::string> { "text" });
 
-    die_writing(folder / "text", PartKind::Hidden);
+    die_writing(folder / "text", TemporaryFileKind::Hidden);
     ASSERT_EQ(folder.names().size(), 2u);
     EXPECT_EQ(folder.bytes("text"), "old");
     std::string error;
@@ -177,11 +177,11 @@ TEST(OutputFile, RemovesNoFileThatMayBeAnothers)
         folder.write(name, "");
     std::filesystem::create_symlink(".text.part", folder / ".text.00000000.part");
     std::filesystem::create_directory(folder / ".text.11111111.part");
-    OutputFile living(folder / "text", PartKind::Hidden);
+    OutputFile living(folder / "text", TemporaryFileKind::Hidden);
     living.write("one", 3);
-    EXPECT_TRUE(put(folder / "text", "two", PartKind::Hidden));
+    EXPECT_TRUE(put(folder / "text", "two", TemporaryFileKind::Hidden));
     EXPECT_EQ(folder.names().size(), strangers.size() + 4);
-    ASSERT_TRUE(living.keep());
+    ASSERT_TRUE(living.commit());
     EXPECT_EQ(folder.bytes("text"), "one");
     EXPECT_EQ(folder.names().size(), strangers.size() + 3);
 }

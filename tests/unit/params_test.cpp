@@ -44,7 +44,7 @@ TEST(Params, ListsTakeTheirCountOrNothing)
     ASSERT_TRUE(set_param(params, "rotate", "0, 90,-1.5e1", error)) << error;
     EXPECT_EQ(params.rotate, (std::vector<double> { 0, 90, -15 }));
     EXPECT_FALSE(set_param(params, "rotate", "1,2", error));
-    EXPECT_EQ(error, "rotate: \"1,2\" has 2 numbers, 3 are needed");
+    EXPECT_EQ(error, "rotate: \"1,2\" has 2 numbers, expected 3");
     EXPECT_FALSE(set_param(params, "rotate", "1,b,3", error));
     EXPECT_EQ(error, "rotate: \"b\" in \"1,b,3\" is not a number");
     EXPECT_EQ(params.rotate, (std::vector<double> { 0, 90, -15 }));
@@ -99,18 +99,19 @@ TEST(Params, WordsAreSomeOfThoseAllowedInTheirOrder)
     ASSERT_TRUE(set_param(params, "channels", "coverage, normal", error)) << error;
     EXPECT_EQ(params.channels, (std::vector<std::string> { "normal", "coverage" }));
     EXPECT_TRUE(params.has("normal"));
-    EXPECT_EQ(value_text({ "coverage", "normal" }, Words { { "normal", "coverage" } }), "normal,coverage");
+    EXPECT_EQ(value_text({ "coverage", "normal" }, ChoiceSet { { { "normal", "" }, { "coverage", "" } } }),
+              "normal,coverage");
     EXPECT_FALSE(set_param(params, "channels", "normal,covrage", error));
     EXPECT_EQ(error, "channels: \"covrage\" is not one of normal, coverage, error; did you mean \"coverage\"?");
     EXPECT_FALSE(set_param(params, "channels", "normal,coverage,normal", error));
-    EXPECT_EQ(error, "channels: \"normal\" comes twice");
+    EXPECT_EQ(error, "channels: \"normal\" is given twice");
     EXPECT_FALSE(set_param(params, "channels", "normal,", error));
     EXPECT_EQ(error, "channels: \"\" is not one of normal, coverage, error");
     EXPECT_EQ(params.channels.size(), 2u);
     ASSERT_TRUE(set_param(params, "channels", "", error)) << error;
     EXPECT_TRUE(params.channels.empty());
     EXPECT_FALSE(params.has("normal"));
-    EXPECT_EQ(allowed_text(Words { { "normal", "coverage" } }), "normal,coverage");
+    EXPECT_EQ(allowed_text(ChoiceSet { { { "normal", "" }, { "coverage", "" } } }), "normal,coverage");
 }
 
 TEST(Params, ListsOfNamesAreOneALine)
@@ -121,11 +122,11 @@ TEST(Params, ListsOfNamesAreOneALine)
     EXPECT_EQ(recipe.occluder, (std::vector<std::string> { "a, b.obj", "c;d.obj" }));
     EXPECT_EQ(value_text(recipe.occluder, Paths {}), "a, b.obj\nc;d.obj");
     EXPECT_FALSE(set_param(recipe, "occluder", "a\n\nb", error));
-    EXPECT_EQ(error, "occluder: one of its names is empty");
+    EXPECT_EQ(error, "occluder: one of the names is empty");
     EXPECT_EQ(recipe.occluder.size(), 2u);
     ASSERT_TRUE(set_param(recipe, "occluder", "", error)) << error;
     EXPECT_TRUE(recipe.occluder.empty());
     EXPECT_FALSE(set_param(recipe, "mesh", OIIO::string_view("a\0b", 3), error));
-    EXPECT_EQ(error, "mesh: a name cannot hold a zero byte");
+    EXPECT_EQ(error, "mesh: a name cannot contain a zero byte");
     EXPECT_EQ(allowed_text(Paths {}), "FILE");
 }

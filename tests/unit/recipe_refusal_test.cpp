@@ -52,7 +52,7 @@ TEST(Recipe, RefusesAWrongType)
     EXPECT_EQ(refusal<VismapRecipe>("occluder = 1"),
               "\"hero.lightmap\" line 1: occluder: an integer where an array of paths in quotes is needed");
     EXPECT_EQ(refusal<VismapRecipe>("occluder = [\"\"]"),
-              "\"hero.lightmap\" line 1: occluder: one of its names is empty");
+              "\"hero.lightmap\" line 1: occluder: one of the names is empty");
     EXPECT_EQ(refusal<VismapRecipe>("occluder = [\"a\\nb\"]"),
               "\"hero.lightmap\" line 1: occluder: a name in a list cannot hold a line break");
 }
@@ -65,7 +65,7 @@ TEST(Recipe, RefusesAValueOutOfRange)
     EXPECT_EQ(refusal("exposure = -inf"), "\"hero.lightmap\" line 1: exposure: \"-inf\" is not a number");
     EXPECT_EQ(refusal("cfem_order = 9223372036854775807"),
               "\"hero.lightmap\" line 1: cfem_order: 9223372036854775807 is not in [1, 64]");
-    EXPECT_EQ(refusal("rotate = [0, 90]"), "\"hero.lightmap\" line 1: rotate: \"0,90\" has 2 numbers, 3 are needed");
+    EXPECT_EQ(refusal("rotate = [0, 90]"), "\"hero.lightmap\" line 1: rotate: \"0,90\" has 2 numbers, expected 3");
     EXPECT_EQ(refusal("cfem_filter = \"Exact\""),
               "\"hero.lightmap\" line 1: cfem_filter: \"Exact\" is not one of exact, sh");
     EXPECT_EQ(refusal("cfem_filter = \"a\\nb\""),
@@ -73,7 +73,7 @@ TEST(Recipe, RefusesAValueOutOfRange)
     EXPECT_EQ(refusal("cfem_resolution = [0, 32]"),
               "\"hero.lightmap\" line 1: cfem_resolution: \"0x32\" is not "
               "WIDTHxHEIGHT from 1x1 to 16384x16384");
-    EXPECT_EQ(refusal("vismap = \"a\\u0000b\""), "\"hero.lightmap\" line 1: vismap: a name cannot hold a zero byte");
+    EXPECT_EQ(refusal("vismap = \"a\\u0000b\""), "\"hero.lightmap\" line 1: vismap: a name cannot contain a zero byte");
 }
 
 // What follows "not TOML" are toml++'s words, which change with its version.

@@ -57,11 +57,13 @@ void randomise(Random& random, Size& value, const SizeRange& allowed)
 }
 void randomise(Random& random, std::string& value, const Choices& allowed)
 {
-    value = allowed.words[random() % allowed.words.size()];
+    value = allowed.choices[random() % allowed.choices.size()].word;
 }
-void randomise(Random& random, std::vector<std::string>& value, const Words& allowed)
+void randomise(Random& random, std::vector<std::string>& value, const ChoiceSet& allowed)
 {
-    value.assign(allowed.words.rbegin(), allowed.words.rend());
+    value.clear();
+    for (auto choice = allowed.choices.rbegin(); choice != allowed.choices.rend(); ++choice)
+        value.emplace_back(choice->word);
     value.resize(random() % (value.size() + 1));
 }
 void randomise(Random& random, std::string& value, const Text&)

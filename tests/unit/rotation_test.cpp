@@ -57,7 +57,7 @@ TEST(Rotation, MirrorsScalesAndShearsAreRefused)
     EXPECT_FALSE(rotation_from_matrix(r, { 1, 0.01, 0, 0, 1, 0, 0, 0, 1 }, error));
     EXPECT_FALSE(rotation_from_matrix(r, { NAN, 0, 0, 0, 1, 0, 0, 0, 1 }, error));
     EXPECT_FALSE(rotation_from_matrix(r, { 1, 2, 3 }, error));
-    EXPECT_NE(error.find("3 numbers, 9 are needed"), std::string::npos) << error;
+    EXPECT_NE(error.find("3 numbers, expected 9"), std::string::npos) << error;
 }
 
 TEST(Rotation, QuaternionOfAnyLengthTurnsAlike)

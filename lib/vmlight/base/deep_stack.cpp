@@ -30,7 +30,7 @@ void* make(void* data)
 
 } // namespace
 
-void on_deep_stack(const std::function<void()>& work)
+void run_on_deep_stack(const std::function<void()>& work)
 {
     Call call { work, nullptr };
     pthread_t thread;

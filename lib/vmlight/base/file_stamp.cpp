@@ -15,16 +15,16 @@ using OIIO::Strutil::fmt::format;
 bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
 {
     struct stat status;
-    // A '?' may stand in a file's name, or begin what another plugin wants to be told.
+    // A '?' may be part of a file's name, or start another plugin's query.
     if (::stat(path.c_str(), &status) != 0 && ::stat(path.substr(0, path.find('?')).c_str(), &status) != 0) {
         error = format("\"{}\": {}", path, errno == ENOENT || errno == ENOTDIR ? "no such file" : "cannot be read");
         return false;
     }
-    if (!S_ISREG(status.st_mode)) { // a pipe would hold the host up
+    if (!S_ISREG(status.st_mode)) { // a pipe would block the host
         error = format("\"{}\": not a file", path);
         return false;
     }
-    // The time of its last change of any kind, too: content may be put in place with size and time kept.
+    // The change time too: tools can replace content and keep its size and modification time.
     stamp = format("{}|{}|{}.{}|{}.{}|{}\n", path, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec,
                    status.st_ctim.tv_sec, status.st_ctim.tv_nsec, status.st_ino);
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Files as they were when something was made of them.
+/// Detects files that changed since they were read.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace vmlight {
 
-/// A file as it is now: two stamps differ if the file was changed or replaced. False, with the reason in `error`, if
-/// there is no such file, or it is no plain one: a pipe would hold its reader up. A ?query after the name is passed
-/// over.
+/// Set `stamp` to the file's current size, times and inode: two stamps differ if the file was changed or replaced.
+/// Returns false, with the reason in `error`, if there is no such file or it is not a regular file (a pipe would block
+/// its reader). A ?query after the name is ignored.
 bool stamp_file(std::string& stamp, const std::string& path, std::string& error);
 
-/// False, with the reason in `error`, if the file is not as it was.
+/// Returns false, with the reason in `error`, if the file changed since it was stamped.
 bool check_stamp(const std::string& stamp, const std::string& path, std::string& error);
 
 struct FileStamp
@@ -20,7 +20,7 @@ struct FileStamp
     std::string path, stamp;
 };
 
-/// Whether each of the files is as it was.
+/// Whether none of the files changed.
 bool are_unchanged(const std::vector<FileStamp>& files);
 
 } // namespace vmlight

@@ -14,8 +14,8 @@ using OIIO::Strutil::fmt::format;
 
 bool parse_frames(std::vector<int>& dst, const std::string& text, std::string& error)
 {
-    // OIIO reads what it can of a range and ignores the rest, and lists every frame before it returns: only the
-    // characters of a range are let through, numbers below a million, and no step of 0.
+    // OIIO ignores what it cannot parse and lists every frame before it returns. So check first: only characters of a
+    // range, numbers below a million, no step of 0.
     bool plausible = !text.empty() && text.find_first_not_of("0123456789-,x") == std::string::npos;
     for (size_t begin = 0, end; plausible && begin < text.size(); begin = end + 1) {
         end = std::min(text.find_first_of("-,x", begin), text.size());
@@ -24,7 +24,7 @@ bool parse_frames(std::vector<int>& dst, const std::string& text, std::string& e
     }
     std::vector<int> frames;
     if (!plausible || !OIIO::Filesystem::enumerate_sequence(text, frames) || frames.empty()) {
-        error = format("\"{}\" is not a range of frames up to 999999, such as 1-48, 1-48x2 or 1,3,10-12", text);
+        error = format("\"{}\" is not a frame range such as 1-48, 1-48x2 or 1,3,10-12 (frames up to 999999)", text);
         return false;
     }
     dst = frames;

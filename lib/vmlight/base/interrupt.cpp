@@ -13,19 +13,19 @@ namespace vmlight {
 namespace {
 
 std::atomic<bool> s_interrupted { false };
-std::atomic<int> s_debris { 0 }; // files that an exit would leave behind
+std::atomic<int> s_deferrals { 0 };
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
-char s_farewell[64]; // what to say from within a signal handler, which may format nothing
+char s_message[64]; // a signal handler must not format text
 int s_exit_code = 1;
 constexpr int kInterrupts[] = { SIGINT, SIGTERM, SIGHUP };
 
-// Reading a mesh or building its tree does not look at s_interrupted for seconds. While no output is being written
-// there is nothing to tidy up, and no need to wait for them.
+// Reading a mesh or building its BVH does not check s_interrupted for seconds. While no output is being written there
+// is nothing to clean up, and no need to wait for them.
 void interrupt(int)
 {
-    if (!s_interrupted.exchange(true) && s_debris > 0)
-        return; // the second time the user means it
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_farewell, std::strlen(s_farewell));
+    if (!s_interrupted.exchange(true) && s_deferrals > 0)
+        return; // the second signal exits
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, s_message, std::strlen(s_message));
     ::_exit(s_exit_code);
 }
 
@@ -34,9 +34,9 @@ void interrupt(int)
 void catch_interrupts(const std::string& name, int exit_code)
 {
     s_exit_code = exit_code;
-    std::snprintf(s_farewell, sizeof(s_farewell), "%s%s ERROR: interrupted\n", ::isatty(STDERR_FILENO) ? "\n" : "",
+    std::snprintf(s_message, sizeof(s_message), "%s%s ERROR: interrupted\n", ::isatty(STDERR_FILENO) ? "\n" : "",
                   name.c_str());
-    // A signal that the parent ignores (nohup, a shell's background) stays ignored.
+    // A signal that the parent process ignores (nohup, background jobs of a shell) stays ignored.
     for (int number : kInterrupts)
         if (std::signal(number, interrupt) == SIG_IGN)
             std::signal(number, SIG_IGN);
@@ -48,11 +48,11 @@ void ignore_interrupts()
         std::signal(number, SIG_IGN);
 }
 
-void settle_streams()
+void prepare_streams()
 {
     for (int number : { SIGPIPE, SIGXFSZ })
         std::signal(number, SIG_IGN);
-    // Each gets the lowest number that is free.
+    // open() returns the lowest free descriptor.
     int stream;
     while ((stream = ::open("/dev/null", O_RDWR)) >= 0 && stream <= STDERR_FILENO) { }
     ::close(stream);
@@ -63,14 +63,14 @@ bool interrupted()
     return s_interrupted;
 }
 
-WhileWriting::WhileWriting()
+DeferInterrupts::DeferInterrupts()
 {
-    ++s_debris;
+    ++s_deferrals;
 }
 
-WhileWriting::~WhileWriting()
+DeferInterrupts::~DeferInterrupts()
 {
-    --s_debris;
+    --s_deferrals;
 }
 
 } // namespace vmlight

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Ctrl-C and its kin: the work stops where it can be stopped, and at once where there is nothing to tidy up.
+/// Ctrl-C and other signals that stop a process: exit at once, unless an output file has to be cleaned up first.
 #pragma once
 
 #include <string>
 
 namespace vmlight {
 
-/// From now on SIGINT, SIGTERM and SIGHUP set interrupted(), or end the process with `exit_code` and the message
-/// "NAME ERROR: interrupted": the first one while no output is being written, else the second.
+/// Handle SIGINT, SIGTERM and SIGHUP from now on: the process exits with `exit_code` and the message
+/// "NAME ERROR: interrupted". While an output is being written (DeferInterrupts) the first signal only sets
+/// interrupted(); the second exits.
 void catch_interrupts(const std::string& name, int exit_code);
 
+/// Whether one of these signals arrived.
 bool interrupted();
 
-/// From now on the same signals do nothing: all is written, and the exit code must say so.
+/// Ignore these signals from now on: the output is complete, and the exit code must say so.
 void ignore_interrupts();
 
-/// Have a write that fails say so, to the file or pipe whose it is, and end no process: SIGPIPE and SIGXFSZ are ignored
-/// from now on, and what of stdin, stdout and stderr is closed leads to /dev/null, or the next file that is opened
-/// would be taken for it.
-void settle_streams();
+/// Make failed writes return errors instead of killing the process: SIGPIPE and SIGXFSZ are ignored from now on. Closed
+/// stdin, stdout and stderr are opened on /dev/null, so that no file that is opened later gets their descriptors.
+void prepare_streams();
 
-/// While one of these lives, a file is being written that an interrupt must not leave behind.
-class WhileWriting
+/// While one of these exists, an interrupt does not exit: a partly written file has to be removed first.
+class DeferInterrupts
 {
 public:
-    WhileWriting();
-    ~WhileWriting();
-    WhileWriting(const WhileWriting&) = delete;
-    WhileWriting& operator=(const WhileWriting&) = delete;
+    DeferInterrupts();
+    ~DeferInterrupts();
+    DeferInterrupts(const DeferInterrupts&) = delete;
+    DeferInterrupts& operator=(const DeferInterrupts&) = delete;
 };
 
 } // namespace vmlight

@@ -15,28 +15,28 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Where the links lead that `path` may be, whether there is a file or not; "" if in circles.
+// Follows symbolic links, dangling ones too; "" if they form a loop.
 std::string link_target(std::string path)
 {
-    constexpr int kMostLinks = 40; // as the system's
+    constexpr int kMaxLinks = 40; // Linux's limit
     std::error_code fault;
-    for (int link = 0; link < kMostLinks; ++link) {
+    for (int link = 0; link < kMaxLinks; ++link) {
         const auto target = std::filesystem::read_symlink(path, fault);
         if (fault)
             return path;
-        path = target.is_absolute() ? target.string() : folder_of(path) + "/" + target.string();
+        path = target.is_absolute() ? target.string() : parent_folder(path) + "/" + target.string();
     }
     return "";
 }
 
-std::string place_fault(const std::string& path, const std::string& target)
+std::string folder_fault(const std::string& path, const std::string& target)
 {
-    const std::string folder = folder_of(target);
+    const std::string folder = parent_folder(target);
     if (!OIIO::Filesystem::is_directory(folder))
-        return format("\"{}\": no folder \"{}\"", path, folder);
-    // Rights alone do not tell: some folders (/proc) take no files from anyone.
-    const std::string fault = PartFile(target, PartKind::Nameless).reason();
-    return fault.empty() ? "" : format("\"{}\": the folder \"{}\" cannot be written: {}", path, folder, fault);
+        return format("\"{}\": no such folder: \"{}\"", path, folder);
+    // Permissions are not enough: some folders (/proc) accept no files from anyone.
+    const std::string fault = TemporaryFile(target, TemporaryFileKind::Unnamed).reason();
+    return fault.empty() ? "" : format("\"{}\": folder \"{}\" is not writable: {}", path, folder, fault);
 }
 
 } // namespace
@@ -45,30 +45,30 @@ std::string output_file_fault(const std::string& path)
 {
     const std::string target = link_target(path);
     if (target.empty())
-        return format("\"{}\": a link that leads in circles", path);
+        return format("\"{}\": too many levels of symbolic links", path);
     struct stat old;
     if (::stat(target.c_str(), &old) != 0)
-        return errno == ENOENT || errno == ENOTDIR ? place_fault(path, target)
+        return errno == ENOENT || errno == ENOTDIR ? folder_fault(path, target)
                                                    : format("\"{}\": {}", path, std::strerror(errno));
     if (S_ISDIR(old.st_mode))
         return format("\"{}\": is a folder", path);
     if (!S_ISREG(old.st_mode))
-        return format("\"{}\": is a device or a pipe, which a file would replace", path);
-    if (::access(target.c_str(), W_OK) != 0) // the folder would let it be replaced
-        return format("\"{}\": cannot be written: {}", path, std::strerror(errno));
-    return place_fault(path, target);
+        return format("\"{}\": is a device or a pipe, not a file", path);
+    if (::access(target.c_str(), W_OK) != 0) // renaming would replace it all the same
+        return format("\"{}\": not writable: {}", path, std::strerror(errno));
+    return folder_fault(path, target);
 }
 
 std::string output_folder_fault(const std::string& path)
 {
     if (OIIO::Filesystem::is_directory(path))
-        return place_fault(path, path + "/report");
+        return folder_fault(path, path + "/report");
     if (OIIO::Filesystem::exists(path))
         return format("\"{}\": is a file, not a folder", path);
     std::string name = path;
     while (name.size() > 1 && name.back() == '/')
         name.pop_back();
-    return place_fault(path, name);
+    return folder_fault(path, name);
 }
 
 bool write_file(const std::string& path, OIIO::string_view bytes, std::string& error)
@@ -78,21 +78,21 @@ bool write_file(const std::string& path, OIIO::string_view bytes, std::string& e
         return false;
     OutputFile file(path);
     file.write(bytes.data(), bytes.size());
-    if (!file.keep())
+    if (!file.commit())
         error = format("\"{}\": {}", path, file.reason());
     return error.empty();
 }
 
-OutputFile::OutputFile(const std::string& path, PartKind kind)
-    : OutputFile(std::make_unique<PartFile>(link_target(path), kind))
+OutputFile::OutputFile(const std::string& path, TemporaryFileKind kind)
+    : OutputFile(std::make_unique<TemporaryFile>(link_target(path), kind))
 {
-    remove_abandoned_parts(link_target(path));
+    remove_stale_temporaries(link_target(path));
 }
 
-OutputFile::OutputFile(std::unique_ptr<PartFile> part)
-    : IOFile(part->stream(), Write)
-    , m_part(std::move(part))
-    , m_reason(m_part->reason())
+OutputFile::OutputFile(std::unique_ptr<TemporaryFile> file)
+    : IOFile(file->stream(), Write)
+    , m_file(std::move(file))
+    , m_reason(m_file->reason())
 {
 }
 
@@ -100,16 +100,16 @@ OutputFile::~OutputFile() = default;
 
 size_t OutputFile::write(const void* bytes, size_t size)
 {
-    if (sound() && IOFile::write(bytes, size) != size)
+    if (ok() && IOFile::write(bytes, size) != size)
         m_reason = std::strerror(errno);
     return size;
 }
 
-bool OutputFile::keep()
+bool OutputFile::commit()
 {
-    if (sound() && !m_part->place())
+    if (ok() && !m_file->commit())
         m_reason = std::strerror(errno);
-    return sound();
+    return ok();
 }
 
 } // namespace vmlight

@@ -17,10 +17,10 @@
 namespace vmlight {
 namespace {
 
-// Who is at work. OIIO's own wait runs whatever task is queued while it waits; a task that needs what the waiting
-// thread is about to make would wait for itself. Here the caller works until nothing is left, turns away the helpers
-// that have not begun, and waits for the others, which are at work on the last items.
-class Crew
+// Counts active workers. OIIO's own wait runs any queued task, which deadlocks if that task needs what the waiting
+// thread is about to make. Here the caller works until no items are left, turns away the workers that have not started,
+// and waits for those that are busy with the last items.
+class WorkerGate
 {
 public:
     bool enter()
@@ -51,7 +51,7 @@ private:
 
 } // namespace
 
-// A worker of the pool never waits for the pool.
+// OIIO runs loops inline on threads that are registered as workers of its pool.
 InlineLoops::InlineLoops()
     : m_registered(!OIIO::default_thread_pool()->is_worker(std::this_thread::get_id()))
 {
@@ -77,9 +77,9 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
     std::atomic<bool> stopped { false };
     std::mutex reporting;
     double reported = 0;
-    std::exception_ptr failure; // OIIO's pool would swallow it
+    std::exception_ptr failure; // OIIO's pool would drop it
 
-    // Under the lock, so that what is reported only ever grows.
+    // Called under the lock, so that the reported fraction never decreases.
     const auto report = [&] {
         const double done = double(finished) / double(items);
         if (!stopped && done > reported && !progress(reported = done))
@@ -100,33 +100,33 @@ bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_
             ++finished;
             if (!progress)
                 continue;
-            // A worker that finds another one reporting goes on: progress must never hold up the work.
+            // If another worker is reporting, carry on: progress must never delay the work.
             const std::unique_lock<std::mutex> lock(reporting, std::try_to_lock);
             if (lock)
                 report();
         }
     };
 
-    // OIIO's own division of labour cuts the range into as many pieces as threads, which leaves a thread idle when
-    // pieces differ in cost; here each worker takes the next item when it is free.
+    // OIIO's parallel_for splits the range into as many chunks as threads, which leaves threads idle when chunks differ
+    // in cost. Here each worker takes the next item when it is free.
     const int workers = int(std::min<int64_t>(worker_count(nthreads), std::max<int64_t>(1, items)));
-    const auto crew = std::make_shared<Crew>();
+    const auto gate = std::make_shared<WorkerGate>();
     for (int worker = 1; worker < workers; ++worker) {
-        const HandingOver handing_over;
-        OIIO::default_thread_pool()->push([crew, worker, &run](int) {
-            take_over();
-            if (crew->enter()) {
+        const TsanRelease release;
+        OIIO::default_thread_pool()->push([gate, worker, &run](int) {
+            tsan_acquire();
+            if (gate->enter()) {
                 run(worker);
-                crew->leave();
+                gate->leave();
             }
         });
     }
     run(0);
-    crew->close();
+    gate->close();
     if (failure)
         std::rethrow_exception(failure);
     if (progress && items > 0)
-        report(); // the last item's, if another worker was reporting when it ended
+        report(); // the last item may have finished while another worker was reporting
     return !stopped;
 }
 

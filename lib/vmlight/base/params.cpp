@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/params.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -14,20 +14,20 @@ namespace {
 using OIIO::string_view;
 using OIIO::Strutil::fmt::format;
 
-// OIIO's stof/stoi read a leading number and drop the rest; here the whole text must be one finite number.
+// OIIO's stof/stoi parse a leading number and ignore the rest; here the whole text must be one finite number.
 bool whole_number_text(string_view text, double& value)
 {
     const std::string trimmed(OIIO::Strutil::strip(text));
     char* end = nullptr;
     if (trimmed.empty() || OIIO::Strutil::icontains(trimmed, "x")) // no hexadecimal
         return false;
-    value = OIIO::Strutil::strtod(trimmed.c_str(), &end) + 0.0; // -0 is 0
+    value = OIIO::Strutil::strtod(trimmed.c_str(), &end) + 0.0; // -0 becomes 0
     return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
 }
 
 std::string number_text(double value)
 {
-    // The shortest of the two precisions that reads back to the same value.
+    // The shorter of two precisions that reads back to the same value.
     std::string brief = format("{:.6g}", value);
     return OIIO::Strutil::strtod(brief.c_str()) == value ? brief : format("{:.17g}", value);
 }
@@ -59,13 +59,20 @@ bool parse_number(double& dst, string_view text, const Range& allowed, bool inte
     return true;
 }
 
-std::vector<std::string> in_order(std::vector<std::string> words, const Words& allowed)
+std::vector<std::string> words_of(const std::vector<Choice>& choices)
 {
-    const auto place = [&](const std::string& word) {
-        return std::find(allowed.words.begin(), allowed.words.end(), word) - allowed.words.begin();
-    };
+    std::vector<std::string> words;
+    for (const Choice& choice : choices)
+        words.emplace_back(choice.word);
+    return words;
+}
+
+std::vector<std::string> in_order(std::vector<std::string> words, const ChoiceSet& allowed)
+{
+    const std::vector<std::string> known = words_of(allowed.choices);
+    const auto rank = [&](const std::string& word) { return std::find(known.begin(), known.end(), word); };
     std::stable_sort(words.begin(), words.end(),
-                     [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+                     [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
     return words;
 }
 
@@ -107,18 +114,18 @@ bool parse_value(Size& dst, string_view text, const SizeRange& allowed, std::str
 
 bool parse_value(std::string& dst, string_view text, const Choices& allowed, std::string& error)
 {
-    for (const char* word : allowed.words)
-        if (text == word) {
-            dst = word;
+    for (const Choice& choice : allowed.choices)
+        if (text == choice.word) {
+            dst = choice.word;
             return true;
         }
-    error = format("\"{}\" is not one of {}", text, OIIO::Strutil::join(allowed.words, ", "));
+    error = format("\"{}\" is not one of {}", text, OIIO::Strutil::join(words_of(allowed.choices), ", "));
     return false;
 }
 
-bool parse_value(std::vector<std::string>& dst, string_view text, const Words& allowed, std::string& error)
+bool parse_value(std::vector<std::string>& dst, string_view text, const ChoiceSet& allowed, std::string& error)
 {
-    const std::vector<std::string> known(allowed.words.begin(), allowed.words.end());
+    const std::vector<std::string> known = words_of(allowed.choices);
     std::vector<std::string> words;
     if (!OIIO::Strutil::strip(text).empty())
         words = OIIO::Strutil::splits(text, ",");
@@ -131,7 +138,7 @@ bool parse_value(std::vector<std::string>& dst, string_view text, const Words& a
             return false;
         }
         if (std::find(words.begin(), word, *word) != word) {
-            error = format("\"{}\" comes twice", *word);
+            error = format("\"{}\" is given twice", *word);
             return false;
         }
     }
@@ -148,7 +155,7 @@ bool parse_value(std::string& dst, string_view text, const Text&, std::string&)
 bool parse_value(std::string& dst, string_view text, const Path&, std::string& error)
 {
     if (text.find('\0') != string_view::npos) {
-        error = "a name cannot hold a zero byte";
+        error = "a name cannot contain a zero byte";
         return false;
     }
     dst = std::string(text);
@@ -164,7 +171,7 @@ bool parse_value(std::vector<std::string>& dst, string_view text, const Paths&, 
         if (!parse_value(path, path, Path {}, error))
             return false;
         if (path.empty()) {
-            error = "one of its names is empty";
+            error = "one of the names is empty";
             return false;
         }
     }
@@ -186,7 +193,7 @@ bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allo
         numbers.push_back(value);
     }
     if (!numbers.empty() && numbers.size() != allowed.count) {
-        error = format("\"{}\" has {} {}, {} are needed", text, numbers.size(),
+        error = format("\"{}\" has {} {}, expected {}", text, numbers.size(),
                        plural(int64_t(numbers.size()), "number", "numbers"), allowed.count);
         return false;
     }
@@ -224,7 +231,7 @@ std::string value_text(const std::string& value, const Choices&)
     return value;
 }
 
-std::string value_text(const std::vector<std::string>& value, const Words& allowed)
+std::string value_text(const std::vector<std::string>& value, const ChoiceSet& allowed)
 {
     return OIIO::Strutil::join(in_order(value, allowed), ",");
 }
@@ -270,12 +277,12 @@ std::string allowed_text(const SizeRange& allowed)
 
 std::string allowed_text(const Choices& allowed)
 {
-    return OIIO::Strutil::join(allowed.words, "|");
+    return OIIO::Strutil::join(words_of(allowed.choices), "|");
 }
 
-std::string allowed_text(const Words& allowed)
+std::string allowed_text(const ChoiceSet& allowed)
 {
-    return OIIO::Strutil::join(allowed.words, ",");
+    return OIIO::Strutil::join(words_of(allowed.choices), ",");
 }
 
 std::string allowed_text(const Text&)

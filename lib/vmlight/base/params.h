@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Parameters, once. Each params struct lists its parameters in one visit(); flags, recipe keys, ?query keys and
-/// metadata all follow from it, with one spelling (a flag writes '-' for '_') and one strict parser.
-/// Params know nothing of files, images or flags.
+/// Parameters, declared once: each params struct lists its parameters in one visit(). Flags, help, man pages, shell
+/// completion, recipe keys, ?query keys and metadata all derive from it, with one spelling (flags use '-' for '_') and
+/// one strict parser. Params know nothing of files, images or flags.
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -13,46 +13,51 @@
 
 namespace vmlight {
 
-/// Numbers from `min` to `max`, both allowed. If `word` is given, that word stands for `word_value`.
+/// A number in [min, max]. `word`, if set, is a name for `word_value`.
 struct Range
 {
     double min, max;
     const char* word = nullptr;
     double word_value = 0;
 };
-/// Width and height of an image, in pixels.
+/// Width and height of an image in pixels.
 struct Size
 {
     int width, height;
 };
-/// "256x128", or one number: the width, the height following by `height_share`. From 1x1 to `max` x `max`.
+/// "256x128", or one number: the width, with the height following as width * height_share. From 1x1 to max x max.
 struct SizeRange
 {
     int max;
     double height_share;
 };
-/// One of some words.
+/// A word that a parameter accepts, and a phrase for the help that explains it.
+struct Choice
+{
+    const char *word, *meaning;
+};
+/// One of these words.
 struct Choices
 {
-    std::vector<const char*> words;
+    std::vector<Choice> choices;
 };
-/// Some of these words, each at most once, separated by commas. Their order says nothing: they are kept in that of
-/// `words`, so that one choice has one text.
-struct Words
+/// Any of these words, each at most once, separated by commas, in any order. They are stored in the order of `choices`,
+/// so that equal sets have equal text.
+struct ChoiceSet
 {
-    std::vector<const char*> words;
+    std::vector<Choice> choices;
 };
 /// Any text.
 struct Text
 { };
-/// The name of a file or image; "" is none.
+/// The name of a file or image; "" means none.
 struct Path
 { };
-/// Names of files or images. As a text one a line, so that every name that holds no line break survives; a flag or
-/// ?query key that comes more than once adds a line each time.
+/// Names of files or images. As text, one per line, so that names may contain anything but a line break. A flag or
+/// ?query key that is repeated adds a name each time.
 struct Paths
 { };
-/// Either nothing or exactly `count` finite numbers, separated by commas or blanks.
+/// Exactly `count` finite numbers, separated by commas or spaces; or nothing.
 struct Numbers
 {
     size_t count;
@@ -61,13 +66,32 @@ struct Numbers
 struct Flag
 { };
 
-// Strict parsing: the whole text must be the value. On failure `dst` keeps its value and `error` says
-// what is wrong, the value and what is allowed, without the parameter's name.
+/// The help line of a parameter.
+struct Help
+{
+    Help(const char* line, bool advanced = false)
+        : text(line)
+        , is_advanced(advanced)
+    {
+    }
+    operator const char*() const { return text; }
+
+    const char* text;
+    /// Rarely needed: listed last in --help.
+    bool is_advanced;
+};
+inline Help advanced(const char* text)
+{
+    return { text, true };
+}
+
+// Strict parsing: the whole text must be a valid value. On failure `dst` is unchanged and `error` says what is wrong,
+// the value and what is allowed, without the parameter's name.
 VMLIGHT_API bool parse_value(int& dst, OIIO::string_view text, const Range& allowed, std::string& error);
 VMLIGHT_API bool parse_value(double& dst, OIIO::string_view text, const Range& allowed, std::string& error);
 VMLIGHT_API bool parse_value(Size& dst, OIIO::string_view text, const SizeRange& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Choices& allowed, std::string& error);
-VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const Words& allowed,
+VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const ChoiceSet& allowed,
                              std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Text& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Path& allowed, std::string& error);
@@ -77,33 +101,47 @@ VMLIGHT_API bool parse_value(std::vector<double>& dst, OIIO::string_view text, c
                              std::string& error);
 VMLIGHT_API bool parse_value(bool& dst, OIIO::string_view text, const Flag& allowed, std::string& error);
 
-// The text that parse_value() reads back to the same value.
+// Text that parse_value() reads back to the same value.
 VMLIGHT_API std::string value_text(int value, const Range& allowed);
 VMLIGHT_API std::string value_text(double value, const Range& allowed);
 VMLIGHT_API std::string value_text(const Size& value, const SizeRange& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Choices& allowed);
-VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Words& allowed);
+VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const ChoiceSet& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Text& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Path& allowed);
 VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Paths& allowed);
 VMLIGHT_API std::string value_text(const std::vector<double>& value, const Numbers& allowed);
 VMLIGHT_API std::string value_text(bool value, const Flag& allowed);
 
-// What is allowed, in a few characters, for a help text: "1..65536", "cosine|uniform", "x,y,z".
+// The accepted values, in brief, for usage: "1..65536", "cosine|uniform", "3 numbers".
 VMLIGHT_API std::string allowed_text(const Range& allowed);
 VMLIGHT_API std::string allowed_text(const SizeRange& allowed);
 VMLIGHT_API std::string allowed_text(const Choices& allowed);
-VMLIGHT_API std::string allowed_text(const Words& allowed);
+VMLIGHT_API std::string allowed_text(const ChoiceSet& allowed);
 VMLIGHT_API std::string allowed_text(const Text& allowed);
 VMLIGHT_API std::string allowed_text(const Path& allowed);
 VMLIGHT_API std::string allowed_text(const Paths& allowed);
 VMLIGHT_API std::string allowed_text(const Numbers& allowed);
 VMLIGHT_API std::string allowed_text(const Flag& allowed);
 
-/// The name among `names` that differs from `name` by the fewest edits, or "" if none is near.
+/// The words that a parameter accepts; none unless it takes words.
+inline std::vector<Choice> choices_of(const Choices& allowed)
+{
+    return allowed.choices;
+}
+inline std::vector<Choice> choices_of(const ChoiceSet& allowed)
+{
+    return allowed.choices;
+}
+template <class Allowed> std::vector<Choice> choices_of(const Allowed&)
+{
+    return {};
+}
+
+/// The name among `names` with the least edit distance to `name`, or "" if none is close: for "did you mean".
 VMLIGHT_API std::string nearest_name(OIIO::string_view name, const std::vector<std::string>& names);
 
-// A struct's visit() may make up the names it hands out: what needs a name after its call must copy it.
+// visit() calls field(name, value, allowed, help) for each parameter. Names may be temporary: copy them to keep them.
 
 /// Names of all parameters of `params`, in order.
 template <class Params> std::vector<std::string> param_names(Params params)
@@ -113,8 +151,8 @@ template <class Params> std::vector<std::string> param_names(Params params)
     return names;
 }
 
-/// Set one parameter from text. False, with the reason in `error`, if there is no such parameter (the nearest name is
-/// told) or the text is not a value that it takes.
+/// Set one parameter from text. Returns false, with the reason in `error`, if there is no such parameter (the error
+/// suggests the closest name) or it does not accept the text.
 template <class Params>
 bool set_param(Params& params, OIIO::string_view name, OIIO::string_view text, std::string& error)
 {
@@ -137,7 +175,7 @@ bool set_param(Params& params, OIIO::string_view name, OIIO::string_view text, s
     return found && good;
 }
 
-/// False, with the reason in `error`, if a value that was set in code is not allowed.
+/// Validate parameters that were set in code. Returns false, with the reason in `error`, if one is not allowed.
 template <class Params> bool check_params(Params params, std::string& error)
 {
     bool good = true;
@@ -153,7 +191,7 @@ template <class Params> bool check_params(Params params, std::string& error)
     return good;
 }
 
-/// Add every parameter to `spec` as `vmlight:<parameter>`: as text that set_param() reads back.
+/// Add every parameter to `spec` as `vmlight:<parameter>`, as text that set_param() reads back.
 template <class Params> void append_params(OIIO::ImageSpec& spec, Params params)
 {
     params.visit([&](const char* field, auto& value, const auto& allowed, const char*) {

@@ -5,8 +5,8 @@
 
 namespace vmlight {
 
-/// Called now and then, from any thread but never from two at once, with the share of the work that is done, in [0, 1].
-/// Returns false to stop: the stage then fails with the message "interrupted".
+/// Called from any thread, but never from two at once, with the fraction of the work that is done, in [0, 1]. Return
+/// false to stop: the stage then fails with the message "interrupted".
 using Progress = std::function<bool(double done)>;
 
 } // namespace vmlight

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which sanitizer this is built with, in GCC's words, which clang 14 does not know: __SANITIZE_ADDRESS__ and
-/// __SANITIZE_THREAD__.
+/// Defines GCC's sanitizer macros, __SANITIZE_ADDRESS__ and __SANITIZE_THREAD__, for clang 14 too.
 #pragma once
 
 #if defined(__has_feature)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// For the thread sanitizer: OIIO's pool, which is not built with it, hands work to other threads unseen. So that is
-/// done under a lock, which whoever takes the work takes first. In other builds nothing is done.
+/// Annotations for ThreadSanitizer: it does not see how OIIO's thread pool, which is not instrumented, passes tasks to
+/// other threads. Here the task is pushed under a lock, which the worker takes first. Does nothing in other builds.
 #pragma once
 
 #include <vmlight/base/sanitizers.h>
@@ -9,19 +9,19 @@
 
 namespace vmlight {
 
-inline std::mutex& hand() // one for all: nothing of a task may be looked at before it is taken
+inline std::mutex& tsan_handoff_mutex()
 {
-    static std::mutex hand;
-    return hand;
+    static std::mutex mutex;
+    return mutex;
 }
 
-/// While this lives, work is handed over.
-class HandingOver
+/// Construct before a task is pushed, destroy after.
+class TsanRelease
 {
 #if defined(__SANITIZE_THREAD__)
 public:
-    HandingOver()
-        : m_lock(hand())
+    TsanRelease()
+        : m_lock(tsan_handoff_mutex())
     {
     }
 
@@ -29,14 +29,14 @@ private:
     std::lock_guard<std::mutex> m_lock;
 #else
 public:
-    HandingOver() { } // not defaulted: an object of this class is no unused variable
+    TsanRelease() { } // not defaulted: avoids warnings about unused variables
 #endif
 };
 
-/// To be called before anything of the work is looked at.
-inline void take_over()
+/// Call in the task before it reads anything of the thread that pushed it.
+inline void tsan_acquire()
 {
-    const HandingOver after_all;
+    const TsanRelease synchronize;
 }
 
 } // namespace vmlight

@@ -6,12 +6,12 @@
 
 namespace vmlight {
 
-/// What was done since the process began, by readers and for recipes, for tests that hold them to doing it once.
+/// Work done since the process started, so that tests can check that nothing is computed twice.
 struct WorkCounts
 {
     std::atomic<int64_t> meshes_read { 0 };
-    std::atomic<int64_t> scenes_built { 0 }; ///< for the ray tracer
-    std::atomic<int64_t> tiles_baked { 0 }; ///< those with a covered texel
+    std::atomic<int64_t> scenes_built { 0 }; ///< Embree scenes
+    std::atomic<int64_t> tiles_baked { 0 }; ///< tiles with a covered texel
     std::atomic<int64_t> cfems_made { 0 };
     std::atomic<int64_t> albedos_made { 0 };
     std::atomic<int64_t> tiles_shaded { 0 };

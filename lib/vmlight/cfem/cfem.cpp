@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/cfem.h>
 
-#include <vmlight/base/fail.h>
-#include <vmlight/base/memory_need.h>
+#include <vmlight/base/available_memory.h>
+#include <vmlight/base/fail_with.h>
 #include <vmlight/cfem/exact.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
@@ -39,13 +39,13 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
 {
     std::string error;
     if (!check_params(params, error))
-        return fail(dst, error);
-    error = memory_fault(describe_cfem(env.spec(), params));
+        return fail_with(dst, error);
+    error = memory_shortage(describe_cfem(env.spec(), params));
     if (!error.empty())
-        return fail(dst, error);
+        return fail_with(dst, error);
     EnvironmentRows rows(env, params.sanitize);
     if (!rows.open())
-        return fail(dst, rows.error());
+        return fail_with(dst, rows.error());
 
     std::vector<double> rgb;
     const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
@@ -54,12 +54,12 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
         ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
         : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress);
     if (!done)
-        return fail(dst, rows.error().empty() ? "interrupted" : rows.error());
+        return fail_with(dst, rows.error().empty() ? "interrupted" : rows.error());
 
     OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
     record_sanitized(spec, rows.bad_values());
     // An exact sum is below 0 by rounding alone; the ringing of harmonics is kept.
-    return set_filtered(dst, spec, rgb, exact, error) || fail(dst, error);
+    return set_filtered(dst, spec, rgb, exact, error) || fail_with(dst, error);
 }
 
 } // namespace vmlight

@@ -35,9 +35,13 @@ struct CfemParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("filter", filter, Choices { { "exact", "sh" } }, "How to filter: exactly, or by spherical harmonics");
-        field("order", order, Range { 1, 64 }, "Bands of the sh filter; 3 is the usual nine coefficients");
-        field("resolution", resolution, SizeRange { 16384, 0.5 }, "Size of the filtered map, in pixels");
+        field("filter", filter,
+              Choices { { { "exact", "closed-form integration: no ringing" },
+                          { "sh", "spherical harmonics, for comparison: rings near bright lights" } } },
+              advanced("How to apply the cosine filter"));
+        field("order", order, Range { 1, 64 },
+              advanced("Number of bands of the filter sh; 3 is the usual 9 coefficients"));
+        field("resolution", resolution, SizeRange { 16384, 0.5 }, "Size of the filtered environment in pixels");
         field("sanitize", sanitize, Flag {}, "Repair NaN, infinite and negative pixels of the environment");
     }
 };

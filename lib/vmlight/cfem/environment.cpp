@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/environment.h>
 
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/oiio_compat.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -34,7 +34,7 @@ std::string Environment::fault() const
     const OIIO::ImageSpec& own = spec(); // opens a file that was only named
     const bool there = (!m_image || m_image->initialized()) && own.width > 0 && own.height > 0;
     if (!there)
-        return m_image && m_image->has_error() ? oiio::reason(*m_image) : "environment has no pixels";
+        return m_image && m_image->has_error() ? oiio::error_line(*m_image) : "environment has no pixels";
     if (own.deep || own.depth > 1)
         return "environment is a deep image or a volume, not a lat-long map";
     if (OIIO::Strutil::istarts_with(own.get_string_attribute("textureformat"), "CubeFace"))
@@ -48,7 +48,7 @@ bool Environment::read(OIIO::ROI row, float* pixels, std::string& error) const
         const bool read = m_image->get_pixels(row, OIIO::TypeFloat, pixels);
         if (read && !m_image->has_error())
             return true;
-        const std::string reason = oiio::reason(*m_image);
+        const std::string reason = oiio::error_line(*m_image);
         error = reason.empty() ? format("cannot read row {} of the environment", row.ybegin) : reason;
         return false;
     }

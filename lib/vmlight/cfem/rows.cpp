@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/rows.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/image/channels.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ bool EnvironmentRows::open()
         return false;
     std::array<int, 3> index;
     if (!check_window(spec, m_error) || !find_color_channels(spec, index, m_error)) {
-        m_error = one_line("environment: " + m_error);
+        m_error = printable_line("environment: " + m_error);
         return false;
     }
     // The display window is the sphere: a cropped map is black outside its pixels.
@@ -58,10 +58,10 @@ bool EnvironmentRows::read(int row, float* rgb)
         const char* wrong = !m_negative.any() ? "NaN or infinite"
             : !m_not_finite.any()             ? "negative"
                                               : "NaN, infinite or negative";
-        Faults all = m_not_finite;
+        BadValues all = m_not_finite;
         all.merge(m_negative);
-        m_error = one_line(all.text("environment", wrong, m_env.spec().channelnames)) + "; --sanitize repairs "
-            + plural(all.count(), "it", "them");
+        m_error = printable_line(all.describe("environment", wrong, m_env.spec().channelnames))
+            + "; --sanitize repairs " + plural(all.count(), "it", "them");
         return false;
     }
     std::copy(window(row).begin(), window(row).end(), rgb);

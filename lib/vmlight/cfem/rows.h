@@ -2,7 +2,7 @@
 /// Both ends of a filter: the rows of an environment that it reads, and the image that its sums become.
 #pragma once
 
-#include <vmlight/base/faults.h>
+#include <vmlight/base/bad_values.h>
 #include <vmlight/cfem/environment.h>
 #include <vmlight/cfem/grid.h>
 
@@ -50,7 +50,7 @@ private:
     std::array<std::vector<float>, 3> m_window;
     std::array<bool, 3> m_window_bad {};
     int m_loaded = 0; // rows
-    Faults m_not_finite, m_negative;
+    BadValues m_not_finite, m_negative;
     std::string m_error;
 };
 

@@ -11,7 +11,7 @@ using OIIO::Strutil::fmt::format;
 
 namespace {
 
-// OIIO 2's oiiotool and maketx write the whole command that made the file.
+// oiiotool and maketx of OIIO 2 record the whole command line.
 std::string converting_flag(const OIIO::ImageSpec& spec)
 {
     const std::string software = spec.get_string_attribute("Software");
@@ -49,13 +49,13 @@ bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
     }
     const std::string space = spec.get_string_attribute("colorInteropID", "data");
     if (space != "data" && space != "unknown") {
-        error = format("not a visibility map any more: tagged as colour, \"{}\"", space);
+        error = format("no longer a visibility map: tagged as colour, \"{}\"", space);
         return false;
     }
     const std::string flag = converting_flag(spec);
     if (!flag.empty())
-        error = format("not a visibility map any more: its Software says that a program converted colour ({}); bake it "
-                       "anew, or erase the attribute if that was of another image",
+        error = format("no longer a visibility map: its Software attribute shows a colour conversion ({}); bake it "
+                       "again, or erase the attribute if it belongs to another image",
                        flag);
     return flag.empty();
 }
@@ -87,13 +87,14 @@ bool check_window(const OIIO::ImageSpec& spec, std::string& error)
     const double shown = double(spec.full_width) * spec.full_height, stored = double(spec.width) * spec.height;
     const int orientation = spec.get_int_attribute("Orientation", 1);
     if (least < 1 || most > kLongestSide)
-        error = format("a display window of {}x{} pixels; sides of 1 to {} are allowed", spec.full_width,
-                       spec.full_height, kLongestSide);
+        error = format("display window of {}x{} pixels: sides must be 1 to {}", spec.full_width, spec.full_height,
+                       kLongestSide);
     else if (shown > kLarge && shown > kEmptiest * stored)
-        error = format("a display window of {}x{} pixels, nearly all of it empty: {}x{} are stored", spec.full_width,
+        error = format("display window of {}x{} pixels is almost empty: only {}x{} are stored", spec.full_width,
                        spec.full_height, spec.width, spec.height);
     else if (orientation != 1)
-        error = format("stored flipped or turned (Orientation {}); oiiotool --reorient sets it upright", orientation);
+        error = format("pixels are stored flipped or rotated (Orientation {}); fix it with oiiotool --reorient",
+                       orientation);
     else
         return true;
     return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The image contract of the stages: channel names and the metadata that says what an image is.
-/// Channels are found by name and never by index: EXR sorts them when it writes.
+/// The image contract of the stages: channel names, and the metadata that identifies a stage's image. Channels are
+/// looked up by name, never by index: EXR files store them sorted.
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -18,10 +18,11 @@ constexpr const char* kVismapStage = "vismap";
 constexpr const char* kCfemStage = "cfem";
 constexpr const char* kLightmapStage = "lightmap";
 
-/// Channels of a visibility map, in the order it is made: `visibility`, `direction.x`, `direction.y`, `direction.z`.
+/// Channels of a visibility map, in the order in which they are made: `visibility`, `direction.x`, `direction.y`,
+/// `direction.z`.
 constexpr std::array<const char*, 4> kVismapChannels { "visibility", "direction.x", "direction.y", "direction.z" };
-/// Optional channels of a visibility map: the shading normal n, in object space, of unit length where a triangle covers
-/// the texel. What the model `ao` needs.
+/// Optional channels of a visibility map: the shading normal n in object space, of unit length where a triangle covers
+/// the texel. The model `ao` needs it.
 constexpr std::array<const char*, 3> kNormalChannels { "normal.x", "normal.y", "normal.z" };
 /// Optional channel of a visibility map: the standard error of `visibility`.
 constexpr const char* kErrorChannel = "error";
@@ -34,25 +35,24 @@ VMLIGHT_API std::vector<std::string> numbered_channels(const std::string& basis,
 
 /// Find the four channels of a visibility map.
 ///
-/// @param index    set to the channels' places in the order of kVismapChannels
-/// @param error    set to what is missing and what was found, if any is missing or `vmlight:stage` says another stage
-/// @returns false if the image is not a visibility map, or none any more: its `colorInteropID` is a colour space's, or
-///          the program that wrote it (`Software`) says that it converted colour. OIIO 2.4 converts data as readily as
-///          colour, and nothing in the pixels would tell. An image without `vmlight:stage` passes on its channels
-///          alone.
+/// @param index    set to the channel indices, in the order of kVismapChannels
+/// @param error    set to what is missing and what was found, on failure
+/// @returns false if a channel is missing, `vmlight:stage` names another stage, or a colour conversion may have damaged
+///          the map: its `colorInteropID` is a colour space, or its `Software` attribute shows a colour conversion
+///          (OIIO 2.4 converts data channels too, and the pixels do not show it). An image without `vmlight:stage`
+///          needs the channels only.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
-/// Find the colour channels R, G, B. One named Y, or the only one, unless it is A or Z, serves as all three.
+/// Find the colour channels R, G, B. A channel Y, or a single channel other than A or Z, is used for all three.
 ///
-/// @param index    set to the channels' places
-/// @param error    set to what is missing and what was found, if there is no colour or `vmlight:stage` is `vismap`
-/// @returns false if the image has no colour to be used as light.
+/// @param index    set to the channel indices
+/// @param error    set to what is missing and what was found, on failure
+/// @returns false if the image has no colour channels or is a visibility map.
 VMLIGHT_API bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error);
 
-/// False, with the reason in `error`, if the image's display window, which stands for the whole sphere or texture
-/// however few pixels are stored of it, has no pixels, a side of more than 65536, or more than 2^27 pixels of which not
-/// one in 256 is stored: a few pixels in a window of billions would be filtered for hours. Or if the file says that its
-/// pixels are stored flipped or turned.
+/// Check that the display window, which is the whole sphere or texture whatever part of it is stored, can be processed.
+/// Returns false, with the reason in `error`, if it is empty, a side is longer than 65536, fewer than 1 in 256 of more
+/// than 2^27 pixels are stored (filtering them would take hours), or the Orientation is not 1.
 VMLIGHT_API bool check_window(const OIIO::ImageSpec& spec, std::string& error);
 
 } // namespace vmlight

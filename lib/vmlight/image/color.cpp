@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/color.h>
 
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/image/color_decision.h>
 #include <vmlight/image/color_space.h>
+#include <vmlight/image/color_transform.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagebufalgo_util.h>
@@ -23,18 +23,18 @@ using OIIO::Strutil::fmt::format;
 
 namespace {
 
-// Pixels of `image` as floats in its own memory.
+// Make the image's pixels float, in memory that it owns.
 bool make_float(OIIO::ImageBuf& image, std::string& error)
 {
     const bool stored = image.storage() == OIIO::ImageBuf::LOCALBUFFER || image.storage() == OIIO::ImageBuf::APPBUFFER;
     if (!stored && !image.read(image.subimage(), image.miplevel(), true, OIIO::TypeFloat)) {
-        error = oiio::reason(image);
+        error = oiio::error_line(image);
         return false;
     }
     if (image.spec().format != OIIO::TypeFloat) {
         OIIO::ImageBuf floats;
         if (!floats.copy(image, OIIO::TypeFloat)) {
-            error = oiio::reason(floats);
+            error = oiio::error_line(floats);
             return false;
         }
         image = std::move(floats);
@@ -42,27 +42,27 @@ bool make_float(OIIO::ImageBuf& image, std::string& error)
     return true;
 }
 
-// A pixel that is not finite stays as it is: a matrix would spread it to the other channels, and a curve might hide it.
-ColorConversion among_finite(ColorConversion convert)
+// Skip pixels that are not finite: a matrix would spread them to other channels, a curve might hide them.
+ColorConversion skip_not_finite(ColorConversion convert)
 {
     if (!convert)
         return {};
     return [convert = std::move(convert)](float* rgb, int count) {
-        std::vector<std::pair<int, std::array<float, 3>>> odd;
+        std::vector<std::pair<int, std::array<float, 3>>> skipped;
         for (int i = 0; i < count; ++i) {
             float* p = rgb + 3 * size_t(i);
             if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
                 continue;
-            odd.push_back({ i, { p[0], p[1], p[2] } });
+            skipped.push_back({ i, { p[0], p[1], p[2] } });
             std::fill_n(p, 3, 0.0f);
         }
         convert(rgb, count);
-        for (const auto& [i, pixel] : odd)
+        for (const auto& [i, pixel] : skipped)
             std::copy_n(pixel.data(), 3, rgb + 3 * size_t(i));
     };
 }
 
-// Only the colour channels, wherever they are: neither alpha nor data channels are colour.
+// Converts the colour channels only, wherever they are: alpha and data are not colour.
 void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, const ColorConversion& convert,
                     int nthreads)
 {
@@ -86,8 +86,7 @@ void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, cons
     });
 }
 
-// What an earlier space said of itself is no longer true.
-void forget_space(OIIO::ImageSpec& spec)
+void erase_color_metadata(OIIO::ImageSpec& spec)
 {
     for (const char* name : { "oiio:ColorSpace", "oiio:Gamma", "colorInteropID", "chromaticities", "ICCProfile",
                               "acesImageContainerFlag" })
@@ -101,13 +100,13 @@ bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const Color
                      std::string& error, int nthreads)
 {
     std::array<int, 3> index;
-    image.spec(); // opens a file that was only named
+    image.spec(); // opens the file of a lazy ImageBuf
     if (!image.initialized()) {
-        error = image.has_error() ? oiio::reason(image) : format("\"{}\": no image", path);
+        error = image.has_error() ? oiio::error_line(image) : format("\"{}\": no image", path);
         return false;
     }
     if (image.deep()) {
-        error = format("\"{}\": a deep image has no one colour a pixel", path);
+        error = format("\"{}\": deep images are not supported", path);
         return false;
     }
     if (!find_color_channels(image.spec(), index, error)) {
@@ -117,16 +116,16 @@ bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const Color
     ColorSettings known = settings;
     if (known.stored == OIIO::TypeUnknown)
         known.stored = image.nativespec().format;
-    ColorDecision decision;
-    if (!decide_color(decision, image.spec(), path, known, error))
+    ColorTransform transform;
+    if (!find_color_transform(transform, image.spec(), path, known, error))
         return false;
-    if (decision.convert) {
+    if (transform.convert) {
         if (!make_float(image, error))
             return false;
-        convert_pixels(image, index, among_finite(std::move(decision.convert)), nthreads);
+        convert_pixels(image, index, skip_not_finite(std::move(transform.convert)), nthreads);
     }
-    tag_scene_linear(image.specmod(), decision.space);
-    note = decision.note;
+    tag_scene_linear(image.specmod(), transform.space);
+    note = transform.note;
     return true;
 }
 
@@ -136,12 +135,12 @@ bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& conversion, c
     ColorSettings known = settings;
     if (known.stored == OIIO::TypeUnknown)
         known.stored = spec.format;
-    ColorDecision decision;
-    if (!decide_color(decision, spec, path, known, error))
+    ColorTransform transform;
+    if (!find_color_transform(transform, spec, path, known, error))
         return false;
-    tag_scene_linear(spec, decision.space);
-    conversion = among_finite(std::move(decision.convert));
-    note = decision.note;
+    tag_scene_linear(spec, transform.space);
+    conversion = skip_not_finite(std::move(transform.convert));
+    note = transform.note;
     return true;
 }
 
@@ -155,7 +154,7 @@ bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const
 
 void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id)
 {
-    forget_space(spec);
+    erase_color_metadata(spec);
     spec.attribute("colorInteropID", interop_id);
     if (const float* chromaticities = chromaticities_of(interop_id))
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
@@ -163,7 +162,7 @@ void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id)
 
 void tag_data(OIIO::ImageSpec& spec)
 {
-    forget_space(spec);
+    erase_color_metadata(spec);
     spec.attribute("colorInteropID", "data");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Environments and albedo into the scene-linear working space, by OIIO's ColorConfig (OpenColorIO).
+/// Conversion of environments and albedo to the scene-linear working space, with OIIO's ColorConfig (OpenColorIO).
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -13,46 +13,46 @@ namespace vmlight {
 
 struct ColorSettings
 {
-    /// OCIO config file; "" means $OCIO, and if that is not set, no config.
+    /// OCIO config file; "" means $OCIO, or no config if that is not set.
     std::string config;
-    /// Colour space of the image; "" means: ask the config's file rules, then the file's own metadata.
+    /// Colour space of the image; "" means the config's file rules, then the file's metadata.
     std::string from;
-    /// Pixel type in the file, for an image in memory that no longer tells.
+    /// Pixel type in the file, if the image in memory has another.
     OIIO::TypeDesc stored {};
 };
 
-/// Convert `image` in place into the config's role `scene_linear`, and tag it with its space.
+/// Convert `image` in place to the config's role `scene_linear`, and tag it with that space.
 ///
-/// The space it comes from is the first of: `settings.from`; the config's file rules for `path`, when a rule other than
-/// the default one matches; a space's name that stands as a word in the file's name; the file's `colorInteropID`; sRGB
-/// for images of 8 or 16 bits whole numbers; else the working space itself. Without a config the working space is
-/// linear with the primaries of Rec.709 and only sRGB is converted; a file whose tag says another space keeps
-/// its pixels and its tag.
+/// The source space is the first of: `settings.from`; the config's file rules for `path`, if a rule other than the
+/// default matches; a space whose name is a word of the file name; the file's `colorInteropID`; sRGB for 8 and 16 bit
+/// integers; the working space. Without a config the working space is linear Rec.709 and only sRGB is converted; a file
+/// that is tagged with another space keeps its pixels and tag.
 ///
-/// @param image    R, G, B (or one channel) are converted, alpha and other channels are not; a pixel that is not finite
-///                 stays as it is. An image that is converted becomes float, in memory of its own.
-/// @param note     set to one line that says what was done: "Linear Rec.709 (sRGB) -> ACEScg"
-/// @param error    set if the config cannot be read, or a space is not in it (the nearest name is told)
+/// @param image    R, G, B (or one channel) are converted; alpha, other channels and pixels that are not finite are
+/// not.
+///                 A converted image becomes float and owns its memory.
+/// @param note     set to a line for the user: "Linear Rec.709 (sRGB) -> ACEScg"
+/// @param error    set if the config cannot be read or lacks a space (it suggests the closest name)
 /// @param nthreads 0 means OIIO's default
-/// @returns false on error; `image` is then as it was. Not checked: that the named space is true.
+/// @returns false on error; `image` is then unchanged. Not checked: that the image really is in its source space.
 VMLIGHT_API bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings,
                                  std::string& note, std::string& error, int nthreads = 0);
 
-/// Converts RGB triples in place, on any thread; one that is not finite stays as it is. None: all stay.
+/// Converts RGB triples in place, on any thread, except those that are not finite. Empty if nothing is to be converted.
 using ColorConversion = std::function<void(float* rgb, int count)>;
 
-/// What to_scene_linear() would do to the pixels of an image that are read later. Tags `spec`, read from the file
-/// `path`, as it would tag the image: no pixel is looked at.
+/// What to_scene_linear() would do, for pixels that are read later: sets `conversion`, and tags `spec`, read from the
+/// file `path`, as it would tag the image.
 VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& conversion, const std::string& path,
                                        const ColorSettings& settings, std::string& note, std::string& error);
-/// The same, of which the tags alone are wanted.
+/// The same, for the tags only.
 VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
                                        std::string& error);
 
 /// Tag `spec` as scene-linear colour of the working space: `colorInteropID`, and `chromaticities` of the ids
-/// lin_ap1_scene, lin_ap0_scene and lin_rec709_scene. What the spec said of its colour before is dropped.
+/// lin_ap1_scene, lin_ap0_scene and lin_rec709_scene. Removes all earlier colour metadata.
 VMLIGHT_API void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id);
-/// Tag `spec` as data that no tool may convert.
+/// Tag `spec` as data that colour management must not convert.
 VMLIGHT_API void tag_data(OIIO::ImageSpec& spec);
 
 } // namespace vmlight

@@ -14,8 +14,7 @@ using OIIO::Strutil::iequals;
 
 namespace {
 
-// Scene-linear interop ids, the names by which configs old and new know those spaces, and the xy of red, green, blue
-// and white.
+// Scene-linear interop ids, the names of these spaces in old and new configs, and the xy of red, green, blue and white.
 struct KnownSpace
 {
     const char* interop_id;
@@ -39,20 +38,21 @@ const std::vector<KnownSpace>& known_spaces()
     return spaces;
 }
 
-// Does `text` hold `word`, in any case, with no letter or digit on either side?
-bool holds_word(const std::string& text, const std::string& word)
+// Whether `text` contains `word`, ignoring case, with no letter or digit on either side.
+bool contains_word(const std::string& text, const std::string& word)
 {
-    const auto is_free
+    const auto is_boundary
         = [&](size_t i) { return i >= text.size() || !std::isalnum(static_cast<unsigned char>(text[i])); };
     for (size_t at = 0; !word.empty() && at + word.size() <= text.size(); ++at)
-        if (iequals(text.substr(at, word.size()), word) && (at == 0 || is_free(at - 1)) && is_free(at + word.size()))
+        if (iequals(text.substr(at, word.size()), word) && (at == 0 || is_boundary(at - 1))
+            && is_boundary(at + word.size()))
             return true;
     return false;
 }
 
-// Where OIIO 2 and 3 differ. From 3.1 on a config tells whether only its default rule matched, and what is data. In 2.4
-// getColorSpaceFromFilepath() takes the default rule for no match, and then looks for any space's name anywhere
-// in the path, so that "drawing.tif" is Raw: such an answer counts only if the file's own name or extension gives it.
+// OIIO 2 and 3 differ. From 3.1 on a config reports whether only its default rule matched, and which spaces are data.
+// In 2.4 getColorSpaceFromFilepath() ignores the default rule and instead searches the whole path for any space's name,
+// so that "drawing.tif" is Raw: accept such a result only if the file's name or extension gives it.
 template <class Config>
 auto rule_space(const Config& config, const std::string& path, const std::string&, int)
     -> decltype(config.filepathOnlyMatchesDefaultRule(path), std::string())
@@ -102,10 +102,9 @@ std::string space_named(const ColorConfig& config, const std::string& name)
     const char* space = name.empty() ? nullptr : config.getColorSpaceNameByRole(name);
     if (!space)
         return "";
-    // OIIO makes up some names that the config does not have ("linear" for the role scene_linear, whatever the light's
-    // primaries).
-    static const std::vector<std::string> made_up { "linear", "rgb", "default", "srgb", "scene_linear" };
-    return !is_any_of(name, made_up) || is_any_of(name, all_space_names(config)) ? space : "";
+    // OIIO adds names that the config does not have ("linear" for the role scene_linear, whatever its primaries).
+    static const std::vector<std::string> invented { "linear", "rgb", "default", "srgb", "scene_linear" };
+    return !is_any_of(name, invented) || is_any_of(name, all_space_names(config)) ? space : "";
 }
 
 std::string first_space_named(const ColorConfig& config, const std::vector<const char*>& names)
@@ -124,7 +123,7 @@ std::string space_of_path(const ColorConfig& config, const std::string& path)
         return "";
     const std::string file = OIIO::Filesystem::filename(path);
     std::string named(config.parseColorSpaceFromString(file));
-    if (!holds_word(file, named))
+    if (!contains_word(file, named))
         named.clear();
     const std::string ruled = rule_space(config, path, named, 0);
     return space_named(config, ruled.empty() ? named : ruled);

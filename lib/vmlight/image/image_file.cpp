@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/image_file.h>
 
-#include <vmlight/base/memory_need.h>
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/available_memory.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -21,8 +21,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// OIIO's callback carries a pointer and returns true to stop; a writer that was stopped says that all went well.
-struct Watch
+// OIIO's progress callback: gets a pointer, returns true to stop. A writer that was stopped reports success.
+struct WriteProgress
 {
     const Progress& progress;
     const OutputFile& file;
@@ -30,7 +30,7 @@ struct Watch
 
     static bool report(void* watch, float done)
     {
-        Watch& self = *static_cast<Watch*>(watch);
+        WriteProgress& self = *static_cast<WriteProgress*>(watch);
         self.stopped = self.stopped || (self.progress && !self.progress(double(done)));
         return self.stopped || !self.file.sound();
     }
@@ -41,11 +41,11 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
     constexpr float kLargestHalf = 65504;
     const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
     for (size_t c = 0; c < stats.max.size(); ++c) {
-        // The extremes are those of finite values.
+        // max and min ignore infinities.
         const float worst = stats.infcount[c] > 0 ? std::numeric_limits<float>::infinity()
                                                   : std::max(std::abs(stats.max[c]), std::abs(stats.min[c]));
         if (!(worst <= kLargestHalf)) {
-            error = format("channel {} reaches {:g}, beyond the range of half (65504): write float",
+            error = format("channel {} reaches {:g}, but the maximum of half is 65504: write float",
                            image.spec().channelnames[c], worst);
             return false;
         }
@@ -66,7 +66,7 @@ std::string header_fault(const OIIO::ImageSpec& spec)
     constexpr int kLongestSide = 1 << 20;
     for (const auto& [width, height] : { std::pair(spec.width, spec.height), { spec.full_width, spec.full_height } })
         if (std::max(width, height) > kLongestSide)
-            return format("its header says {}x{} pixels, of at most {} a side", width, height, kLongestSide);
+            return format("its header says {}x{} pixels; the maximum is {} per side", width, height, kLongestSide);
     return "";
 }
 
@@ -76,22 +76,22 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
-    // An ImageBuf takes the header from OIIO's cache, which may know that of a file since replaced, and then reads the
-    // new pixels beyond its memory.
+    // ImageBuf takes the header from OIIO's image cache, which may be stale if the file was replaced, and would then
+    // read the new pixels into too small a buffer.
     const auto cache = OIIO::ImageCache::create(true);
     cache->invalidate(OIIO::ustring(path));
     dst.reset(path, subimage);
-    // Without a file its spec is empty, and read() tells.
+    // If the file cannot be opened the spec is empty, and read() fails.
     std::string fault = header_fault(dst.spec());
     if (fault.empty())
-        fault = memory_fault(dst.spec());
+        fault = memory_shortage(dst.spec());
     if (!fault.empty()) {
         error = format("\"{}\": {}", path, fault);
         dst.clear();
         return false;
     }
     if (!dst.read(subimage, 0, true, OIIO::TypeDesc::FLOAT)) {
-        error = oiio::named_reason(path, oiio::reason(dst));
+        error = oiio::with_path(path, oiio::error_line(dst));
         dst.clear();
         return false;
     }
@@ -102,7 +102,7 @@ std::string output_name_fault(const std::string& path)
 {
     return OIIO::Strutil::iends_with(path, ".exr")
         ? ""
-        : format("\"{}\": outputs are EXR files; name it .exr, then convert it with oiiotool", path);
+        : format("\"{}\": output must be .exr; convert it with oiiotool afterwards", path);
 }
 
 std::string output_fault(const std::string& path)
@@ -135,14 +135,14 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
         OIIO::ImageSpec& spec = specs.emplace_back(image.spec());
         spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
         spec.attribute("compression", "zip");
-        // OIIO writes the time of day into every EXR that names no date.
+        // OIIO writes the current time unless DateTime is set.
         spec.attribute("DateTime", "");
     }
 
     OutputFile file(path);
     const auto failed = [&](const std::string& reason) {
-        // The temporary file's name would tell the user nothing.
-        error = oiio::named_reason(path, OIIO::Strutil::replace(reason, file.temporary(), path, true));
+        // The temporary file's name means nothing to the user.
+        error = oiio::with_path(path, OIIO::Strutil::replace(reason, file.temporary(), path, true));
         return false;
     };
     auto out = OIIO::ImageOutput::create("openexr");
@@ -153,18 +153,18 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     const int count = int(specs.size());
     if (!out->set_ioproxy(&file)
         || !(count == 1 ? out->open(file.temporary(), specs[0]) : out->open(file.temporary(), count, specs.data())))
-        return failed(oiio::reason(*out));
-    Watch watch { progress, file };
+        return failed(oiio::error_line(*out));
+    WriteProgress watch { progress, file };
     bool written = true;
     for (int i = 0; i < count && written && !watch.stopped; ++i)
         written = (i == 0 || out->open(file.temporary(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
             && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
-                                OIIO::AutoStride, Watch::report, &watch);
+                                OIIO::AutoStride, WriteProgress::report, &watch);
     const bool closed = out->close();
     if (watch.stopped)
         return failed("interrupted");
     if (file.sound() && (!written || !closed))
-        return failed(oiio::reason(*out));
+        return failed(oiio::error_line(*out));
     return file.keep() || failed(file.reason());
 }
 

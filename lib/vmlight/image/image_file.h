@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Images in files: read whole, written atomically.
+/// Image files: read completely, written atomically.
 #pragma once
 
 #include <vmlight/base/progress.h>
@@ -10,34 +10,32 @@
 
 namespace vmlight {
 
-/// Whether there can be an image of this name: it is a file's, or has a '?', and another plugin may make it without
-/// one. A pipe would hold its reader up.
+/// Whether OIIO may be asked to open `name`: it is a regular file (a pipe would block), or contains a '?', so that a
+/// plugin may generate it without a file.
 bool may_be_image(const std::string& name);
 
-/// Why what a header says of its image cannot be meant, or "": no side of its pixels, or of the display window around
-/// them, is longer than 2^20. What goes through a damaged one pixel by pixel would not come to an end.
+/// Why a header is implausible, or "": a side of the data or display window is longer than 2^20. Protects loops over
+/// pixels from damaged headers.
 std::string header_fault(const OIIO::ImageSpec& spec);
 
-/// Read all of an image that OIIO opens into memory, as float. False, with the reason and the path in `error`: before
-/// it is read if there is no memory for it.
+/// Read a whole image into memory as float. Returns false, with the reason and the path in `error`; if it does not fit
+/// in memory, before reading.
 bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage = 0);
 
-/// Why `path` cannot be the name of an output, wherever it is, or "": it must end in .exr (other formats lose channel
-/// names, range or the mark that says data from colour).
+/// Why `path` is not a valid output name, or "": it must end in .exr (other formats lose channel names, range or the
+/// data tag).
 std::string output_name_fault(const std::string& path);
 
-/// Why no output can be written to `path` as things are, or "": besides its name, it must lie in a folder that exists
-/// and can be written, and not be a folder, a device or a pipe. Of a link all that is asked of what it leads to.
+/// Why `path` cannot be written now, or "": output_name_fault() or output_file_fault().
 std::string output_fault(const std::string& path);
 
-/// Write `image` as a ZIP-compressed EXR, of `format` "float" or "half": into a file of no name, flushed to the disk,
-/// then given its name. A link stays, and the file that it leads to is replaced or made. On failure, and when
-/// `progress` returns false, `path` is as it was and nothing is left over. The bytes depend on the pixels and metadata
-/// alone: no date, host or command line. False, with the reason in `error`; a value beyond the range of half is
-/// refused, never written as infinity.
+/// Write `image` atomically as a ZIP-compressed EXR, of `format` "float" or "half". Symbolic links are followed. On
+/// failure, and if `progress` returns false, returns false, with the reason in `error`: `path` is then unchanged and no
+/// temporary file is left. The bytes depend on pixels and metadata only: no date, host or command line. Values beyond
+/// the range of half are refused, not written as infinity.
 bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format,
                  const Progress& progress, std::string& error);
-/// The same for several images in one file, the first of them what opens by default. Each has its name in
+/// The same for several images (EXR parts) in one file; the first opens by default. Their names are in
 /// `oiio:subimagename`.
 bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const std::string& format,
                   const Progress& progress, std::string& error);

@@ -13,7 +13,7 @@
 
 #include <vmlight/lightmap/cell_light.h>
 #include <vmlight/lightmap/model_shader.h>
-#include <vmlight/math/four_floats.h>
+#include <vmlight/math/float4.h>
 #include <vmlight/math/packed_visibility.h>
 
 #include <cmath>
@@ -26,22 +26,22 @@ constexpr int kBeforePacked = 7; // floats of V, B and n, before the packed numb
 // R, G, B and the weight: times w along each axis, and unweighted.
 struct CellSums
 {
-    FourFloats x {}, y {}, z {}, plain {};
+    Float4 x {}, y {}, z {}, plain {};
 
     void add(const float* moments)
     {
-        x += load_four(moments);
-        y += load_four(moments + 4);
-        z += load_four(moments + 8);
-        plain += load_four(moments + 12);
+        x += load_float4(moments);
+        y += load_float4(moments + 4);
+        z += load_float4(moments + 8);
+        plain += load_float4(moments + 12);
     }
     void add_between(const float* low, const float* high, float share)
     {
-        const FourFloats f = all_four(share);
-        x += f * (load_four(high) - load_four(low));
-        y += f * (load_four(high + 4) - load_four(low + 4));
-        z += f * (load_four(high + 8) - load_four(low + 8));
-        plain += f * (load_four(high + 12) - load_four(low + 12));
+        const Float4 f = splat_float4(share);
+        x += f * (load_float4(high) - load_float4(low));
+        y += f * (load_float4(high + 4) - load_float4(low + 4));
+        z += f * (load_float4(high + 8) - load_float4(low + 8));
+        plain += f * (load_float4(high + 12) - load_float4(low + 12));
     }
 };
 
@@ -62,12 +62,12 @@ inline bool light_of(const CellLight& light, const ShadeSetup& setup, const Cell
 {
     const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), unit = size > 0 ? 1 / size : 0.0f;
     const float angle = sums.plain[3];
-    const FourFloats along
-        = all_four(n[0] * unit) * sums.x + all_four(n[1] * unit) * sums.y + all_four(n[2] * unit) * sums.z;
+    const Float4 along
+        = splat_float4(n[0] * unit) * sums.x + splat_float4(n[1] * unit) * sums.y + splat_float4(n[2] * unit) * sums.z;
     // Across the horizon n.w is negative: where little weight is left, n.w blends into n.w + 1, which never is.
     const float cosine = angle > 0 ? along[3] / angle : 0.0f;
     const float even = cosine < kLeastCosine ? (kLeastCosine - cosine) * (1 / kLeastCosine) : 0.0f;
-    const FourFloats weighted = along + all_four(even) * sums.plain;
+    const Float4 weighted = along + splat_float4(even) * sums.plain;
     const float gain = v * setup.gain, share = weighted[3] > 0 ? 1 / weighted[3] : 0.0f;
     bool sound = std::abs(v) <= kLargestVisibility && std::isfinite(size);
     for (int c = 0; c < 3; ++c) {

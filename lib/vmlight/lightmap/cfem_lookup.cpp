@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/cfem_lookup.h>
 
-#include <vmlight/base/faults.h>
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/bad_values.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/math/latlong.h>
 
@@ -23,12 +23,12 @@ bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int
     const auto [first, last] = std::minmax_element(index.begin(), index.end());
     const int channels = *last - *first + 1;
     std::vector<float> row(size_t(dst.width) * channels);
-    Faults faults;
+    BadValues faults;
     for (int y = 0; y < dst.height; ++y) {
         const OIIO::ROI roi(spec.x, spec.x + dst.width, spec.y + y, spec.y + y + 1, spec.z, spec.z + 1, *first,
                             *last + 1);
         if (!cfem.get_pixels(roi, OIIO::TypeFloat, row.data())) {
-            error = oiio::reason(cfem);
+            error = oiio::error_line(cfem);
             return false;
         }
         float* texel = &dst.texels[4 * (size_t(y + 1) * dst.pitch + 1)];
@@ -41,7 +41,7 @@ bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int
             }
     }
     if (faults.any())
-        error = faults.text("cosine-filtered environment", "not finite", spec.channelnames);
+        error = faults.describe("cosine-filtered environment", "not finite", spec.channelnames);
     return !faults.any();
 }
 

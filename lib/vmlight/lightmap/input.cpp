@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/input.h>
 
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 
 #include <OpenImageIO/strutil.h>
@@ -24,7 +24,7 @@ std::string named(const ImageBuf& image, const std::string& reason)
 bool check_input(const ImageBuf& image, const char* what, std::string& error)
 {
     if (!image.initialized()) {
-        const std::string reason = oiio::reason(image);
+        const std::string reason = oiio::error_line(image);
         error = named(image, reason.empty() ? format("no {}: the image is empty", what) : reason);
         return false;
     }
@@ -35,7 +35,7 @@ bool check_input(const ImageBuf& image, const char* what, std::string& error)
     return true;
 }
 
-void find_not_finite(ROI roi, const float* pixels, int channels, Faults& faults)
+void find_not_finite(ROI roi, const float* pixels, int channels, BadValues& faults)
 {
     for (int y = roi.ybegin; y < roi.yend; ++y)
         for (int x = roi.xbegin; x < roi.xend; ++x)
@@ -84,7 +84,7 @@ const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::strin
     scratch.resize(texels * (m_index.size() + size_t(channels)));
     float* read = scratch.data() + m_index.size() * texels;
     if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
-        error = named(*m_image, oiio::reason(*m_image));
+        error = named(*m_image, oiio::error_line(*m_image));
         return nullptr;
     }
     float* texel = scratch.data();
@@ -110,7 +110,7 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
         return true;
 
     // Checked before: a filter would spread a NaN and hide a negative value.
-    Faults faults;
+    BadValues faults;
     std::vector<float> row;
     for (int y = stored.ybegin; y < stored.yend; ++y)
         if (!read(ROI(stored.xbegin, stored.xend, y, y + 1, stored.zbegin, stored.zend), row, faults, error))
@@ -122,7 +122,7 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
     m_resized.reset(OIIO::ImageSpec(roi.width(), roi.height(), image.nchannels(), OIIO::TypeFloat),
                     OIIO::InitializePixels::No);
     if (!oiio::resize(m_resized, image, m_resized.roi(), nthreads)) {
-        error = named(image, oiio::reason(m_resized));
+        error = named(image, oiio::error_line(m_resized));
         return false;
     }
     m_image = &m_resized;
@@ -131,7 +131,7 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
     return true;
 }
 
-bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, Faults& faults, std::string& error) const
+bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, BadValues& faults, std::string& error) const
 {
     const auto [first, last] = std::minmax_element(m_index.begin(), m_index.end());
     const int channels = *last - *first + 1;
@@ -141,7 +141,7 @@ bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, Faults& faults, st
     scratch.resize(texels * (3 + channels));
     float* read = scratch.data() + 3 * texels;
     if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
-        error = named(*m_original, oiio::reason(*m_image));
+        error = named(*m_original, oiio::error_line(*m_image));
         return false;
     }
     const bool gray = m_index[0] == m_index[1];
@@ -156,7 +156,8 @@ bool AlbedoReader::read(ROI roi, std::vector<float>& scratch, Faults& faults, st
     return true;
 }
 
-void AlbedoReader::multiply(ROI roi, float* rgb, std::vector<float>& scratch, Faults& faults, std::string& error) const
+void AlbedoReader::multiply(ROI roi, float* rgb, std::vector<float>& scratch, BadValues& faults,
+                            std::string& error) const
 {
     const size_t values = 3 * size_t(roi.width()) * roi.height();
     roi.xbegin += m_dx, roi.xend += m_dx;
@@ -169,9 +170,9 @@ void AlbedoReader::multiply(ROI roi, float* rgb, std::vector<float>& scratch, Fa
         rgb[i] *= scratch[i];
 }
 
-std::string AlbedoReader::fault_text(const Faults& faults) const
+std::string AlbedoReader::fault_text(const BadValues& faults) const
 {
-    return named(*m_original, faults.text("albedo", "negative or not finite", m_original->spec().channelnames));
+    return named(*m_original, faults.describe("albedo", "negative or not finite", m_original->spec().channelnames));
 }
 
 } // namespace vmlight

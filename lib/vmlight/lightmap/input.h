@@ -2,7 +2,7 @@
 /// Inputs of shading, of any pixel type, channel order and storage.
 #pragma once
 
-#include <vmlight/base/faults.h>
+#include <vmlight/base/bad_values.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
 
@@ -22,7 +22,7 @@ std::string named(const OIIO::ImageBuf& image, const std::string& reason);
 bool check_input(const OIIO::ImageBuf& image, const char* what, std::string& error);
 
 /// Add the NaN and infinite values of `pixels`, which hold `roi` with `channels` channels.
-void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, Faults& faults);
+void find_not_finite(OIIO::ROI roi, const float* pixels, int channels, BadValues& faults);
 
 /// Reads a visibility map as a model takes it: the floats of a texel side by side, in the model's order of channels.
 class VismapReader
@@ -59,12 +59,12 @@ public:
 
     /// Multiply `rgb`, the pixels of `roi`. Values that are negative or not finite are added to `faults`; `error` is
     /// set if the albedo cannot be read.
-    void multiply(OIIO::ROI roi, float* rgb, std::vector<float>& scratch, Faults& faults, std::string& error) const;
+    void multiply(OIIO::ROI roi, float* rgb, std::vector<float>& scratch, BadValues& faults, std::string& error) const;
 
-    std::string fault_text(const Faults& faults) const;
+    std::string fault_text(const BadValues& faults) const;
 
 private:
-    bool read(OIIO::ROI roi, std::vector<float>& scratch, Faults& faults, std::string& error) const;
+    bool read(OIIO::ROI roi, std::vector<float>& scratch, BadValues& faults, std::string& error) const;
 
     const OIIO::ImageBuf* m_original = nullptr; // as given, for messages
     const OIIO::ImageBuf* m_image = nullptr; // the original, or the resized copy

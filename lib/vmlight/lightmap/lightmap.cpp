@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/lightmap.h>
 
-#include <vmlight/base/fail.h>
-#include <vmlight/base/memory_need.h>
+#include <vmlight/base/available_memory.h>
+#include <vmlight/base/fail_with.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/image/channels.h>
@@ -89,7 +89,7 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
     ImageBuf& target = is_input ? apart : dst;
     if (has_room(target, spec)) {
         target.specmod() = spec;
-    } else if (error = memory_fault(spec); !error.empty()) {
+    } else if (error = memory_shortage(spec); !error.empty()) {
         return false;
     } else {
         target.reset(spec, OIIO::InitializePixels::No);
@@ -139,7 +139,7 @@ bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> 
                    const ImageBuf* albedo, int nthreads, const Progress& progress)
 {
     std::string error;
-    return make(dst, vismap, cfem, params, albedo, nthreads, progress, error) || fail(dst, error);
+    return make(dst, vismap, cfem, params, albedo, nthreads, progress, error) || fail_with(dst, error);
 }
 
 } // namespace vmlight

@@ -36,12 +36,13 @@ struct LightmapParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("model", model, model_choices(), "Shading model; auto is the most accurate that map and light allow");
-        field("rotate", rotate, Numbers { 3 }, "Rotate the object: x,y,z degrees about fixed x, then y, then z");
-        field("matrix", matrix, Numbers { 9 }, "Rotate the object: 3x3 matrix, row major, for column vectors");
-        field("quaternion", quaternion, Numbers { 4 }, "Rotate the object: quaternion w,x,y,z");
-        field("env_rotate", env_rotate, Numbers { 3 }, "Rotate the environment: x,y,z degrees, as for rotate");
-        field("exposure", exposure, Range { -64, 64 }, "Exposure of the result, in stops");
+        field("model", model, model_choices(), "Shading model");
+        field("rotate", rotate, Numbers { 3 }, "Rotate the object: x,y,z in degrees about the fixed axes, x first");
+        field("matrix", matrix, Numbers { 9 },
+              advanced("Rotate the object by a 3x3 matrix, row major, for column vectors"));
+        field("quaternion", quaternion, Numbers { 4 }, advanced("Rotate the object by a quaternion w,x,y,z"));
+        field("env_rotate", env_rotate, Numbers { 3 }, "Rotate the environment: x,y,z in degrees, as for rotate");
+        field("exposure", exposure, Range { -64, 64 }, "Exposure in stops");
     }
 };
 

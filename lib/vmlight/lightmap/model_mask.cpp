@@ -13,7 +13,7 @@ bool shade_mask(const CellLight& light, const ShadeSetup& setup, const float* vi
     const float* running = light.running.data();
     return shade_cell_sums<kMaskFloats>(light, setup, vismap, texels, rgb, [&](CellSums& sums, const uint32_t* codes) {
         for (int column = 0; column < direction_grid::kColumns; ++column) {
-            const ColumnView view = unpack_mask(codes, column);
+            const MaskColumn view = unpack_mask(codes, column);
             if (view.density == 0)
                 continue;
             const float* edges = running + column * kEdges * kMomentFloats;

@@ -4,7 +4,7 @@
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/math/four_floats.h>
+#include <vmlight/math/float4.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/latlong.h>
 
@@ -33,16 +33,16 @@ bool shade_harmonics(const HarmonicLight& harmonics, const ShadeSetup& setup, co
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += count, rgb += 3) {
         // Two sums, to halve the dependency chain.
-        FourFloats even {}, odd {};
+        Float4 even {}, odd {};
         int k = 0;
         for (; k + 1 < count; k += 2) {
-            even += all_four(vismap[k]) * load_four(light + 4 * k);
-            odd += all_four(vismap[k + 1]) * load_four(light + 4 * (k + 1));
+            even += splat_float4(vismap[k]) * load_float4(light + 4 * k);
+            odd += splat_float4(vismap[k + 1]) * load_float4(light + 4 * (k + 1));
         }
         if (k < count)
-            even += all_four(vismap[k]) * load_four(light + 4 * k);
+            even += splat_float4(vismap[k]) * load_float4(light + 4 * k);
         sound &= std::abs(vismap[0]) <= kLargestVisibility;
-        const FourFloats sum = all_four(setup.gain) * (even + odd);
+        const Float4 sum = splat_float4(setup.gain) * (even + odd);
         for (int c = 0; c < 3; ++c) {
             sound &= std::isfinite(sum[c]);
             // A texel that sees nothing has no light, whatever rounding left of its harmonics. A value that is not

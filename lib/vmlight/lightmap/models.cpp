@@ -65,9 +65,9 @@ const ModelEntry* find_model_entry(const std::string& name)
 
 Choices model_choices()
 {
-    Choices choices { { "auto" } };
+    Choices choices { { { "auto", "the most accurate model that map and light allow" } } };
     for (const ModelEntry& entry : kModels)
-        choices.words.push_back(entry.name);
+        choices.choices.push_back({ entry.name, entry.phrase });
     return choices;
 }
 

@@ -3,7 +3,7 @@
 /// the shape of regions changes a bit.
 #pragma once
 
-#include <vmlight/base/faults.h>
+#include <vmlight/base/bad_values.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
@@ -24,7 +24,7 @@ OIIO::ImageSpec describe_lightmap(const OIIO::ImageSpec& vismap, const OIIO::Ima
 /// Bad values that shading met.
 struct ShadeFaults
 {
-    Faults vismap, visibility, packed, albedo, result;
+    BadValues vismap, visibility, packed, albedo, result;
     std::string error;
 
     bool any() const

@@ -13,7 +13,7 @@ using latlong::pi;
 
 namespace {
 
-// Int over y of sqrt(1 - y^2), from -1.
+// Int sqrt(1 - y^2) dy from -1 to y.
 double disc_area(double y)
 {
     return 0.5 * (y * std::sqrt(std::max(0.0, 1 - y * y)) + std::asin(y) + pi / 2);

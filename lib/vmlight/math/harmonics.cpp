@@ -32,7 +32,7 @@ Harmonics::Harmonics(int order)
 
 void Harmonics::evaluate(const float* x, const float* y, const float* z, float* values) const
 {
-    // sin^m theta times cos and sin of m phi, where phi has the cosine -z and the sine x.
+    // sin^m theta times cos and sin of m phi, where cos phi = -z and sin phi = x.
     std::array<float, kLanes> cosine, sine, before, last;
     cosine.fill(1);
     sine.fill(0);
@@ -54,7 +54,7 @@ void Harmonics::evaluate(const float* x, const float* y, const float* z, float* 
                 const float legendre = l == m ? last[k] : step.rise * y[i] * last[k] - step.fall * before[k];
                 before[k] = l == m ? 0 : last[k];
                 last[k] = legendre;
-                odd[i] = legendre * sine[k]; // for m = 0 the same place, and last written by the other
+                odd[i] = legendre * sine[k]; // m = 0: the same element, overwritten by the next line
                 even[i] = legendre * cosine[k];
             }
         }

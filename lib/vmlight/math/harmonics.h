@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Real spherical harmonics at any direction, in the convention of project_harmonics() (cfem_sh.h): orthonormal, poles
-/// on the y axis, longitude from s = 0 of latlong.h.
+/// Real spherical harmonics in the convention of project_harmonics() (cfem/sh.h): orthonormal, poles on the y axis,
+/// longitude from s = 0 of latlong.h.
 #pragma once
 
 #include <vmlight/math/rotation.h>
@@ -11,14 +11,14 @@
 
 namespace vmlight {
 
-/// Y_lm for l < order, of several directions at a time.
+/// Evaluates Y_lm for l < order, for several directions at a time.
 /// Source: P.-P. Sloan, "Efficient Spherical Harmonic Evaluation", JCGT 2(2), 2013 (associated Legendre functions
-/// without their power of the sine, which goes with the longitude).
+/// without the power of the sine, which is part of the longitude factor).
 class Harmonics
 {
 public:
     static constexpr int kLargestOrder = 8;
-    /// Directions evaluated at once.
+    /// Directions per call of evaluate().
     static constexpr int kLanes = 8;
 
     /// @param order    1 to kLargestOrder
@@ -40,12 +40,12 @@ private:
     std::vector<float> m_first; // P_mm, sqrt 2 included where m > 0
 };
 
-/// Coefficients of w -> f(R w), from those of f: R, G, B of (l, m) at 3 (l^2 + l + m), as project_harmonics() gives
-/// them. Exact to rounding: f is sampled where quadrature is exact for two functions of this order.
+/// The coefficients of f(R w), from those of f. R, G, B of (l, m) are at 3 (l^2 + l + m), as from project_harmonics().
+/// Exact to rounding: uses a quadrature that is exact for products of two functions of this order.
 /// Source: J. Driscoll, D. Healy, "Computing Fourier Transforms and Convolutions on the 2-Sphere", 1994, theorem 3.
 std::vector<double> rotate_harmonics(const std::vector<double>& coefficients, int order, const Rotation& rotation);
 
-/// A_l / pi, by which a cosine filter multiplies band l: 1, 2/3, 1/4, 0, -1/24, 0, 1/64, ...
+/// The factor A_l / pi of band l in a cosine filter: 1, 2/3, 1/4, 0, -1/24, 0, 1/64, ...
 double cosine_eigenvalue(int l);
 
 } // namespace vmlight

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a texel sees, cell by cell of the direction grid, in the few whole numbers below 2^24 that the channels
-/// `mask.0` ... and `cells.0` ... hold. A float holds them to the last bit; half floats do not, and means of them mean
-/// nothing: such maps are neither filtered nor mipped.
+/// A texel's visibility on the direction grid, packed into integers below 2^24 for the channels `mask.0` ... and
+/// `cells.0` .... A float stores them exactly, half does not, and averages of them are meaningless: such maps must not
+/// be filtered or mipmapped.
 #pragma once
 
 #include <vmlight/math/direction_grid.h>
@@ -14,17 +14,16 @@
 
 namespace vmlight {
 
-/// `mask`: of each column the slices from `low` up to `high`, of which `density` fifteenths are seen; 0, 0, 0 if
-/// nothing is. Three columns of 16 bits stand in two numbers.
+/// One column of `mask`: slices `low` up to `high` (exclusive) are visible, by `density` fifteenths; 0, 0, 0 if none
+/// is. Two floats store three columns of 16 bits.
 constexpr int kMaskFloats = 11;
-struct ColumnView
+struct MaskColumn
 {
     int low = 0, high = 0, density = 0;
 };
-void pack_mask(float* packed, const ColumnView* columns);
-/// Column `column`, from numbers that are whole and below 2^24. `high` is at most 63, `low` too: nothing that a map may
-/// hold leads out of the grid.
-inline ColumnView unpack_mask(const uint32_t* packed, int column)
+void pack_mask(float* packed, const MaskColumn* columns);
+/// Unpack one column, from integers below 2^24. `low` and `high` are at most 63, whatever the map contains.
+inline MaskColumn unpack_mask(const uint32_t* packed, int column)
 {
     const uint32_t* pair = packed + column / 3 * 2;
     const uint32_t code = column % 3 == 0 ? pair[0] >> 8
@@ -33,41 +32,41 @@ inline ColumnView unpack_mask(const uint32_t* packed, int column)
     return { int(code >> 10), int(code >> 4 & 63), int(code & 15) };
 }
 
-/// `cells`: of each of the 144 cells, band by band from y = -1 up, how much is seen, in thirds of what is seen of the
-/// cell that is seen best. Twelve cells of two bits, the first uppermost, stand in one number.
+/// `cells`: the visible fraction of each of the 144 cells, band by band from y = -1 up, in thirds of that of the most
+/// visible cell. A float stores twelve cells of two bits, the first in the highest bits.
 constexpr int kCellsFloats = 12;
 constexpr int kCellsPerFloat = direction_grid::kCells / kCellsFloats;
 void pack_cells(float* packed, const uint8_t* thirds);
 
-/// Sorts the rays of a texel into the grid. One to a thread.
+/// Bins the rays of a texel by direction. Use one per thread.
 class VisibilityGrid
 {
 public:
     VisibilityGrid();
 
-    /// Count the rays whose bit is set in `asked`, and those also set in fan.lanes as seen. Rays stand for equal shares
-    /// of the cosine around `normal`.
-    void take(const RayFan& fan, const std::vector<uint8_t>& asked);
+    /// Set the counts from one texel's rays: `traced` has a bit for each traced ray, fan.lanes for each unoccluded one.
+    /// Rays must be distributed by the cosine around the normal.
+    void set_rays(const RayFan& fan, const std::vector<uint8_t>& traced);
 
-    /// What was counted, as `mask` or `cells` store it. Of cells above the horizon, both that of `normal` and that of
-    /// the `surface`, to which no ray went, as much is taken to be seen as of the nearest cell of the column that one
-    /// went to; of columns, as of the whole. So few rays end as the share of the hemisphere that is seen.
+    /// The visibility in the encoding of `mask` or `cells`. A cell without rays, above the horizons of both the shading
+    /// `normal` and the geometric normal `surface`, gets the visibility of the nearest cell in its column that has
+    /// rays; a column without rays gets that of the whole hemisphere.
     void mask(float* packed, const Imath::V3d& normal, const Imath::V3d& surface) const;
     void cells(float* packed, const Imath::V3d& normal, const Imath::V3d& surface) const;
 
 private:
-    // Four times as fine as what is stored, for edges that lie between rays.
+    // Four times the stored resolution, to place edges between rays.
     static constexpr int kFine = 4 * direction_grid::kSlices;
     struct Count
     {
-        uint32_t asked, seen;
+        uint32_t traced, visible;
     };
-    ColumnView view(int column, const Imath::V3d& normal) const;
-    ColumnView unasked(int column, const Imath::V3d& normal, const Imath::V3d& surface) const;
+    MaskColumn column_with_rays(int column, const Imath::V3d& normal) const;
+    MaskColumn column_without_rays(int column, const Imath::V3d& normal, const Imath::V3d& surface) const;
 
     std::vector<Count> m_counts; // kColumns times kFine
-    uint32_t m_used = 0; // a bit for each column
-    int64_t m_asked = 0, m_seen = 0;
+    uint32_t m_used = 0; // a bit per column with rays
+    int64_t m_traced = 0, m_visible = 0;
 };
 
 } // namespace vmlight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Rays that start at one point, in the packets of eight that the ray tracer is fastest with.
+/// Rays from one origin, in the packets of eight that Embree traces fastest.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace vmlight {
 
-/// Rays of one packet that may be asked about at once.
+/// Rays per packet.
 constexpr int kPacketSize = 8;
 
-/// Directions of rays that start at one point, in packets of eight; the lanes past the last ray are dead.
+/// Directions of rays from one origin, in packets of eight; lanes past the last ray are inactive.
 struct RayFan
 {
     explicit RayFan(int rays)
@@ -28,10 +28,10 @@ struct RayFan
     RayFan& operator=(const RayFan&) = delete;
 
     int packets;
-    /// packets * 8 numbers each, aligned for vectors.
+    /// x, y and z have packets * 8 numbers each, aligned for vector loads.
     std::vector<float> storage;
     float *x, *y, *z;
-    /// One byte a packet, bit k for lane k. In: which rays to ask about. Out: which of them are not blocked.
+    /// One byte per packet, bit k for lane k. In: which rays to trace. Out: which of them are unoccluded.
     std::vector<uint8_t> lanes;
 };
 

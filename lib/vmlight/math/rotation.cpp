@@ -18,7 +18,7 @@ struct SinCos
     double sin, cos;
 };
 
-// Quarter turns are exact: a turntable that passes 90 degrees must land on the same pixels as a swap of axes.
+// Quarter turns are exact: a turntable at 90 degrees must give the same pixels as swapping axes.
 SinCos sin_cos_degrees(double degrees)
 {
     const double turn = std::remainder(degrees, 360.0);
@@ -61,7 +61,7 @@ Rotation rotation_from_angles(double x, double y, double z)
 bool rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std::string& error)
 {
     if (numbers.size() != 9) {
-        error = format("matrix: {} numbers, 9 are needed", numbers.size());
+        error = format("matrix: {} numbers, expected 9", numbers.size());
         return false;
     }
     Rotation r;
@@ -69,11 +69,12 @@ bool rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std
         r[i / 3][i % 3] = numbers[i];
     const double off = distance_from_orthonormal(r);
     if (!(off < 1e-4)) {
-        error = format("matrix: not a rotation: R R^T differs from the identity by {:.3g}, the limit is 1e-4", off);
+        error
+            = format("matrix: not a rotation: R R^T differs from the identity by {:.3g}, at most 1e-4 is allowed", off);
         return false;
     }
     if (!(r.determinant() > 0)) {
-        error = format("matrix: a mirror, not a rotation: its determinant is {:.3g}", r.determinant());
+        error = format("matrix: a reflection, not a rotation: determinant {:.3g}", r.determinant());
         return false;
     }
     // Newton's iteration for the polar factor converges quadratically: from 1e-4 two steps reach rounding.
@@ -86,16 +87,16 @@ bool rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std
 bool rotation_from_quaternion(Rotation& dst, const std::vector<double>& wxyz, std::string& error)
 {
     if (wxyz.size() != 4) {
-        error = format("quaternion: {} numbers, 4 are needed (w,x,y,z)", wxyz.size());
+        error = format("quaternion: {} numbers, expected 4 (w,x,y,z)", wxyz.size());
         return false;
     }
     const double largest = std::max({ std::abs(wxyz[0]), std::abs(wxyz[1]), std::abs(wxyz[2]), std::abs(wxyz[3]) });
     const bool finite = std::isfinite(wxyz[0] + wxyz[1] + wxyz[2] + wxyz[3]);
     if (!finite || !(largest > 0)) {
-        error = format("quaternion: {},{},{},{} has no direction", wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+        error = format("quaternion: {},{},{},{} is zero or not finite", wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
         return false;
     }
-    // Scaled first: the squares of very small or large numbers would leave the range of double.
+    // Scale first: squares of very small or large numbers underflow or overflow.
     double w = wxyz[0] / largest, x = wxyz[1] / largest, y = wxyz[2] / largest, z = wxyz[3] / largest;
     const double length = std::sqrt(w * w + x * x + y * y + z * z);
     w /= length, x /= length, y /= length, z /= length;

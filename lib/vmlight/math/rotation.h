@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Rotations from object space to environment space: the light that arrives along object direction w is L(R w).
-/// Matrices here multiply column vectors (rotate() below), whatever Imath's own operators do.
+/// Rotations from object space to environment space: the light from object direction w is L(R w). Matrices multiply
+/// column vectors (see rotate()), unlike Imath's operators.
 #pragma once
 
 #include <vmlight/base/export.h>
@@ -27,11 +27,13 @@ template <class T> inline Imath::Vec3<T> rotate(const Rotation& r, const Imath::
 /// Degrees about fixed x, then y, then z: Rz Ry Rx. Multiples of 90 degrees are exact.
 VMLIGHT_API Rotation rotation_from_angles(double x, double y, double z);
 
-/// Nine numbers, row major, for column vectors. They must be a rotation: |R R^T - I| < 1e-4 in every entry, and
-/// determinant > 0; they are then made orthonormal (polar decomposition). Otherwise false, and `error` says why.
+/// From nine numbers, row major, for column vectors. They must be a rotation, |R R^T - I| < 1e-4 in every entry and
+/// determinant > 0, and are made orthonormal (polar decomposition). Otherwise returns false, with the reason in
+/// `error`.
 VMLIGHT_API bool rotation_from_matrix(Rotation& dst, const std::vector<double>& numbers, std::string& error);
 
-/// Quaternion [w, x, y, z] of any length but zero. False, and `error`, if it is zero or not finite.
+/// From a quaternion [w, x, y, z] of any non-zero length. Returns false, with the reason in `error`, if it is zero or
+/// not finite.
 VMLIGHT_API bool rotation_from_quaternion(Rotation& dst, const std::vector<double>& wxyz, std::string& error);
 
 } // namespace vmlight

@@ -42,7 +42,7 @@ uint64_t morton(const Point32& p)
 
 Point32 halton_point(uint32_t index)
 {
-    // Twenty ternary digits: the last is worth 2.9e-10, about 2^-32.
+    // Twenty ternary digits: the last is 2.9e-10, about 2^-32.
     uint64_t reversed = 0, power = 1;
     for (uint32_t rest = index; power < 3486784401u; rest /= 3, power *= 3)
         reversed = reversed * 3 + rest % 3;
@@ -70,7 +70,7 @@ uint32_t owen_scramble(uint32_t fraction, uint32_t seed)
 
 Point32 texel_hash(uint32_t x, uint32_t y, uint32_t seed)
 {
-    // SplitMix64's finisher over the packed coordinates: neighbours share no bits.
+    // SplitMix64's finalizer over the packed coordinates decorrelates neighbours.
     uint64_t h = (uint64_t(y) << 32 | x) + 0x9e3779b97f4a7c15ull * (uint64_t(seed) + 1);
     h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ull;
     h = (h ^ (h >> 27)) * 0x94d049bb133111ebull;
@@ -121,7 +121,7 @@ void SamplePattern::directions_scalar(RayFan& fan, const TangentFrame& frame, co
     for (int i = 0; i < fan.packets * kPacketSize; ++i) {
         const uint32_t u = m_owen ? reverse_bits(kernel::scramble_reversed(m_u[i], texel.u)) : m_u[i] + texel.u;
         const uint32_t v = m_owen ? reverse_bits(kernel::scramble_reversed(m_v[i], texel.v)) : m_v[i] + texel.v;
-        // 24 bits: what a float in [0, 1) holds exactly, so that u never rounds to 1.
+        // 24 bits are exact in a float, so that u never rounds to 1.
         const double fu = (u >> 8) * 0x1p-24, azimuth = 2 * latlong::pi * ((v >> 8) * 0x1p-24);
         const double radius = std::sqrt(m_uniform ? fu * (2 - fu) : fu);
         const double height = m_uniform ? 1 - fu : std::sqrt(1 - fu);

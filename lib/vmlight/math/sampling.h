@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where the rays of a texel go: low-discrepancy points, each texel's own scramble of them, and their map to a
-/// hemisphere. Everything is a function of (sample, texel, seed): no state, no order.
+/// Ray directions: low-discrepancy points, scrambled per texel and mapped to the hemisphere. Everything is a pure
+/// function of (sample, texel, seed), so results do not depend on order or threads.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -12,21 +12,21 @@
 
 namespace vmlight {
 
-/// Point `index` of a sequence or lattice in the unit square, as 32-bit fractions (x / 2^32).
+/// A point in the unit square, as 32-bit fractions (x / 2^32).
 struct Point32
 {
     uint32_t u, v;
 };
 
-/// Radical inverses in base 2 and 3: the paper's sequence.
+/// Radical inverses in bases 2 and 3: the paper's sequence.
 Point32 halton_point(uint32_t index);
 /// The first two dimensions of Sobol's sequence.
 Point32 sobol_point(uint32_t index);
-/// The rank-1 lattice (i / count, frac(i / golden ratio)); needs the count in advance.
+/// The rank-1 lattice (i / count, frac(i / golden ratio)). Needs the count in advance.
 Point32 fibonacci_point(uint32_t index, uint32_t count);
 /// Owen's nested scrambling of a 32-bit fraction: a random permutation of each half, quarter, ... of the interval.
-/// Source: S. Laine, T. Karras, "Stratified Sampling for Stochastic Transparency", EGSR 2011, section 3.1, whose
-/// hash this is.
+/// Source: S. Laine, T. Karras, "Stratified Sampling for Stochastic Transparency", EGSR 2011, section 3.1
+/// (the same hash).
 uint32_t owen_scramble(uint32_t fraction, uint32_t seed);
 
 /// Two independent 32-bit numbers for a texel.
@@ -40,34 +40,35 @@ struct TangentFrame
     explicit TangentFrame(const Imath::V3f& n);
 };
 
-/// The directions of every texel: `count` points, sorted along a space-filling curve so that the eight rays of a packet
-/// go nearly the same way, which scrambling keeps so.
+/// The directions of all texels: `count` points, sorted along a space-filling curve so that the eight rays of a packet
+/// are coherent, also after scrambling.
 class SamplePattern
 {
 public:
-    /// `sampler` is "halton", "sobol" or "fibonacci"; `uniform` spreads directions evenly over the hemisphere instead
-    /// of with the cosine.
+    /// @param sampler  "halton", "sobol" or "fibonacci"
+    /// @param uniform  distribute directions uniformly over the hemisphere, else by the cosine
     SamplePattern(const std::string& sampler, int count, bool uniform);
 
     int count() const { return m_count; }
 
     /// Fill `fan` with the texel's directions: unit vectors around frame.normal. Lane bits are set for directions
-    /// strictly above the surface, that is on the side of `geometric_normal`.
+    /// strictly above the surface, on the side of `geometric_normal`.
     void directions(RayFan& fan, const TangentFrame& frame, const Imath::V3f& geometric_normal, Point32 texel) const;
 
-    /// The same by plain scalar code: the reference that the vector code is tested against, to 4e-7 a component.
+    /// Scalar reference implementation; the vector code agrees to 4e-7 per component.
     void directions_scalar(RayFan& fan, const TangentFrame& frame, const Imath::V3f& geometric_normal,
                            Point32 texel) const;
 
 private:
     int m_count;
     bool m_uniform, m_owen;
-    // Padded to whole packets. Shifted modulo 1 by the texel (Cranley-Patterson), or Owen-scrambled; then bit-reversed.
+    // Padded to whole packets. Texels shift them modulo 1 (Cranley-Patterson) or Owen-scramble them (stored
+    // bit-reversed).
     std::vector<uint32_t> m_u, m_v;
 };
 
-/// Sum of the directions whose lane bit is set, and of their products with `weight_axis` (pass the shading normal for
-/// a cosine weight). In float over at most 1024 rays at a time, in double beyond.
+/// Sums over the directions whose lane bit is set, unweighted and weighted by the dot product with `weight_axis` (the
+/// shading normal gives a cosine weight). Sums blocks of 1024 rays in float, blocks in double.
 struct DirectionSums
 {
     Imath::V3d sum { 0 };

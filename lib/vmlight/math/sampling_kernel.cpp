@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Imath::V3f;
 
-// Eight lanes at most: a packet's. Every target divides eight.
+// At most eight lanes, one packet. The lane counts of all targets divide eight.
 using FloatTag = hn::CappedTag<float, kPacketSize>;
 using IntTag = hn::RebindToUnsigned<FloatTag>;
 using FloatVec = hn::Vec<FloatTag>;
@@ -55,7 +55,7 @@ HWY_INLINE FloatVec unit_fraction(IntVec x)
     return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<8>(x))), hn::Set(d, 0x1p-24f));
 }
 
-// sin(2 pi x) for |x| <= 1/4: interpolated at Chebyshev nodes, off by less than 1.7e-7.
+// sin(2 pi x) for |x| <= 1/4: interpolated at Chebyshev nodes, error below 1.7e-7.
 HWY_INLINE FloatVec sin_turns(FloatVec x)
 {
     const FloatTag d;
@@ -82,7 +82,7 @@ void directions_target(const Points& points, const TangentFrame& frame, const V3
         u = points.owen ? scramble(u, points.texel_u) : hn::Add(u, hn::Set(du, points.texel_u));
         v = points.owen ? scramble(v, points.texel_v) : hn::Add(v, hn::Set(du, points.texel_v));
         const auto fu = unit_fraction(u);
-        const auto turn = hn::Sub(unit_fraction(v), half); // the azimuth less half a turn, in [-1/2, 1/2)
+        const auto turn = hn::Sub(unit_fraction(v), half); // azimuth minus half a turn, in [-1/2, 1/2)
 
         const auto radius = hn::Sqrt(points.uniform ? hn::Mul(fu, hn::Sub(hn::Set(d, 2.0f), fu)) : fu);
         const auto height = points.uniform ? hn::Sub(one, fu) : hn::Sqrt(hn::Sub(one, fu));
@@ -110,7 +110,7 @@ DirectionSums sum_directions_target(const RayFan& fan, const V3f& weight_axis)
 {
     const FloatTag d;
     const int lanes = int(hn::Lanes(d));
-    constexpr int kBlock = 128; // packets: 1024 rays, whose float sum is good to about 1e-6
+    constexpr int kBlock = 128; // packets: 1024 rays, whose float sum is accurate to about 1e-6
     DirectionSums sums;
     for (int begin = 0; begin < fan.packets; begin += kBlock) {
         const int end = std::min(begin + kBlock, fan.packets);

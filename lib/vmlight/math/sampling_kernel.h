@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The vector code behind sampling.h, compiled for several instruction sets and chosen at run time. Not installed.
+/// The vector code of sampling.h, compiled for several instruction sets with run-time dispatch. Not installed.
 #pragma once
 
 #include <vmlight/math/sampling.h>
 
 namespace vmlight::kernel {
 
-/// A scramble of bits that are already in reverse order: each depends on itself and on lower ones only.
+/// Scramble a bit-reversed fraction: each bit depends on itself and lower ones only.
 inline uint32_t scramble_reversed(uint32_t x, uint32_t seed)
 {
     x += seed;

@@ -49,13 +49,19 @@ struct MeshParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("normals", normals, Choices { { "file", "smooth", "flat" } },
-              "Vertex normals: file (from the mesh file, smooth where missing), smooth or flat");
+        field("normals", normals,
+              Choices { { { "file", "from the mesh file, smooth where missing" },
+                          { "smooth", "averaged at each vertex, weighted by angle" },
+                          { "flat", "one per triangle" } } },
+              "Vertex normals");
         field("crease_angle", crease_angle, Range { 0, 180 },
-              "Keep edges sharper than this hard in smooth normals, in degrees");
+              advanced("Smooth normals: keep edges sharper than this hard, in degrees"));
         field("uv_set", uv_set, Range { 0, 7 }, "UV set to bake; 0 is the first");
-        field("up", up, Choices { { "file", "y", "z" } },
-              "Up axis: file (from the file's metadata, else y), y or z; z-up meshes are rotated to y-up");
+        field("up", up,
+              Choices { { { "file", "from the file's metadata, else y" },
+                          { "y", "y is up: no rotation" },
+                          { "z", "z is up: rotate to y up" } } },
+              "Up axis of the mesh");
     }
 };
 

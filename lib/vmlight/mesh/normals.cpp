@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/numbering.h>
+#include <vmlight/base/unique_index.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/mesh/mesh.h>
 
@@ -26,14 +26,14 @@ static_assert(sizeof(Vertex) == 48);
 // Rebuild the vertices from corners: corner_normal(t, triangle, k) is the normal of corner k of triangle t.
 template <class CornerNormal> void rebuild(Mesh& mesh, const CornerNormal& corner_normal)
 {
-    Numbering<Vertex> vertices(mesh.triangles.size() * 3);
+    UniqueIndex<Vertex> vertices(mesh.triangles.size() * 3);
     const bool has_uvs = !mesh.uvs.empty();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() needs all three
         for (int k = 0; k < 3; ++k) {
             const uint32_t v = old[k];
             const Vertex vertex { mesh.positions[v], corner_normal(t, old, k), has_uvs ? mesh.uvs[v] : V2f(0) };
-            mesh.triangles[t][k] = vertices.number(vertex);
+            mesh.triangles[t][k] = vertices.index_of(vertex);
         }
     }
     const size_t count = vertices.keys().size();
@@ -69,9 +69,9 @@ struct TriangleFans
 
     explicit TriangleFans(const Mesh& mesh)
     {
-        Numbering<V3d> positions(mesh.positions.size());
+        UniqueIndex<V3d> positions(mesh.positions.size());
         for (const V3d& p : mesh.positions)
-            position_of_vertex.push_back(positions.number(p + V3d(0))); // -0 becomes 0
+            position_of_vertex.push_back(positions.index_of(p + V3d(0))); // -0 becomes 0
         first_corner.assign(positions.keys().size() + 2, 0);
         for (const auto& triangle : mesh.triangles)
             for (uint32_t vertex : triangle)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/reference/reference.h>
 
-#include <vmlight/base/fail.h>
+#include <vmlight/base/fail_with.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/lightmap/environment_light.h>
 #include <vmlight/math/latlong.h>
@@ -157,7 +157,7 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
     BakeScene scene;
     return scene.build(non_owning(mesh), occluders, nthreads, error)
         ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
-        : fail(dst, error);
+        : fail_with(dst, error);
 }
 
 bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env, const VismapParams& map,
@@ -168,13 +168,13 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
     EnvironmentLight sky;
     if (!check_params(map, error) || !check_params(params, error) || !lightmap_rotation(rotation, light, error)
         || !sky.build(env, params.sanitize, error))
-        return fail(dst, error);
+        return fail_with(dst, error);
 
     dst.reset(reference_spec(map, light, params), OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     const int width = dst.spec().width, height = dst.spec().height;
     if (!pixels)
-        return fail(dst, format("no memory for {}x{} texels", width, height));
+        return fail_with(dst, format("no memory for {}x{} texels", width, height));
     const float length
         = map.max_distance > 0 ? float(map.max_distance * scene.frame().scale) : std::numeric_limits<float>::infinity();
     const double gain = std::exp2(light.exposure);
@@ -211,7 +211,7 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
         }
     };
     const int64_t tiles = int64_t(raster.tiles_across()) * raster.tiles_down();
-    return parallel_items(tiles, nthreads, trace, progress) || fail(dst, "interrupted");
+    return parallel_items(tiles, nthreads, trace, progress) || fail_with(dst, "interrupted");
 }
 
 } // namespace vmlight

@@ -92,7 +92,7 @@ bool AlbedoSource::read(OIIO::ROI roi, float* dst, std::string& error)
         return false;
     std::fill_n(dst, 3 * size_t(roi.npixels()), 1.0f);
     std::vector<float> scratch;
-    Faults faults;
+    BadValues faults;
     albedo->multiply(roi, dst, scratch, faults, error);
     if (faults.any())
         error = albedo->fault_text(faults);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vmlight/base/cache.h>
+#include <vmlight/base/once_cache.h>
 #include <vmlight/image/color.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/stage/pixel_source.h>
@@ -49,7 +49,7 @@ private:
     const ColorSettings m_color;
     const OIIO::ROI m_size;
     const PixelSourcePointer m_image;
-    Once m_prepare;
+    RunOnce m_prepare;
     OIIO::ImageBuf m_pixels;
     AlbedoReader m_reader;
     std::atomic<size_t> m_bytes { 0 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/bake_report.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -25,15 +25,15 @@ void report_outside(const MakeOptions& options, const UvReport& uv, const Vismap
     const int64_t across = uv.outside - uv.fully_outside;
     if (!recipe.udim_given && uv.outside > 0)
         warn(format("{} of {} {} outside [0,1] in UV: the part outside is not baked{}", uv.outside,
-                    counted(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
+                    count_text(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
                     uv.outside > uv.beyond_udims ? "; other UDIM tiles have it, see --udim" : ""));
     if (recipe.udim_given && across > 0)
         warn(format("{} of {} {} outside tile {} in UV: the part outside is not in this map", across,
-                    counted(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
+                    count_text(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
                     recipe.vismap_params.udim));
     if (recipe.udim_given && uv.beyond_udims > 0 && !options.repeated_inputs)
         warn(format("{} of {} {} outside all UDIM tiles (u below 0 or above 10, or v below 0): that part is not baked",
-                    uv.beyond_udims, counted(uv.triangles, "triangle", "triangles"),
+                    uv.beyond_udims, count_text(uv.triangles, "triangle", "triangles"),
                     plural(uv.beyond_udims, "reaches", "reach")));
 }
 
@@ -44,12 +44,12 @@ void report_lost(const MakeOptions& options, const VismapReport& report)
     if (uv.uncovered_islands > 0 && options.warn)
         options.warn(format(
             "{} of {} in UV ({}) {} no texel and {} not baked: thinner than a texel, without area, or too far away",
-            uv.uncovered_islands, counted(uv.islands, "island", "islands"),
-            counted(uv.uncovered_triangles, "triangle", "triangles"), plural(uv.uncovered_islands, "covers", "cover"),
-            plural(uv.uncovered_islands, "is", "are")));
+            uv.uncovered_islands, count_text(uv.islands, "island", "islands"),
+            count_text(uv.uncovered_triangles, "triangle", "triangles"),
+            plural(uv.uncovered_islands, "covers", "cover"), plural(uv.uncovered_islands, "is", "are")));
     if (report.tiny > 0 && options.warn && !options.repeated_inputs)
         options.warn(format("{} of {} {} smaller than 4e-6 of the mesh: occluders closer to {} than that are missed",
-                            report.tiny, counted(uv.triangles, "triangle", "triangles"),
+                            report.tiny, count_text(uv.triangles, "triangle", "triangles"),
                             plural(report.tiny, "is", "are"), plural(report.tiny, "it", "them")));
 }
 
@@ -65,8 +65,8 @@ void report_rounding(const MakeOptions& options, const VismapReport& report)
 
 std::string error_line(const VismapReport& report)
 {
-    const std::string texels = counted(report.error_texels, "texel", "texels");
-    const std::string rays = counted(report.samples, "ray", "rays");
+    const std::string texels = count_text(report.error_texels, "texel", "texels");
+    const std::string rays = count_text(report.samples, "ray", "rays");
     if (report.error == 0)
         return format("error: 0 ({} baked twice {} identical) at {} per texel; {:.2f} s", texels,
                       plural(report.error_texels, "is", "are"), rays, report.pilot_seconds);
@@ -98,16 +98,16 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         say(error_line(report));
     if (report.expected_seconds > recipe.time_budget)
         warn(format("time_budget: even {} per texel, the minimum, {} about {:.2g} s, more than {:.6g}",
-                    counted(report.samples, "ray", "rays"), plural(report.samples, "takes", "take"),
+                    count_text(report.samples, "ray", "rays"), plural(report.samples, "takes", "take"),
                     report.expected_seconds, recipe.time_budget));
     if (report.overlapping > 0)
         warn(format(
             "{} ({:.2f} % of the covered ones) {} to more than one triangle: the first triangle in the file wins",
-            counted(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
+            count_text(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
             plural(report.overlapping, "belongs", "belong")));
     report_outside(options, uv, recipe);
     if (uv.without_uv > 0 && !options.repeated_inputs)
-        warn(format("{} of {} {}", uv.without_uv, counted(uv.triangles, "triangle", "triangles"),
+        warn(format("{} of {} {}", uv.without_uv, count_text(uv.triangles, "triangle", "triangles"),
                     plural(uv.without_uv, "has no UVs: it occludes, but is not baked",
                            "have no UVs: they occlude, but are not baked")));
     report_lost(options, report);

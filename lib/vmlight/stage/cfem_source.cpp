@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/cache.h>
+#include <vmlight/base/once_cache.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/base/tile_size.h>
-#include <vmlight/base/words.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/stack.h>
@@ -120,7 +120,8 @@ private:
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
                               m_spec.height, timer()));
         if (const int mended = dst[0].spec().get_int_attribute("vmlight:sanitized"))
-            options.report_warning(format("{} of the environment {} mended", counted(mended, "bad value", "bad values"),
+            options.report_warning(format("{} of the environment {} mended",
+                                          count_text(mended, "bad value", "bad values"),
                                           plural(mended, "was", "were")));
         return true;
     }
@@ -161,7 +162,7 @@ private:
     const CfemRecipe m_recipe;
     const PixelSourcePointer m_environment;
     const ColorSettings m_color;
-    Once m_make, m_reduce;
+    RunOnce m_make, m_reduce;
     std::vector<OIIO::ImageSpec> m_specs; // one, or one per image of the stack
     std::vector<OIIO::ImageBuf> m_cfem, m_radiance;
 };

@@ -2,7 +2,7 @@
 #include <vmlight/stage/input.h>
 
 #include <vmlight/base/parallel.h>
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/stage/open_source.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace vmlight {
 using OIIO::ImageSpec;
 using OIIO::ROI;
 
-// The only place that catches exceptions. Nothing is thrown on purpose: what arrives here is out of memory, or a bug in a
-// mesh importer.
+// The only place that catches exceptions. Nothing is thrown on purpose: what arrives here is out of memory, or a bug in
+// a mesh importer.
 template <class Work> bool StageInput::guarded(Work&& work)
 {
     try {
@@ -24,7 +24,7 @@ template <class Work> bool StageInput::guarded(Work&& work)
     } catch (const std::bad_alloc&) {
         errorfmt("out of memory");
     } catch (const std::exception& fault) {
-        errorfmt("{}", one_line(fault.what()));
+        errorfmt("{}", printable_line(fault.what()));
     } catch (...) {
         errorfmt("unknown exception");
     }
@@ -63,13 +63,13 @@ bool StageInput::open(const std::string& name, ImageSpec& spec)
 {
     return guarded([&] {
         if (!valid_file(name)) {
-            errorfmt("\"{}\": not a .{} recipe", one_line(name), m_stage);
+            errorfmt("\"{}\": not a .{} recipe", printable_line(name), m_stage);
             return false;
         }
         std::string error;
         PixelSourcePointer source = open_source(name, error);
         if (!source) {
-            errorfmt("{}", one_line(error));
+            errorfmt("{}", printable_line(error));
             return false;
         }
         spec = m_spec = source->spec();
@@ -186,7 +186,7 @@ bool StageInput::read_native_tiles(int subimage, int miplevel, int xbegin, int x
         };
         parallel_items(int64_t(across) * down, threads(), read);
         if (!error.empty())
-            errorfmt("{}", one_line(error)); // here, because OIIO keeps error messages per thread
+            errorfmt("{}", printable_line(error)); // here, because OIIO keeps error messages per thread
         return error.empty();
     });
 }

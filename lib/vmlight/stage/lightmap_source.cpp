@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/cache.h>
+#include <vmlight/base/once_cache.h>
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/stack.h>
@@ -187,7 +187,7 @@ private:
     const Inputs m_inputs;
     ShadingModel m_model;
     std::vector<int> m_index;
-    Once m_prepare;
+    RunOnce m_prepare;
     LightmapShader m_shader;
     std::atomic<size_t> m_bytes { 0 };
 };

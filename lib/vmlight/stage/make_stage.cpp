@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/make_stage.h>
 
-#include <vmlight/base/fail.h>
+#include <vmlight/base/fail_with.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/open_source.h>
 
@@ -25,7 +25,7 @@ template <class Recipe> bool make_first(OIIO::ImageBuf& dst, const Recipe& recip
     std::vector<OIIO::ImageBuf> images;
     std::string error;
     if (!make(images, recipe, options, error))
-        return fail(dst, error);
+        return fail_with(dst, error);
     dst = std::move(images[0]);
     return true;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/stored_image.h>
 
-#include <vmlight/base/cache.h>
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/file_stamp.h>
-#include <vmlight/base/memory_need.h>
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/oiio_compat.h>
+#include <vmlight/base/once_cache.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/stage/source_cache.h>
@@ -74,13 +74,13 @@ public:
         , m_id(next_id())
     {
     }
-    ~StoredImage() override { blocks().forget({ m_id, 0 }, { m_id + 1, 0 }); }
+    ~StoredImage() override { blocks().erase({ m_id, 0 }, { m_id + 1, 0 }); }
 
     bool open(std::string& error)
     {
         const auto file = OIIO::ImageInput::open(m_path);
         if (!file) {
-            error = oiio::named_reason(m_path, OIIO::geterror());
+            error = oiio::with_path(m_path, OIIO::geterror());
             return false;
         }
         m_spec = file->spec();
@@ -104,7 +104,7 @@ public:
         const auto open_file = [&](std::string& reason) {
             m_file = OIIO::ImageInput::open(m_path);
             if (!m_file)
-                reason = oiio::named_reason(m_path, OIIO::geterror());
+                reason = oiio::with_path(m_path, OIIO::geterror());
             else if (is_unchanged(key(), m_path, reason) && OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec))
                 reason = format("\"{}\": changed since it was opened", m_path);
             return reason.empty();
@@ -124,7 +124,7 @@ public:
                     copy(OIIO::roi_intersection(own, roi), own, block->pixels.data(), roi, dst);
                 }
         } catch (const BadBlock& bad) {
-            error = oiio::named_reason(m_path, bad.what());
+            error = oiio::with_path(m_path, bad.what());
         }
         return error.empty();
     }
@@ -149,7 +149,7 @@ public:
             file->threads(threads);
         if (file && file->read_image(subimage, 0, 0, spec_of(subimage).nchannels, OIIO::TypeFloat, dst))
             return true;
-        error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
+        error = oiio::with_path(m_path, file ? file->geterror() : OIIO::geterror());
         return false;
     }
 
@@ -191,7 +191,7 @@ private:
     const uint64_t m_id;
     std::unique_ptr<OIIO::ImageInput> m_file;
     std::vector<OIIO::ImageSpec> m_specs;
-    Once m_open;
+    RunOnce m_open;
 };
 
 } // namespace
@@ -211,7 +211,7 @@ bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int 
 {
     OIIO::ImageSpec spec = source.spec_of(subimage);
     spec.set_format(OIIO::TypeFloat);
-    error = memory_fault(spec);
+    error = memory_shortage(spec);
     if (!error.empty())
         return false;
     dst.reset(spec, OIIO::InitializePixels::No);

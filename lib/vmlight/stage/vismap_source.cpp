@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/make_stage.h>
 
-#include <vmlight/base/memory_need.h>
+#include <vmlight/base/available_memory.h>
 #include <vmlight/stage/bake_report.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
@@ -85,7 +85,7 @@ private:
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
         if (m_tiles->is_whole())
-            error = memory_fault(m_spec);
+            error = memory_shortage(m_spec);
         if (!error.empty())
             return false;
         // This source owns the triangle lists, and the map if it was baked as a whole.
@@ -96,7 +96,7 @@ private:
 
     const VismapRecipe m_recipe;
     const SceneStamps m_stamps;
-    Once m_prepare;
+    RunOnce m_prepare;
     BakeScenePointer m_scene;
     VismapBaker m_baker;
     std::unique_ptr<VismapTiles> m_tiles;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uv/islands.h>
 
-#include <vmlight/base/numbering.h>
+#include <vmlight/base/unique_index.h>
 
 #include <numeric>
 
@@ -40,10 +40,10 @@ struct Island
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    Numbering<Imath::V2f> points(mesh.uvs.size());
+    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
     std::vector<uint32_t> point_of_vertex;
     for (const Imath::V2f& uv : mesh.uvs)
-        point_of_vertex.push_back(points.number(uv + Imath::V2f(0))); // -0 becomes 0
+        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
     DisjointSets sets(points.keys().size());
     std::vector<uint32_t> in_tile;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {

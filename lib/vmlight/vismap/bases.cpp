@@ -19,7 +19,7 @@ std::vector<std::string> no_channels(const VismapParams&)
 
 // Name, phrase, own parameter, needs_normal, whole_numbers, channels, accumulator.
 constexpr VisibilityBasis kBases[] = {
-    { "vector", "only V and B", "", false, false, no_channels, nullptr },
+    { "vector", "only visibility and mean direction", "", false, false, no_channels, nullptr },
     { "sh", "spherical harmonics of the visible cosine lobe, --order bands", "order", false, false, sh_channels,
       make_sh_accumulator },
     { "mask", "for each of 16 longitudes, the visible range of heights and its density", "", true, true, mask_channels,
@@ -47,7 +47,7 @@ Choices basis_choices()
 {
     Choices choices;
     for (const VisibilityBasis& basis : kBases)
-        choices.words.push_back(basis.name);
+        choices.choices.push_back({ basis.name, basis.phrase });
     return choices;
 }
 

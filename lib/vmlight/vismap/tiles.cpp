@@ -68,7 +68,7 @@ VismapTiles::VismapTiles(const VismapBaker& baker, int margin)
 
 VismapTiles::~VismapTiles()
 {
-    cache().forget({ m_id, 0, false }, { m_id + 1, 0, false });
+    cache().erase({ m_id, 0, false }, { m_id + 1, 0, false });
 }
 
 void VismapTiles::set_cache_limit(size_t bytes)

@@ -3,7 +3,7 @@
 /// are asked for and of those whose texels reach into their margin.
 #pragma once
 
-#include <vmlight/base/cache.h>
+#include <vmlight/base/once_cache.h>
 #include <vmlight/vismap/baker.h>
 
 #include <OpenImageIO/imageio.h>
@@ -60,7 +60,7 @@ private:
     const int m_margin;
     const bool m_whole; // the margin is too wide: bake all at once
     const uint64_t m_id;
-    Once m_bake_map;
+    RunOnce m_bake_map;
     std::vector<float> m_map;
 };
 

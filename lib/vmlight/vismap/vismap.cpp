@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/vismap.h>
 
-#include <vmlight/base/fail.h>
-#include <vmlight/base/memory_need.h>
+#include <vmlight/base/available_memory.h>
+#include <vmlight/base/fail_with.h>
 #include <vmlight/uv/margin.h>
 #include <vmlight/vismap/baker.h>
 
@@ -33,7 +33,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
     std::string error;
     auto scene = std::make_shared<BakeScene>();
     if (!check_params(params, error) || !scene->build(non_owning(mesh), occluders, nthreads, error))
-        return fail(dst, error);
+        return fail_with(dst, error);
     const double build_seconds = timer();
     const bool made = make_vismap(dst, scene, params, report, nthreads, progress);
     if (made && report)
@@ -48,15 +48,15 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     OIIO::Timer timer;
     std::string error;
     if (check_params(params, error))
-        error = memory_fault(describe_vismap("", params));
+        error = memory_shortage(describe_vismap("", params));
     VismapBaker baker;
     if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget))
-        return fail(dst, error);
+        return fail_with(dst, error);
     const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
     dst.reset(spec, OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels)
-        return fail(dst, OIIO::Strutil::fmt::format("no memory for {}x{} texels", spec.width, spec.height));
+        return fail_with(dst, OIIO::Strutil::fmt::format("no memory for {}x{} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
     counts.tiny = scene->tiny_triangles();
     counts.rounding = scene->rounding();
@@ -67,7 +67,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     Coverage coverage(spec.width, spec.height);
     BakeCounts baked;
     if (!baker.bake_all(pixels, coverage, baked, nthreads, progress))
-        return fail(dst, "interrupted");
+        return fail_with(dst, "interrupted");
     counts.bake_seconds = timer.lap();
     fill_margin(pixels, spec.nchannels, coverage, params.margin, baker.margin_channels());
     counts.margin_seconds = timer.lap();

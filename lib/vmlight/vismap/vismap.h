@@ -69,24 +69,34 @@ struct VismapParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("resolution", resolution, SizeRange { 32768, 1 },
-              "Size of the map, in texels; one number makes a square");
-        field("width", width, Range { 0, 32768 }, "Width, if other than that of resolution");
-        field("height", height, Range { 0, 32768 }, "Height, if other than that of resolution");
+        field("resolution", resolution, SizeRange { 32768, 1 }, "Size of the map in texels; one number for a square");
+        field("width", width, Range { 0, 32768 }, advanced("Width in texels; 0: as resolution says"));
+        field("height", height, Range { 0, 32768 }, advanced("Height in texels; 0: as resolution says"));
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile to bake; replaces <UDIM> in file names");
         field("samples", samples, Range { 1, 1 << 20 }, "Rays per texel");
         field("target_error", target_error, Range { 0, 1, "none", 0 },
-              "Trace until the RMS error of V is this; replaces samples");
-        field("sampler", sampler, Choices { { "fibonacci", "sobol", "halton" } }, "Sample pattern of the rays");
-        field("seed", seed, Range { 0, 2147483647 }, "Same seed, same pixels, for any number of threads");
-        field("measure", measure, Choices { { "cosine", "uniform" } }, "Weight of a direction in visibility");
+              "Instead of a fixed count, trace until the RMS error of visibility is this low: 0.01");
+        field("sampler", sampler,
+              Choices { { { "fibonacci", "Fibonacci lattice: lowest error at a fixed ray count" },
+                          { "sobol", "Sobol sequence, Owen-scrambled" },
+                          { "halton", "Halton sequence, as in Neulander's paper" } } },
+              advanced("Sample pattern"));
+        field("seed", seed, Range { 0, 2147483647 },
+              advanced("Random seed; the same seed gives the same pixels on any number of threads"));
+        field("measure", measure,
+              Choices { { { "cosine", "weight directions by the cosine: what a diffuse surface receives" },
+                          { "uniform", "weight all directions equally, as the paper words it" } } },
+              advanced("Weighting of directions"));
         field("max_distance", max_distance, Range { 0, 1e30, "infinite", 0 },
               "Maximum occluder distance, in mesh units");
-        field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Texels to fill around UV islands");
-        field("channels", channels, Words { { "normal", "coverage", "error" } },
-              "Channels to add: normal (for the model ao), coverage (1 where the mesh covers the texel), error (of V)");
-        field("basis", basis, basis_choices(), "Channels to add for the shading model of this name; vector adds none");
-        field("order", order, Range { 3, 8 }, "Bands of the basis sh");
+        field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Dilation around UV islands, in texels");
+        field("channels", channels,
+              ChoiceSet { { { "normal", "shading normal, for the model ao" },
+                            { "coverage", "1 where the mesh covers the texel, else 0" },
+                            { "error", "standard error of visibility" } } },
+              "Extra channels to store");
+        field("basis", basis, basis_choices(), "What else to store, for the shading model of the same name");
+        field("order", order, Range { 3, 8 }, advanced("Number of bands of the basis sh"));
     }
 };
 

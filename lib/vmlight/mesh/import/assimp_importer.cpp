@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/assimp_importer.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -190,7 +190,7 @@ bool read_with_assimp(MeshBuilder& dst, const ImportRequest& request, std::strin
         OIIO::string_view reason = importer.GetErrorString();
         if (OIIO::Strutil::istarts_with(reason, extension_of(request) + ": ")) // names the format once more
             reason.remove_prefix(reason.find(' ') + 1);
-        return fail(reason_line(reason));
+        return fail(shortened_line(reason));
     };
     keep_importer_of(request, importer);
     const std::string name = known_name(request);

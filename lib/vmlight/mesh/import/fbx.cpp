@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/fbx_records.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/node_graph.h>
@@ -69,7 +69,7 @@ private:
         name.resize(std::min(name.size(), name.find('\0')));
         if (OIIO::Strutil::starts_with(name, "Model::"))
             name.erase(0, 7);
-        return format("\"{}\"", reason_line(name));
+        return format("\"{}\"", shortened_line(name));
     }
 
     std::unordered_map<int64_t, std::string> m_names;

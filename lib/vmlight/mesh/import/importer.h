@@ -68,7 +68,7 @@ struct MeshFormat
     /// Check all bytes of a file before it is read. nullptr if the library can be given any file.
     Inspection (*inspect)(const std::string& bytes);
     /// Read every mesh of a file, each at its place in the node hierarchy, into `dst`. All that the library allocates
-    /// is freed before it returns. Runs on a deep stack: see on_deep_stack().
+    /// is freed before it returns. Runs on a deep stack: see run_on_deep_stack().
     /// @returns false, with the reason in `error` (on one line, without the path), if the file cannot be read
     bool (*read)(MeshBuilder& dst, const ImportRequest& request, std::string& error);
 };

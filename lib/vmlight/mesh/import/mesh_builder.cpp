@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/mesh_builder.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -87,7 +87,7 @@ void MeshBuilder::add_triangle(std::array<uint32_t, 3> corners, uint32_t materia
 bool MeshBuilder::finish(std::string& error)
 {
     if (!m_error.empty() || m_mesh.triangles.empty()) {
-        error = m_error.empty() ? "no triangles" : reason_line(m_error);
+        error = m_error.empty() ? "no triangles" : shortened_line(m_error);
         return false;
     }
     if (!m_has_uvs)

@@ -24,7 +24,7 @@ public:
     void add(const Node& parent, const Node& child) { m_children[parent].push_back(child); }
 
     /// Why the nodes under `root` must not be given to an importer, or "": one is its own ancestor, or they are too
-    /// many or too deep. Recurses as deep as they go: see on_deep_stack().
+    /// many or too deep. Recurses as deep as they go: see run_on_deep_stack().
     /// @param name_of  a node, as the user knows it
     template <class NameOf> std::string error(const Node& root, const NameOf& name_of)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/obj_text.h>
 
@@ -54,8 +54,8 @@ std::string uv_error(const std::string& text, size_t begin, size_t end, size_t l
     parse_numbers(&text[begin] + 2, 3, numbers);
     if (std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
         return "";
-    return reason_line(format("line {} has non-finite texture coordinates: \"{}\"", line,
-                              OIIO::Strutil::strip(text.substr(begin, end - begin))));
+    return shortened_line(format("line {} has non-finite texture coordinates: \"{}\"", line,
+                                 OIIO::Strutil::strip(text.substr(begin, end - begin))));
 }
 
 // Mark the vertices of a face line. Indices count from 1, or backwards from the `count` vertices so far.

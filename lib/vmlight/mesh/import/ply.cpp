@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/ply_header.h>
 
@@ -174,7 +174,7 @@ Inspection inspect_ply(const std::string& bytes)
     }
     if (result.error.empty())
         result.replacement = header.mesh.text(bytes);
-    result.error = reason_line(result.error); // it quotes words of the header
+    result.error = shortened_line(result.error); // it quotes words of the header
     if (!result.error.empty() || !is_far_from_origin(result.exact_positions))
         result.exact_positions.clear();
     return result;

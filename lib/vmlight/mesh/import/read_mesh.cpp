@@ -67,7 +67,7 @@ bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, s
         return false;
     }
     bool good = false;
-    on_deep_stack([&] { // inspections and libraries recurse down the node hierarchy
+    run_on_deep_stack([&] { // inspections and libraries recurse down the node hierarchy
         MeshBuilder builder(dst, params);
         good = import_parts(builder, path, before_open, formats, error) && builder.finish(error);
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/recipe.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/stage/recipe/toml.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -91,7 +91,7 @@ bool split_name(std::string& path, Overrides& overrides, const std::string& name
     for (const std::string& word : OIIO::Strutil::splits(name.substr(mark + 1), "&")) {
         const size_t equals = word.find('=');
         if (equals == std::string::npos) {
-            error = one_line(format("\"{}\": \"{}\" is not KEY=VALUE", name, word));
+            error = printable_line(format("\"{}\": \"{}\" is not KEY=VALUE", name, word));
             return false;
         }
         overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
@@ -159,7 +159,7 @@ bool read_recipe_text(Recipe& dst, string_view text, const std::string& path, st
         std::string reason;
         if (!set_from_node(recipe, std::string(key.str()), node, folder, reason) && (first == 0 || line < first)) {
             first = line;
-            error = at_line(path, line) + ": " + reason_line(reason);
+            error = at_line(path, line) + ": " + shortened_line(reason);
         }
     }
     if (!error.empty())
@@ -180,7 +180,7 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
     if (!alone && (!read_bytes(bytes, path, error) || !read_recipe_text(recipe, bytes, path, error)))
         return false;
     if (!apply(recipe, overrides, reason)) {
-        error = one_line(format("\"{}\": ", name)) + reason_line(reason);
+        error = printable_line(format("\"{}\": ", name)) + shortened_line(reason);
         return false;
     }
     for (const auto& override : overrides)
@@ -230,7 +230,7 @@ std::string recipe_place(const std::string& name, const std::string& key)
         const auto found = table.find(key);
         line = found != table.end() ? found->first.source().begin.line : 0;
     }
-    return one_line(at_line(line ? path : name, line) + ": " + key);
+    return printable_line(at_line(line ? path : name, line) + ": " + key);
 }
 
 } // namespace vmlight

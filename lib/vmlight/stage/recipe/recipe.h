@@ -40,8 +40,8 @@ struct VismapRecipe
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("mesh", mesh, Path {}, "The mesh to bake");
-        field("occluder", occluder, Paths {}, "Meshes that cast and are not baked");
+        field("mesh", mesh, Path {}, "Mesh to bake");
+        field("occluder", occluder, Paths {}, "Mesh that occludes but is not baked");
         vismap_params.visit(field);
         mesh_params.visit(field);
     }
@@ -63,12 +63,13 @@ struct CfemRecipe
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("environment", environment, Path {}, "The lat-long map to filter");
-        field("colorspace", colorspace, Text {}, "Colour space of the environment, if its name and tags do not tell");
-        field("colorconfig", colorconfig, Path {}, "OCIO config; without it $OCIO");
+        field("environment", environment, Path {}, "Lat-long environment to filter");
+        field("colorspace", colorspace, Text {},
+              advanced("Colour space of the environment; default: from its name and metadata"));
+        field("colorconfig", colorconfig, Path {}, advanced("OCIO config; default: $OCIO"));
         field("stack", stack, Flag {},
-              "Add lobes wider and narrower than the cosine, and the environment itself: for all models");
-        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile: what <UDIM> in a name stands for");
+              "Write a stack: filters of several widths and the environment itself, for all models");
+        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         cfem_params.visit(field);
     }
 };
@@ -88,17 +89,19 @@ struct LightmapRecipe
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("vismap", vismap, Path {}, "The visibility map, or its recipe");
-        field("environment", environment, Path {}, "The lat-long map to be lit by; filtered first");
-        field("cfem", cfem, Path {}, "A cosine-filtered environment, or its recipe");
-        field("albedo", albedo, Path {}, "Multiply by this texture, converted to scene-linear");
-        field("albedo_colorspace", albedo_colorspace, Text {}, "Its colour space, if its name and tags do not tell");
-        field("colorspace", colorspace, Text {}, "Colour space of the environment, if its name and tags do not tell");
-        field("colorconfig", colorconfig, Path {}, "OCIO config; without it $OCIO");
-        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile: what <UDIM> in a name stands for");
+        field("vismap", vismap, Path {}, "Visibility map, or its recipe");
+        field("environment", environment, Path {}, "Lat-long environment to light with; it is filtered first");
+        field("cfem", cfem, Path {}, "Cosine-filtered environment, or its recipe");
+        field("albedo", albedo, Path {}, "Albedo texture to multiply by; converted to scene-linear");
+        field("albedo_colorspace", albedo_colorspace, Text {},
+              advanced("Colour space of the albedo; default: from its name and metadata"));
+        field("colorspace", colorspace, Text {},
+              advanced("Colour space of the environment; default: from its name and metadata"));
+        field("colorconfig", colorconfig, Path {}, advanced("OCIO config; default: $OCIO"));
+        field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);
         cfem_params.visit([&](const char* name, auto& value, const auto& allowed, const char* help) {
-            field(("cfem_" + std::string(name)).c_str(), value, allowed, help);
+            field(("cfem_" + std::string(name)).c_str(), value, allowed, advanced(help));
         });
     }
 };

@@ -47,7 +47,7 @@ std::string toml_text(const std::vector<double>& value, const Numbers& allowed)
     return "[" + OIIO::Strutil::replace(value_text(value, allowed), ",", ", ", true) + "]";
 }
 
-std::string toml_text(const std::vector<std::string>& value, const Words& allowed)
+std::string toml_text(const std::vector<std::string>& value, const ChoiceSet& allowed)
 {
     const std::string words = value_text(value, allowed);
     return words.empty() ? "[]" : "[" + OIIO::Strutil::replace(quoted(words), ",", "\", \"", true) + "]";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/toml.h>
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -80,8 +80,8 @@ bool parse_toml(toml::table& dst, OIIO::string_view text, const std::string& pat
     toml::parse_result result = toml::parse(ascii);
     if (!result) {
         const toml::parse_error& fault = result.error();
-        error
-            = at_line(path, fault.source().begin.line) + ": not TOML: " + reason_line(std::string(fault.description()));
+        error = at_line(path, fault.source().begin.line)
+            + ": not TOML: " + shortened_line(std::string(fault.description()));
         if (error.find("could not determine value type") != std::string::npos)
             error += "; texts need quotes";
         return false;
@@ -120,7 +120,7 @@ bool node_text(std::string& text, const toml::node& node, const std::string&, co
     return string_text(text, node, "a string", reason);
 }
 
-bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Words&,
+bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const ChoiceSet&,
                std::string& reason)
 {
     const toml::array* words = node.as_array();
@@ -161,7 +161,7 @@ bool node_text(std::string& text, const toml::node& node, const std::vector<std:
         if (!string_text(path, element, "a path in quotes", reason))
             return false;
         if (path.empty() || path.find('\n') != std::string::npos) {
-            reason = path.empty() ? "one of its names is empty" : "a name in a list cannot hold a line break";
+            reason = path.empty() ? "one of the names is empty" : "a name in a list cannot hold a line break";
             return false;
         }
         text += (text.empty() ? "" : "\n") + path;

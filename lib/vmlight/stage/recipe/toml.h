@@ -46,7 +46,7 @@ bool node_text(std::string& text, const toml::node& node, const int&, const Rang
 bool node_text(std::string& text, const toml::node& node, const double&, const Range& allowed, std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const Size&, const SizeRange&, std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const std::string&, const Choices&, std::string& reason);
-bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Words&,
+bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const ChoiceSet&,
                std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const std::string&, const Text&, std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const std::string&, const Path&, std::string& reason);

@@ -31,7 +31,7 @@ std::string append_ascii(std::string& dst, string_view line)
     for (size_t i = 0; i < line.size(); i += count) {
         uint32_t code = 0;
         const char c = line[i];
-        count = read_character(line.substr(i), code);
+        count = decode_utf8(line.substr(i), code);
         if (count == 0)
             return "not TOML: its bytes are not UTF-8";
         if ((code < 0x20 && c != '\t') || code == 0x7f)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/part_file.h>
+#include <vmlight/base/temporary_file.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -19,24 +19,24 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr const char* kDigits = "%%%%%%%%"; // each becomes a random hexadecimal one
+constexpr const char* kDigits = "%%%%%%%%"; // unique_path() replaces each by a random hexadecimal digit
 constexpr const char* kEnding = ".part";
-constexpr mode_t kAnyone = 0666; // less what the umask takes
+constexpr mode_t kAnyone = 0666; // less the umask
 
-// What hidden names of `name` begin with. Cut, since the file system may take no longer names than that.
+// The start of hidden names of `name`, cut to what file systems allow.
 std::string hidden_prefix(const std::string& name)
 {
     constexpr size_t kLongest = 200;
     size_t length = std::min(name.size(), kLongest);
-    const auto is_inside_letter = [&](size_t i) { return i < name.size() && (name[i] & 0xC0) == 0x80; }; // UTF-8
-    while (length > 0 && is_inside_letter(length))
+    const auto is_continuation = [&](size_t i) { return i < name.size() && (name[i] & 0xC0) == 0x80; }; // UTF-8
+    while (length > 0 && is_continuation(length))
         --length;
     return "." + name.substr(0, length) + ".";
 }
 
 std::string hidden_name(const std::string& name)
 {
-    // The digits alone: a % of the name is one.
+    // unique_path() must not see the name: it may contain a %.
     return hidden_prefix(name) + OIIO::Filesystem::unique_path(kDigits) + kEnding;
 }
 
@@ -51,8 +51,8 @@ bool is_hidden_name_of(const std::string& entry, const std::string& name)
 
 int open_folder(const std::string& target)
 {
-    // By its descriptor its files have short names, however long its path is.
-    return ::open(folder_of(target).c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+    // Relative to a descriptor, file names are short however long the folder's path is.
+    return ::open(parent_folder(target).c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
 }
 
 std::string link_of(int file)
@@ -62,18 +62,18 @@ std::string link_of(int file)
 
 } // namespace
 
-std::string folder_of(const std::string& path)
+std::string parent_folder(const std::string& path)
 {
     const std::string folder = OIIO::Filesystem::parent_path(path);
     return folder.empty() ? "." : folder;
 }
 
-PartFile::PartFile(const std::string& target, PartKind kind)
+TemporaryFile::TemporaryFile(const std::string& target, TemporaryFileKind kind)
     : m_target(target)
     , m_name(OIIO::Filesystem::filename(target))
     , m_folder(open_folder(target))
 {
-    int file = m_folder >= 0 && kind == PartKind::Nameless ? open_nameless() : -1;
+    int file = m_folder >= 0 && kind == TemporaryFileKind::Unnamed ? open_unnamed() : -1;
     if (m_folder >= 0 && file < 0)
         file = open_hidden();
     if (file >= 0)
@@ -87,41 +87,41 @@ PartFile::PartFile(const std::string& target, PartKind kind)
         ::fchmod(file, old.st_mode & 0777);
 }
 
-PartFile::~PartFile()
+TemporaryFile::~TemporaryFile()
 {
-    if (!m_hidden.empty())
-        ::unlinkat(m_folder, m_hidden.c_str(), 0);
+    if (!m_hidden_name.empty())
+        ::unlinkat(m_folder, m_hidden_name.c_str(), 0);
     if (m_stream)
         std::fclose(m_stream);
     if (m_folder >= 0)
         ::close(m_folder);
 }
 
-int PartFile::open_nameless() const
+int TemporaryFile::open_unnamed() const
 {
     const int file = ::openat(m_folder, ".", O_TMPFILE | O_RDWR | O_CLOEXEC, kAnyone);
     if (file < 0)
         return -1;
     if (::access(link_of(file).c_str(), F_OK) == 0) {
-        ::flock(file, LOCK_EX); // for when it has a name
+        ::flock(file, LOCK_EX); // kept when it gets a name
         return file;
     }
     ::close(file);
     return -1;
 }
 
-int PartFile::open_hidden()
+int TemporaryFile::open_hidden()
 {
     for (;;) {
-        m_hidden = hidden_name(m_name);
-        const int file = ::openat(m_folder, m_hidden.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kAnyone);
+        m_hidden_name = hidden_name(m_name);
+        const int file = ::openat(m_folder, m_hidden_name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kAnyone);
         if (file < 0 && errno == EEXIST)
             continue;
         if (file < 0) {
-            m_hidden.clear();
+            m_hidden_name.clear();
             return -1;
         }
-        // Before it was locked, another run may have taken it for abandoned.
+        // Before it was locked, another process may have removed it as stale.
         struct stat status;
         ::flock(file, LOCK_EX);
         if (::fstat(file, &status) != 0 || status.st_nlink > 0)
@@ -130,54 +130,56 @@ int PartFile::open_hidden()
     }
 }
 
-bool PartFile::give_hidden_name()
+bool TemporaryFile::give_hidden_name()
 {
     int result;
     do {
-        m_hidden = hidden_name(m_name);
-        result = ::linkat(AT_FDCWD, link_of(::fileno(m_stream)).c_str(), m_folder, m_hidden.c_str(), AT_SYMLINK_FOLLOW);
+        m_hidden_name = hidden_name(m_name);
+        result = ::linkat(AT_FDCWD, link_of(::fileno(m_stream)).c_str(), m_folder, m_hidden_name.c_str(),
+                          AT_SYMLINK_FOLLOW);
     } while (result != 0 && errno == EEXIST);
     if (result != 0)
-        m_hidden.clear();
+        m_hidden_name.clear();
     return result == 0;
 }
 
-std::string PartFile::path() const
+std::string TemporaryFile::path() const
 {
     if (!m_stream)
         return m_target;
     const std::string link = link_of(::fileno(m_stream));
-    return m_hidden.empty() || ::access(link.c_str(), F_OK) == 0 ? link : folder_of(m_target) + "/" + m_hidden;
+    return m_hidden_name.empty() || ::access(link.c_str(), F_OK) == 0 ? link
+                                                                      : parent_folder(m_target) + "/" + m_hidden_name;
 }
 
-bool PartFile::place()
+bool TemporaryFile::commit()
 {
-    // The file's bytes must be on the disk before its name is, or a crash could leave the name with nothing behind it.
+    // The bytes must reach the disk before the name, or a crash could leave an empty file.
     if (std::fflush(m_stream) != 0 || ::fsync(::fileno(m_stream)) != 0)
         return false;
-    // No call gives a file without a name that of another: then it has a hidden one between two calls.
+    // linkat() does not replace an existing file: link to a hidden name, then rename.
     const std::string link = link_of(::fileno(m_stream));
     const bool first
-        = m_hidden.empty() && ::linkat(AT_FDCWD, link.c_str(), m_folder, m_name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+        = m_hidden_name.empty() && ::linkat(AT_FDCWD, link.c_str(), m_folder, m_name.c_str(), AT_SYMLINK_FOLLOW) == 0;
     if (!first) {
-        if (m_hidden.empty() && (errno != EEXIST || !give_hidden_name()))
+        if (m_hidden_name.empty() && (errno != EEXIST || !give_hidden_name()))
             return false;
-        if (::renameat(m_folder, m_hidden.c_str(), m_folder, m_name.c_str()) != 0)
+        if (::renameat(m_folder, m_hidden_name.c_str(), m_folder, m_name.c_str()) != 0)
             return false;
-        m_hidden.clear();
+        m_hidden_name.clear();
     }
     const int folder = ::openat(m_folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0) { // else it may be written and not read
+    if (folder >= 0) { // fails where the folder is writable but not readable
         ::fsync(folder);
         ::close(folder);
     }
     return true;
 }
 
-void remove_abandoned_parts(const std::string& target)
+void remove_stale_temporaries(const std::string& target)
 {
     const std::string name = OIIO::Filesystem::filename(target);
-    const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(folder_of(target).c_str()), ::closedir);
+    const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(parent_folder(target).c_str()), ::closedir);
     while (const dirent* entry = folder ? ::readdir(folder.get()) : nullptr) {
         if (!is_hidden_name_of(entry->d_name, name))
             continue;

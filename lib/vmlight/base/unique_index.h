@@ -10,19 +10,20 @@
 
 namespace vmlight {
 
-/// Numbers keys in the order in which they first come; keys are equal if their bytes are.
-template <class Key> class Numbering
+/// Gives distinct keys the indices 0, 1, 2, ... in the order in which they first occur. Keys are compared bytewise.
+template <class Key> class UniqueIndex
 {
 public:
-    explicit Numbering(size_t most_keys)
+    explicit UniqueIndex(size_t max_keys)
     {
         size_t slots = 16;
-        while (slots < 2 * most_keys)
+        while (slots < 2 * max_keys)
             slots *= 2;
         m_slots.assign(slots, kNone);
     }
 
-    uint32_t number(const Key& key)
+    /// The index of `key`, new if it has none yet.
+    uint32_t index_of(const Key& key)
     {
         const char* bytes = reinterpret_cast<const char*>(&key);
         size_t slot = OIIO::farmhash::Fingerprint64(bytes, sizeof(Key)) & (m_slots.size() - 1);
@@ -35,6 +36,7 @@ public:
         return m_slots[slot];
     }
 
+    /// All keys, by index.
     const std::vector<Key>& keys() const { return m_keys; }
 
 private:

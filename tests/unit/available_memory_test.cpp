@@ -2,7 +2,7 @@
 /// What memory there is, as the system's files tell it.
 #include "temporary_folder.h"
 
-#include <vmlight/base/memory_need.h>
+#include <vmlight/base/available_memory.h>
 
 #include <limits>
 
@@ -71,8 +71,8 @@ TEST(MemoryNeed, KnowsTheFirstVersionOfGroups)
 
 TEST(MemoryNeed, RefusesWhatNoMachineHolds)
 {
-    EXPECT_EQ(memory_fault(OIIO::ImageSpec(1024, 1024, 4)), "");
-    EXPECT_EQ(memory_fault(OIIO::ImageSpec()), "");
-    const std::string fault = memory_fault(OIIO::ImageSpec(1 << 30, 1 << 30, 16));
+    EXPECT_EQ(memory_shortage(OIIO::ImageSpec(1024, 1024, 4)), "");
+    EXPECT_EQ(memory_shortage(OIIO::ImageSpec()), "");
+    const std::string fault = memory_shortage(OIIO::ImageSpec(1 << 30, 1 << 30, 16));
     EXPECT_EQ(fault.find("1073741824x1073741824 pixels of 16 channels take "), 0u) << fault;
 }

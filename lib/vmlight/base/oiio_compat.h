@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where OpenImageIO 2.4 and 3.1 differ. Not installed.
+/// Differences between OpenImageIO 2.4 and 3.1, and its error texts. Not installed.
 #pragma once
 
 #include <OpenImageIO/imagebufalgo.h>
@@ -11,9 +11,9 @@
 
 namespace vmlight::oiio {
 
-/// Why the last call of an ImageBuf, ImageOutput or ColorConfig failed, on one line: OIIO 3 says some reasons twice, on
-/// a line each.
-template <class Object> std::string reason(Object& object)
+/// The pending error of an ImageBuf, ImageOutput or ColorConfig, on one line. OIIO 3 reports some errors twice, one per
+/// line.
+template <class Object> std::string error_line(Object& object)
 {
     std::vector<std::string> lines;
     for (const std::string& line : OIIO::Strutil::splits(object.geterror(), "\n"))
@@ -22,8 +22,8 @@ template <class Object> std::string reason(Object& object)
     return OIIO::Strutil::join(lines, "; ");
 }
 
-/// `reason`, which OIIO gives for `path`, led by the path in quotes: once, though OIIO may name it too.
-inline std::string named_reason(const std::string& path, std::string reason)
+/// OIIO's `reason` for `path`, prefixed with the path in quotes, which OIIO may have named already.
+inline std::string with_path(const std::string& path, std::string reason)
 {
     using namespace OIIO::Strutil;
     const std::string quoted = "\"" + path + "\"", prefix = "Invalid image file " + quoted + ": ";
@@ -33,11 +33,11 @@ inline std::string named_reason(const std::string& path, std::string reason)
         reason.erase(0, quoted.size() + 1);
     reason = replace(reason, "image file " + quoted, "image file", true);
     reason = replace(reason, "reader for " + quoted, "reader for it", true);
-    reason = replace(reason, " (" + path + ")", "", true); // OpenEXR 3.4's own words
+    reason = replace(reason, " (" + path + ")", "", true); // OpenEXR 3.4
     return quoted + ": " + reason;
 }
 
-/// Resize by a triangle filter, one pixel of the smaller image wide.
+/// Resize with a triangle filter whose width is one pixel of the smaller image.
 inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, OIIO::ROI roi, int nthreads)
 {
 #if OIIO_VERSION >= 30000

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Things that are made once, however many threads ask for them.
+/// Results that are computed once and shared by all threads that ask for them.
 #pragma once
 
 #include <vmlight/base/parallel.h>
@@ -16,11 +16,13 @@
 
 namespace vmlight {
 
-/// Work that the first thread to ask does, while the others wait. Its failure is kept; what it throws is not.
-/// The work never waits for OIIO's thread pool to run other tasks: one of them may want this very result.
-class Once
+/// Runs a function once: on the first thread that asks, while the others wait. A failure is remembered, an exception
+/// is not: the next caller tries again. The function never waits for OIIO's thread pool to run other tasks, since one
+/// of them may need this very result.
+class RunOnce
 {
 public:
+    /// Returns the result of `work(error)`, called now or earlier; on failure `error` is its reason.
     template <class Work> bool run(Work&& work, std::string& error)
     {
         if (m_state == State::good)
@@ -46,8 +48,8 @@ private:
     std::string m_error;
 };
 
-/// Values by key, each made once; beyond `limit` bytes those go first that were asked for longest ago. Who holds a
-/// value keeps it. Values have bytes().
+/// A least-recently-used cache, bounded in bytes, that makes each value once. Values are shared: evicting one does not
+/// invalidate the pointers that callers hold. `Value` must have bytes().
 template <class Key, class Value> class OnceCache
 {
 public:
@@ -58,13 +60,14 @@ public:
     {
     }
 
-    /// The value of `key`, made by `make()` if it is not there. Threads that ask for it meanwhile wait.
+    /// The value of `key`, made by `make()` on a miss. Threads that ask for it meanwhile wait. If `make()` throws, so
+    /// does get(), and the next call tries again.
     template <class Make> Pointer get(const Key& key, Make&& make)
     {
         std::unique_lock<std::mutex> lock(m_mutex);
         for (auto found = m_entries.find(key); found != m_entries.end(); found = m_entries.find(key)) {
             if (found->second.value) {
-                m_recent.splice(m_recent.begin(), m_recent, found->second.place);
+                m_recent.splice(m_recent.begin(), m_recent, found->second.position);
                 return found->second.value;
             }
             m_made.wait(lock);
@@ -97,14 +100,14 @@ public:
         trim();
     }
 
-    /// Drop the values with keys in [first, last).
-    void forget(const Key& first, const Key& last)
+    /// Evict the values with keys in [first, last).
+    void erase(const Key& first, const Key& last)
     {
         const std::lock_guard<std::mutex> lock(m_mutex);
         for (auto entry = m_entries.lower_bound(first); entry != m_entries.end() && entry->first < last;) {
             const auto next = std::next(entry);
             if (entry->second.value)
-                drop(entry);
+                evict(entry);
             entry = next;
         }
     }
@@ -118,27 +121,27 @@ public:
 private:
     struct Entry
     {
-        Pointer value; // none while it is being made
-        typename std::list<Key>::iterator place {};
+        Pointer value; // nullptr while it is being made
+        typename std::list<Key>::iterator position {};
     };
 
-    void drop(typename std::map<Key, Entry>::iterator entry)
+    void evict(typename std::map<Key, Entry>::iterator entry)
     {
         m_bytes -= entry->second.value->bytes();
-        m_recent.erase(entry->second.place);
+        m_recent.erase(entry->second.position);
         m_entries.erase(entry);
     }
-    // The newest stays, whatever its size: those who wait for it are about to take it.
+    // The newest entry stays, whatever its size: threads that wait for it are about to use it.
     void trim()
     {
         while (m_bytes > m_limit && m_recent.size() > 1)
-            drop(m_entries.find(m_recent.back()));
+            evict(m_entries.find(m_recent.back()));
     }
 
     mutable std::mutex m_mutex;
     std::condition_variable m_made;
     std::map<Key, Entry> m_entries;
-    std::list<Key> m_recent; // keys with a value, the last asked for first
+    std::list<Key> m_recent; // keys with a value, most recently used first
     size_t m_bytes = 0, m_limit;
 };
 

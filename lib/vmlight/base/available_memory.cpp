@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/memory_need.h>
+#include <vmlight/base/available_memory.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -21,24 +21,24 @@ using OIIO::Strutil::starts_with;
 
 constexpr int64_t kUnknown = std::numeric_limits<int64_t>::max();
 
-// "" if there is none. Files of /proc tell no size beforehand.
+// "" if there is no such file. Files in /proc have no size in advance.
 std::string read_text(const std::string& path)
 {
     std::ifstream file(path);
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-// The number after `key` at the start of a line, or `otherwise`. Numbers that do not fit ("max", 2^64 - 1) are none.
-int64_t number_after(const std::string& text, const std::string& key, int64_t otherwise)
+// The number after `key` at the start of a line, or `fallback`, also for values such as "max" or 2^64 - 1.
+int64_t number_after(const std::string& text, const std::string& key, int64_t fallback)
 {
     for (const std::string& line : splits(text, "\n")) {
         if (!starts_with(line, key))
             continue;
         const std::string number = std::string(OIIO::Strutil::strip(line.substr(key.size())));
         const size_t digits = std::min(number.find_first_not_of("0123456789"), number.size());
-        return digits > 0 && digits < 18 ? std::stoll(number.substr(0, digits)) : otherwise;
+        return digits > 0 && digits < 18 ? std::stoll(number.substr(0, digits)) : fallback;
     }
-    return otherwise;
+    return fallback;
 }
 
 int64_t free_swap(const std::string& root)
@@ -52,7 +52,7 @@ int64_t left_by_machine(const std::string& root, int64_t swap)
     return kilobytes < 0 ? kUnknown : 1024 * kilobytes + swap;
 }
 
-// What a version of control groups calls its files, and lines of memory.stat.
+// File names, and keys in memory.stat, of one version of control groups.
 struct GroupFiles
 {
     const char *limit, *usage, *cache, *shared;
@@ -60,8 +60,8 @@ struct GroupFiles
 constexpr GroupFiles kFirst { "memory.limit_in_bytes", "memory.usage_in_bytes", "total_cache ", "total_shmem " };
 constexpr GroupFiles kSecond { "memory.max", "memory.current", "file ", "shmem " };
 
-// What the group and those around it leave, of which each may use no more swap than `swap`. `folder` is where their
-// hierarchy is mounted, `group` the path in it.
+// What is left in a group and its parents, each with at most `swap` bytes of swap. `folder` is the mount point of the
+// hierarchy, `group` the path in it.
 int64_t left_by_groups(const std::string& folder, std::string group, const GroupFiles& files, int64_t swap)
 {
     int64_t left = kUnknown;
@@ -69,7 +69,7 @@ int64_t left_by_groups(const std::string& folder, std::string group, const Group
         const std::string at = folder + group + "/", stat = read_text(at + "memory.stat");
         const int64_t limit = number_after(read_text(at + files.limit), "", kUnknown);
         const int64_t used = number_after(read_text(at + files.usage), "", 0);
-        // Files of a tmpfs are counted as files, but stay.
+        // tmpfs pages count as page cache but cannot be reclaimed.
         const int64_t cache = number_after(stat, files.cache, 0) - number_after(stat, files.shared, 0);
         const int64_t own_swap = number_after(read_text(at + "memory.swap.max"), "", swap);
         if (limit != kUnknown)
@@ -120,13 +120,13 @@ int64_t available_memory(const std::string& root)
     return std::min({ left_by_machine(root, swap), left_by_groups(root, swap), left_by_limits(root) });
 }
 
-std::string memory_fault(const OIIO::ImageSpec& spec)
+std::string memory_shortage(const OIIO::ImageSpec& spec)
 {
     const double bytes = double(spec.width) * spec.height * std::max(1, spec.depth) * spec.nchannels * sizeof(float);
     const int64_t available = available_memory();
     if (bytes <= double(available))
         return "";
-    return OIIO::Strutil::fmt::format("{}x{} pixels of {} channels take {} of memory, and there are {}", spec.width,
+    return OIIO::Strutil::fmt::format("{}x{} pixels of {} channels need {} of memory, {} available", spec.width,
                                       spec.height, spec.nchannels, memformat(int64_t(std::min(bytes, 1e18))),
                                       memformat(available));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 
 #include <vmlight/base/utf8.h>
 
@@ -7,13 +7,13 @@
 
 namespace vmlight {
 
-std::string one_line(OIIO::string_view text)
+std::string printable_line(OIIO::string_view text)
 {
     std::string line;
     size_t count = 0;
     for (; !text.empty(); text.remove_prefix(count)) {
         uint32_t code = 0;
-        count = read_character(text, code);
+        count = decode_utf8(text, code);
         if (count == 0 || code < 0x20 || code == 0x7f) {
             line += OIIO::Strutil::fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
             count = 1;
@@ -24,10 +24,10 @@ std::string one_line(OIIO::string_view text)
     return line;
 }
 
-std::string reason_line(OIIO::string_view reason)
+std::string shortened_line(OIIO::string_view reason)
 {
-    constexpr size_t kLongest = 500;
-    return one_line(reason.substr(0, kLongest)) + (reason.size() > kLongest ? "..." : "");
+    constexpr size_t kMaxBytes = 500;
+    return printable_line(reason.substr(0, kMaxBytes)) + (reason.size() > kMaxBytes ? "..." : "");
 }
 
 } // namespace vmlight

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/image/color_decision.h>
+#include <vmlight/image/color_transform.h>
 
-#include <vmlight/base/oiio.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/params.h>
 #include <vmlight/image/color_space.h>
 
@@ -20,29 +20,29 @@ using OIIO::Strutil::fmt::format;
 
 namespace {
 
-// PNG and its like: whole numbers of 8 or 16 bits, in the file, whatever they were turned into in memory.
-bool is_whole_number(OIIO::TypeDesc stored)
+// 8 or 16 bit integers in the file, as in PNG.
+bool is_integer(OIIO::TypeDesc stored)
 {
     const OIIO::TypeDesc::BASETYPE type = static_cast<OIIO::TypeDesc::BASETYPE>(stored.basetype);
     return type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::INT8 || type == OIIO::TypeDesc::UINT16
         || type == OIIO::TypeDesc::INT16;
 }
 
-bool decide_by_config(ColorDecision& decision, const OIIO::ImageSpec& spec, const std::string& path,
+bool find_with_config(ColorTransform& transform, const OIIO::ImageSpec& spec, const std::string& path,
                       const std::string& config_name, const ColorSettings& settings, std::string& error)
 {
-    // A pipe would hold its reader up; names such as ocio://default are no files.
+    // A pipe would block OCIO. Names such as ocio://default are not files.
     if (OIIO::Filesystem::exists(config_name) && !OIIO::Filesystem::is_regular(config_name)) {
-        error = format("the OCIO config \"{}\" is not a file", config_name);
+        error = format("OCIO config \"{}\": not a file", config_name);
         return false;
     }
     ColorConfig config(config_name);
     if (config.has_error()) {
-        error = format("cannot read the OCIO config \"{}\": {}", config_name, oiio::reason(config));
+        error = format("OCIO config \"{}\": {}", config_name, oiio::error_line(config));
         return false;
     }
     if (!is_any_of("scene_linear", config.getRoles())) {
-        error = format("the OCIO config \"{}\" has no role scene_linear", config_name);
+        error = format("OCIO config \"{}\" has no role scene_linear", config_name);
         return false;
     }
     const std::string working = config.getColorSpaceNameByRole("scene_linear");
@@ -54,7 +54,7 @@ bool decide_by_config(ColorDecision& decision, const OIIO::ImageSpec& spec, cons
         from = space_named(config, asked);
         if (from.empty()) {
             const std::string near = nearest_name(asked, all_space_names(config));
-            error = format("the OCIO config \"{}\" has no colour space \"{}\"", config_name, asked);
+            error = format("OCIO config \"{}\" has no colour space \"{}\"", config_name, asked);
             error += near.empty() ? "; it has " + OIIO::Strutil::join(config.getColorSpaceNames(), ", ")
                                   : "; did you mean \"" + near + "\"?";
             return false;
@@ -64,12 +64,12 @@ bool decide_by_config(ColorDecision& decision, const OIIO::ImageSpec& spec, cons
         from = space_of_path(config, path);
     if (from.empty())
         from = space_named(config, id);
-    if (from.empty() && is_whole_number(settings.stored)) {
+    if (from.empty() && is_integer(settings.stored)) {
         from = first_space_named(
             config, { kSrgb, "sRGB - Texture", "srgb_texture", "srgb_tx", "Utility - sRGB - Texture", "sRGB" });
         if (from.empty()) {
-            error = format("\"{}\": whole-number pixels are sRGB, and the OCIO config \"{}\" has no space {}; "
-                           "name the image's colour space",
+            error = format("\"{}\": integer pixels are taken as sRGB, but OCIO config \"{}\" has no colour space {}; "
+                           "specify the image's colour space",
                            path, config_name, kSrgb);
             return false;
         }
@@ -77,36 +77,36 @@ bool decide_by_config(ColorDecision& decision, const OIIO::ImageSpec& spec, cons
     if (from.empty())
         from = working;
 
-    decision.space = interop_id_of(config, working);
+    transform.space = interop_id_of(config, working);
     if (from == working) {
-        decision.note = working + ", unchanged";
+        transform.note = working + ", unchanged";
         return true;
     }
     if (is_data_space(config, from)) {
-        decision.note = format("{} is data, used as {} unchanged", from, working);
+        transform.note = format("{} is data, used as {} unchanged", from, working);
         return true;
     }
     // A processor outlives its config.
     OIIO::ColorProcessorHandle processor = config.createColorProcessor(from, working);
     if (!processor) {
-        error = format("the OCIO config \"{}\" cannot convert {} to {}: {}", config_name, from, working,
-                       oiio::reason(config));
+        error = format("OCIO config \"{}\" cannot convert {} to {}: {}", config_name, from, working,
+                       oiio::error_line(config));
         return false;
     }
-    decision.note = from + " -> " + working;
+    transform.note = from + " -> " + working;
     if (!processor->isNoOp())
-        decision.convert = [processor](float* rgb, int count) {
+        transform.convert = [processor](float* rgb, int count) {
             const OIIO::stride_t channel = sizeof(float), pixel = 3 * channel;
             processor->apply(rgb, count, 1, 3, channel, pixel, pixel * count);
         };
     return true;
 }
 
-bool decide_without_config(ColorDecision& decision, const OIIO::ImageSpec& spec, const ColorSettings& settings,
-                           std::string& error)
+bool find_without_config(ColorTransform& transform, const OIIO::ImageSpec& spec, const ColorSettings& settings,
+                         std::string& error)
 {
     const std::string& asked = settings.from;
-    // OIIO's own idea of no config differs from version to version, and so is not asked.
+    // OIIO's built-in config differs between versions: do not use it.
     const std::vector<std::string> srgb { kSrgb, "sRGB", "sRGB - Texture", "srgb_texture", "srgb_tx" };
     const std::vector<std::string> linear { kLinearRec709, "lin_rec709", "lin_srgb", "linear",
                                             "Linear Rec.709 (sRGB)" };
@@ -117,44 +117,42 @@ bool decide_without_config(ColorDecision& decision, const OIIO::ImageSpec& spec,
 
     std::string from = asked;
     if (!asked.empty() && !is_known(asked)) {
-        error = format("colour space \"{}\" needs an OCIO config, and none is set (--colorconfig or $OCIO); without "
-                       "one there are {}, {} and data",
+        error = format("colour space \"{}\" needs an OCIO config: set --colorconfig or $OCIO; without one only {}, {} "
+                       "and data are known",
                        asked, kSrgb, kLinearRec709);
         return false;
     }
-    if (from.empty() && !id.empty() && !is_whole_number(settings.stored))
+    if (from.empty() && !id.empty() && !is_integer(settings.stored))
         from = id;
     if (from.empty())
-        from = is_any_of(id, data) || is_any_of(id, linear) ? id
-            : is_whole_number(settings.stored)              ? kSrgb
-                                                            : kLinearRec709;
+        from = is_any_of(id, data) || is_any_of(id, linear) ? id : is_integer(settings.stored) ? kSrgb : kLinearRec709;
 
-    decision.space = kLinearRec709;
+    transform.space = kLinearRec709;
     if (is_any_of(from, srgb)) {
-        decision.convert = [](float* rgb, int count) {
+        transform.convert = [](float* rgb, int count) {
             std::transform(rgb, rgb + 3 * size_t(count), rgb, [](float x) { return OIIO::sRGB_to_linear(x); });
         };
-        decision.note = format("{} -> {} (no OCIO config)", kSrgb, kLinearRec709);
+        transform.note = format("{} -> {} (no OCIO config)", kSrgb, kLinearRec709);
     } else if (is_any_of(from, data)) {
-        decision.note = format("data, used as {} unchanged (no OCIO config)", kLinearRec709);
+        transform.note = format("data, used as {} unchanged (no OCIO config)", kLinearRec709);
     } else if (is_any_of(from, linear)) {
-        decision.note = format("{}, unchanged (no OCIO config)", kLinearRec709);
+        transform.note = format("{}, unchanged (no OCIO config)", kLinearRec709);
     } else {
-        // The file says another space. Its pixels stay, and so does the truth about them.
-        decision.space = from;
-        decision.note = format("{}, unchanged (no OCIO config)", from);
+        // Tagged with another space: keep pixels and tag.
+        transform.space = from;
+        transform.note = format("{}, unchanged (no OCIO config)", from);
     }
     return true;
 }
 
 } // namespace
 
-bool decide_color(ColorDecision& decision, const OIIO::ImageSpec& spec, const std::string& path,
-                  const ColorSettings& settings, std::string& error)
+bool find_color_transform(ColorTransform& transform, const OIIO::ImageSpec& spec, const std::string& path,
+                          const ColorSettings& settings, std::string& error)
 {
     const std::string config = settings.config.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : settings.config;
-    return config.empty() ? decide_without_config(decision, spec, settings, error)
-                          : decide_by_config(decision, spec, path, config, settings, error);
+    return config.empty() ? find_without_config(transform, spec, settings, error)
+                          : find_with_config(transform, spec, path, config, settings, error);
 }
 
 } // namespace vmlight
