@@ -3,7 +3,7 @@
 
 #include "compare.h"
 #include "journal.h"
-#include "least_seconds.h"
+#include "min_seconds.h"
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/lightmap/lightmap.h>
@@ -20,7 +20,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// A change of how rows are measured makes those of earlier journals void.
+// Increment when the method of measurement changes: invalidates the rows of earlier journals.
 constexpr int kMethod = 1;
 
 template <class Params> std::string params_text(Params params)
@@ -44,7 +44,7 @@ VismapParams map_of(const Setting& setting, const CostParams& params)
     return map;
 }
 
-// Of the reference and the tracing both, another than that of the other.
+// The traced candidate must not share random numbers with the reference.
 int tracing_seed(const CostParams& params)
 {
     return params.seed + 1000000001;
@@ -73,7 +73,7 @@ std::string Bench::key(const Setting& setting, size_t environment) const
                               m_inputs.environments[environment].reference_key);
     copy.visit([&](const char* name, auto& value) { text += format("{}={}\n", name, value); });
     text += params_text(map_of(setting, m_params));
-    return key_of(text + format("threads={}\n", worker_count(m_options.threads)));
+    return hash_key(text + format("threads={}\n", worker_count(m_options.threads)));
 }
 
 bool Bench::measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment,
@@ -99,7 +99,7 @@ bool Bench::bake(const Setting& setting, const Progress& progress, std::string& 
         return true;
     m_baked.clear();
     const auto make = [&] { return make_vismap(m_vismap, m_inputs.scene, map, nullptr, m_options.threads, progress); };
-    if (!least_seconds(m_bake_seconds, make))
+    if (!min_seconds(m_bake_seconds, make))
         return failed(m_vismap, error);
     m_baked = baked;
     return true;
@@ -114,7 +114,7 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
         return false;
     const bool is_half = setting.storage == "half";
     OIIO::ImageBuf stored = m_vismap;
-    if (is_half) { // rounded; then float again, as a reader of the file would hand it on
+    if (is_half) { // as if written as half and read back
         stored.copy(m_vismap, OIIO::TypeDesc::HALF);
         stored.copy(OIIO::ImageBuf(stored), OIIO::TypeDesc::FLOAT);
     }
@@ -123,12 +123,12 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
     OIIO::ImageBuf lightmap;
     const auto make
         = [&] { return make_lightmap(lightmap, stored, light->images, params, nullptr, m_options.threads, progress); };
-    if (!least_seconds(row.shade, make))
+    if (!min_seconds(row.shade, make))
         return failed(lightmap, error);
     row.bake = m_bake_seconds;
     row.light = light->seconds;
     row.bytes = is_half ? variant.half_bytes() : variant.float_bytes();
-    picture = shown(lightmap, m_inputs.environments[environment].reference);
+    picture = resize_to_reference(lightmap, m_inputs.environments[environment].reference);
     return true;
 }
 
@@ -144,7 +144,7 @@ bool Bench::trace(Row& row, OIIO::ImageBuf& picture, const Setting& setting, con
         return make_reference(traced, *m_inputs.scene, environment.image, map_of(setting, m_params), {}, params,
                               m_options.threads, progress);
     };
-    if (!least_seconds(row.shade, make))
+    if (!min_seconds(row.shade, make))
         return failed(traced, error);
     picture = traced;
     return true;

@@ -6,18 +6,18 @@
 
 namespace vmlight::cost {
 
-/// Measures one setting under one environment at a time. Keeps the last visibility map and all filtered environments
-/// for the settings that share them. One thread.
+/// Measures one setting under one environment at a time. Caches the last visibility map and all filtered environments
+/// for settings that share them. Not thread-safe.
 class Bench
 {
 public:
     Bench(const Inputs& inputs, const CostParams& params, const MakeOptions& options);
 
-    /// The key of a row: a hash of all that goes into it.
+    /// The key of a row: a hash of everything that it depends on.
     std::string key(const Setting& setting, size_t environment) const;
 
     /// @param picture  set to the lightmap, at the reference's size
-    /// @returns false, with the reason in `error`, if something cannot be made or `progress` stopped the work
+    /// @returns false, with the reason in `error`, if a stage fails or `progress` stopped the work
     bool measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment,
                  const Progress& progress, std::string& error);
 
@@ -31,8 +31,8 @@ private:
     const Inputs& m_inputs;
     const CostParams& m_params;
     const MakeOptions& m_options;
-    Lights m_lights;
-    std::string m_baked; // what m_vismap was made with
+    FilteredLights m_lights;
+    std::string m_baked; // parameters of m_vismap
     OIIO::ImageBuf m_vismap;
     double m_bake_seconds = 0;
 };

@@ -21,7 +21,7 @@ template <class Each> void for_each_covered(const OIIO::ImageBuf& reference, Eac
 
 } // namespace
 
-OIIO::ImageBuf shown(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference)
+OIIO::ImageBuf resize_to_reference(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference)
 {
     OIIO::ROI roi = reference.roi();
     roi.chend = 3;

@@ -7,19 +7,19 @@
 
 namespace vmlight::cost {
 
-/// A lightmap at the size of the reference, as a renderer would show it: bilinearly.
-OIIO::ImageBuf shown(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference);
+/// The lightmap, resized to the reference bilinearly, as a renderer would look it up.
+OIIO::ImageBuf resize_to_reference(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference);
 
-/// The error of a lightmap over the texels that a reference covers, R, G and B together.
+/// The error of a lightmap over the covered texels of a reference, over R, G and B.
 ///
 /// @param lightmap R, G, B of the reference's size
 /// @param reference as make_reference() makes it
 Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference);
 
-/// Texels that a reference covers.
+/// Number of covered texels of a reference.
 int64_t covered_texels(const OIIO::ImageBuf& reference);
 
-/// Batches of which some texel is lit. An error relative to the light has an interval from 2 on: see errors_of().
+/// Number of batches with a lit texel. errors_of() needs at least 2 for a confidence interval.
 int lit_batches(const OIIO::ImageBuf& reference);
 
 } // namespace vmlight::cost

@@ -13,7 +13,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// The exit code; -1 if it cannot be started.
+// Returns the exit code, -1 if the command cannot be started.
 int run(const std::string& command, std::string& output)
 {
     std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -32,21 +32,21 @@ std::string gnuplot_fault()
     std::string ignored;
     return run("exec gnuplot --version 2>/dev/null", ignored) == 0
         ? ""
-        : "gnuplot is missing: install the package gnuplot-nox, or do without plots (--no-plots)";
+        : "gnuplot is missing: install the package gnuplot-nox, or pass --no-plots";
 }
 
 bool run_gnuplot(std::string& output, const std::string& script, std::string& error)
 {
     output.clear();
-    // A file without a name: no path to quote, and nothing that an interrupt could leave behind.
+    // An unnamed file: no path to quote, and no debris after an interrupt.
     std::FILE* file = std::tmpfile();
     if (!file || std::fwrite(script.data(), 1, script.size(), file) != script.size() || std::fflush(file) != 0)
-        error = format("a script for gnuplot: {}", std::strerror(errno));
+        error = format("cannot write a script for gnuplot: {}", std::strerror(errno));
     if (error.empty()) {
         std::rewind(file);
         const int code = run(format("exec gnuplot - </dev/fd/{}", ::fileno(file)), output);
         if (code != 0 || output.empty())
-            error = format("gnuplot failed (code {})", code);
+            error = format("gnuplot failed with exit code {}", code);
     }
     if (file)
         std::fclose(file);

@@ -5,11 +5,11 @@
 
 namespace vmlight::cost {
 
-/// Why no plots can be drawn, or "": the package that is missing is named.
+/// Why gnuplot cannot be run, or "". Names the package to install.
 std::string gnuplot_fault();
 
-/// What gnuplot writes to its standard output for a script. False, with the reason in `error`, if it cannot be started
-/// or says that the script is wrong, which it tells on stderr.
+/// Run a gnuplot script and capture its stdout. Returns false, with the reason in `error`, if gnuplot cannot be started
+/// or fails; its own messages go to stderr.
 bool run_gnuplot(std::string& output, const std::string& script, std::string& error);
 
 } // namespace vmlight::cost

@@ -14,8 +14,8 @@
 namespace vmlight::cost {
 namespace {
 
-constexpr int kCoverage = 6; // of a reference
-constexpr float kBare = 0.55f; // grey of what is not covered
+constexpr int kCoverage = 6; // channel of a reference
+constexpr float kUncovered = 0.55f; // grey
 
 } // namespace
 
@@ -55,7 +55,7 @@ bool heat_map_png(std::string& png, const OIIO::ImageBuf& map, int side, std::st
     OIIO::ImageBuf::ConstIterator<float> covered(map);
     for (OIIO::ImageBuf::Iterator<float> pixel(color); !pixel.done(); ++pixel, ++covered)
         for (int c = 0; c < 3 && covered[3] == 0; ++c)
-            pixel[c] = kBare;
+            pixel[c] = kUncovered;
     const int width = map.spec().width, height = map.spec().height;
     if (side > 0 && std::max(width, height) > side)
         color = OIIO::ImageBufAlgo::resize(color, "box", 0, OIIO::ROI(0, side, 0, side * height / width, 0, 1, 0, 3));
@@ -66,7 +66,7 @@ bool heat_map_png(std::string& png, const OIIO::ImageBuf& map, int side, std::st
     const bool written = out && out->set_ioproxy(&memory) && out->open("heat.png", spec)
         && out->write_image(OIIO::TypeDesc::FLOAT, color.localpixels()) && out->close();
     if (!written)
-        error = "the PNG of a heat map: " + (out ? out->geterror() : OIIO::geterror());
+        error = "cannot encode a heat map as PNG: " + (out ? out->geterror() : OIIO::geterror());
     png.assign(bytes.begin(), bytes.end());
     return written;
 }

@@ -27,8 +27,8 @@ bool has_heat_map(const std::string& folder, const std::string& environment, con
 {
     const std::string path = heat_map_path(folder, environment, model);
     OIIO::ImageBuf map;
-    std::string unread; // it will be made
-    return OIIO::Filesystem::exists(path + ".png") && read_channels(map, path + ".exr", kHeatMapChannels, unread)
+    std::string ignored; // it will be made
+    return OIIO::Filesystem::exists(path + ".png") && read_channels(map, path + ".exr", kHeatMapChannels, ignored)
         && map.spec().get_string_attribute(kKey) == key;
 }
 
@@ -40,8 +40,8 @@ bool write_heat_map(const std::string& folder, const std::string& environment, c
     map.specmod().attribute(kKey, key);
     const std::string path = heat_map_path(folder, environment, model);
     std::string png;
-    const WhileWriting writing;
-    // The EXR last: it is what tells that both are there.
+    const DeferInterrupts writing;
+    // The EXR last: its presence means that both are complete.
     return heat_map_png(png, map, 0, error) && write_file(path + ".png", png, error)
         && write_image(map, path + ".exr", "float", {}, error);
 }

@@ -22,8 +22,8 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Fewer say nothing of a surface.
-constexpr int64_t kFewestTexels = 2 * kBatches;
+// Fewer are not representative.
+constexpr int64_t kMinTexels = 2 * kBatches;
 
 std::string unique_name(const std::string& path, std::set<std::string>& taken)
 {
@@ -35,7 +35,7 @@ std::string unique_name(const std::string& path, std::set<std::string>& taken)
     return name;
 }
 
-// Of all that its light is made of: equal pixels in another frame are other light.
+// The windows and channels are part of it: equal pixels in another window are different light.
 std::string environment_hash(const OIIO::ImageBuf& image)
 {
     const OIIO::ImageSpec& spec = image.spec();
@@ -80,7 +80,7 @@ bool trace(Environment& environment, const Inputs& inputs, const CostParams& par
         error = reason == "interrupted" ? reason : format("\"{}\": {}", environment.path, reason);
         return false;
     }
-    const WhileWriting writing;
+    const DeferInterrupts writing;
     return write_image(environment.reference, path, "float", {}, error);
 }
 
@@ -126,12 +126,12 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         reference.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
             text += format("{}={}\n", name, value_text(value, allowed));
         });
-        environment.reference_key = key_of(text);
+        environment.reference_key = hash_key(text);
         const std::string path
             = format("{}/reference_{}_{}.exr", folder, environment.name, environment.reference_key.substr(0, 12));
-        std::string unread;
+        std::string ignored;
         const bool kept
-            = OIIO::Filesystem::exists(path) && read_channels(environment.reference, path, kReferenceChannels, unread);
+            = OIIO::Filesystem::exists(path) && read_channels(environment.reference, path, kReferenceChannels, ignored);
         if (kept
             && environment.reference.roi()
                 == OIIO::ROI(0, params.side(), 0, params.side(), 0, 1, 0, int(kReferenceChannels.size())))
@@ -139,13 +139,13 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         else if (!trace(environment, inputs, params, path, options, error))
             return false;
         const int64_t covered = covered_texels(environment.reference);
-        if (covered < kFewestTexels)
-            error = format("the mesh covers {} of {}x{} texels, of which {} are needed: raise resolution", covered,
-                           params.side(), params.side(), kFewestTexels);
+        if (covered < kMinTexels)
+            error = format("the mesh covers {} of {}x{} texels, at least {} are needed: raise --resolution", covered,
+                           params.side(), params.side(), kMinTexels);
         else if (const int lit = lit_batches(environment.reference); lit < 2)
             error = format("\"{}\": {}", environment.path,
-                           lit ? "light falls on too few texels to tell an error: raise resolution"
-                               : "no light falls on the mesh");
+                           lit ? "light reaches too few texels to estimate an error: raise --resolution"
+                               : "no light reaches the mesh");
         if (!error.empty())
             return false;
     }

@@ -29,7 +29,7 @@ bool Journal::open(const std::string& path, std::string& error)
         error = format("\"{}\": cannot be read", path);
         return false;
     }
-    m_torn = !text.empty() && text.back() != '\n';
+    m_incomplete_line = !text.empty() && text.back() != '\n';
     for (const std::string& line : OIIO::Strutil::splits(text, "\n")) {
         const auto json = nlohmann::json::parse(line, nullptr, false);
         Row row;
@@ -49,13 +49,13 @@ bool Journal::add(const std::string& key, const Row& row, std::string& error)
 {
     auto json = row_to_json(row);
     json["key"] = key;
-    const std::string line
-        = (m_torn ? "\n" : "") + json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    m_torn = false;
+    const std::string line = (m_incomplete_line ? "\n" : "")
+        + json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    m_incomplete_line = false;
     m_rows[key] = row;
-    const WhileWriting writing;
+    const DeferInterrupts writing;
     const int file = ::open(m_path.c_str(), O_CREAT | O_APPEND | O_WRONLY, 0666);
-    // In one write: a run that is killed leaves the line whole or not at all.
+    // A single write, so that a killed run leaves no partial line.
     const bool good = file >= 0 && ::write(file, line.data(), line.size()) == ssize_t(line.size());
     if (!good)
         error = format("\"{}\": {}", m_path, std::strerror(errno));
@@ -64,7 +64,7 @@ bool Journal::add(const std::string& key, const Row& row, std::string& error)
     return good;
 }
 
-std::string key_of(const std::string& text)
+std::string hash_key(const std::string& text)
 {
     OIIO::SHA1 hash(text.data(), text.size());
     return hash.digest();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Rows that were measured, in a file that outlives a run that is cut short.
+/// Measured rows, in a file that survives an interrupted run.
 #pragma once
 
 #include "row.h"
@@ -12,23 +12,23 @@ namespace vmlight::cost {
 class Journal
 {
 public:
-    /// Read what is there: a file of one JSON object a line. A last line that a killed run left torn, and lines of
-    /// another version, are passed over. False, with the reason in `error`, if the file is there and cannot be read.
+    /// Read an existing journal: one JSON object per line. Ignores an incomplete last line and lines of another
+    /// version. Returns false, with the reason in `error`, if the file exists and cannot be read.
     bool open(const std::string& path, std::string& error);
 
-    /// The row of that key, or nullptr.
+    /// The row with this key, or nullptr.
     const Row* find(const std::string& key) const;
 
-    /// Add a row, on the disk before this returns. False, with the reason in `error`.
+    /// Append a row to the file. Returns false, with the reason in `error`.
     bool add(const std::string& key, const Row& row, std::string& error);
 
 private:
     std::string m_path;
-    bool m_torn = false;
+    bool m_incomplete_line = false;
     std::map<std::string, Row> m_rows;
 };
 
-/// The key of inputs that `text` tells all of: equal texts, equal keys.
-std::string key_of(const std::string& text);
+/// A key for the inputs that `text` describes: its SHA-1.
+std::string hash_key(const std::string& text);
 
 } // namespace vmlight::cost

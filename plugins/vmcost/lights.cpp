@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lights.h"
 
-#include "least_seconds.h"
+#include "min_seconds.h"
 
 #include <vmlight/lightmap/model_light.h>
 
@@ -9,8 +9,8 @@
 
 namespace vmlight::cost {
 
-const FilteredLight* Lights::find(size_t index, ModelLight light, int width, const Progress& progress,
-                                  std::string& error)
+const FilteredLight* FilteredLights::find(size_t index, ModelLight light, int width, const Progress& progress,
+                                          std::string& error)
 {
     FilteredLight& dst = m_made[{ index, light, width }];
     if (!dst.images.empty())
@@ -22,7 +22,7 @@ const FilteredLight* Lights::find(size_t index, ModelLight light, int width, con
     const auto make = [&] {
         return make_model_light(dst.images, environment.image, params, light, error, m_options.threads, progress);
     };
-    if (least_seconds(dst.seconds, make))
+    if (min_seconds(dst.seconds, make))
         return &dst;
     dst.images.clear();
     if (error != "interrupted")

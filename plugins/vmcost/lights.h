@@ -9,25 +9,25 @@
 
 namespace vmlight::cost {
 
-/// An environment as a model wants it, and the seconds that it took.
+/// An environment, filtered for a model, and the time it took.
 struct FilteredLight
 {
     std::vector<OIIO::ImageBuf> images;
     double seconds = 0;
 };
 
-/// Filtered environments, each made once. One thread.
-class Lights
+/// Cache of filtered environments. Not thread-safe.
+class FilteredLights
 {
 public:
-    Lights(const Inputs& inputs, const CostParams& params, const MakeOptions& options)
+    FilteredLights(const Inputs& inputs, const CostParams& params, const MakeOptions& options)
         : m_inputs(inputs)
         , m_params(params)
         , m_options(options)
     {
     }
 
-    /// nullptr, with the reason in `error`, if it cannot be made or `progress` stopped the work.
+    /// Returns nullptr, with the reason in `error`, if filtering fails or `progress` stopped it.
     const FilteredLight* find(size_t environment, ModelLight light, int width, const Progress& progress,
                               std::string& error);
 

@@ -9,7 +9,7 @@
 namespace vmlight::cost {
 namespace {
 
-// About as the time goes.
+// Roughly proportional to the time.
 double weight(const Setting& setting, size_t environments)
 {
     const bool traced = setting.model == kTraced;
@@ -31,14 +31,14 @@ bool measure(Measured& dst, const std::vector<Setting>& settings, const Inputs& 
     if (!journal.open(folder + "/journal.jsonl", error))
         return false;
     Bench bench(inputs, params, options);
-    double all = 0, done = 0, part = 0;
+    double total = 0, done = 0, part = 0;
     for (const Setting& setting : settings)
-        all += weight(setting, inputs.environments.size());
+        total += weight(setting, inputs.environments.size());
     const int64_t texels = int64_t(settings.size()) * params.side() * params.side();
     const Progress progress = options.progress("measure", texels);
-    double furthest = 0; // what is done again for its time does not count twice
+    double furthest = 0; // repeated work does not move the bar back
     const auto inner = [&](double share) {
-        furthest = std::max(furthest, (done + share * part) / all * 0.999);
+        furthest = std::max(furthest, (done + share * part) / total * 0.999);
         return !progress || progress(furthest);
     };
     for (const Setting& setting : settings) {
@@ -47,10 +47,10 @@ bool measure(Measured& dst, const std::vector<Setting>& settings, const Inputs& 
         for (size_t i = 0; i < count; ++i, done += part) {
             const std::string key = bench.key(setting, i);
             const std::string& name = inputs.environments[i].name;
-            const Row* kept = journal.find(key);
-            if (kept && (!needs_heat_map(setting) || has_heat_map(folder, name, setting.model, key))) {
-                dst.rows.push_back(*kept);
-                dst.rows.back().environment = name; // the same light by another name is the same row
+            const Row* known = journal.find(key);
+            if (known && (!needs_heat_map(setting) || has_heat_map(folder, name, setting.model, key))) {
+                dst.rows.push_back(*known);
+                dst.rows.back().environment = name; // the file may have been renamed since
                 ++dst.reused;
                 continue;
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bakes, lights, compares and takes the time.
+/// The measurement: bakes, lights, compares and takes times.
 #pragma once
 
 #include "inputs.h"
@@ -15,15 +15,15 @@ struct Measured
     int measured = 0, reused = 0;
 };
 
-/// Measure settings under each environment, or take the rows from the journal in `folder`, to which each new row is
-/// added at once. Heat maps of the default settings are written beside it.
+/// Measure all settings under each environment. Rows that the journal in `folder` already has are reused; new ones are
+/// added to it at once. Also writes heat maps of the default settings.
 ///
-/// Times are the least of a few for what is short. A row is measured anew when the mesh, an occluder, the environment's
-/// pixels, a parameter or the number of threads is another. Not noticed: another version of the program of the same
-/// number, or another machine.
+/// Short times are the minimum of several runs. A row is measured again if the mesh, an occluder, the environment's
+/// pixels, a parameter, the number of threads or the version changed. Not detected: another machine, or another build
+/// of the same version.
 ///
 /// @param inputs   with their references
-/// @returns false, with the reason in `error`, if memory runs out, a file cannot be written or the work was stopped
+/// @returns false, with the reason in `error`, if memory runs out, a file cannot be written or the work was interrupted
 bool measure(Measured& dst, const std::vector<Setting>& settings, const Inputs& inputs, const CostParams& params,
              const std::string& folder, const MakeOptions& options, std::string& error);
 

@@ -31,7 +31,7 @@ struct ModelVariant
 
 OIIO::cspan<ModelVariant> model_variants();
 
-/// The exact sibling of all models: rays to the light at each picture, and no map.
+/// The unbiased alternative to all models: ray trace the light for each picture, without a map.
 constexpr const char* kTraced = "traced";
 
 /// The variant of that name, or nullptr: kTraced has none.

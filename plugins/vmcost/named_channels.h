@@ -8,13 +8,13 @@
 
 namespace vmlight::cost {
 
-/// Channels of a reference, in the order that make_reference() makes them.
+/// Channels of a reference, in the order of make_reference().
 inline const std::vector<std::string> kReferenceChannels { "R", "G", "B", "error.R", "error.G", "error.B", "coverage" };
 /// Channels of a heat map.
 inline const std::vector<std::string> kHeatMapChannels { "R", "G", "B", "coverage" };
 
-/// Read an image whose channels are `names`, in whatever order: EXR sorts them. `dst` has them in the order of `names`.
-/// False, with the reason in `error`.
+/// Read an image and put its channels into the order of `names`: EXR files store them sorted. Returns false, with the
+/// reason in `error`.
 bool read_channels(OIIO::ImageBuf& dst, const std::string& path, const std::vector<std::string>& names,
                    std::string& error);
 

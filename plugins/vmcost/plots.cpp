@@ -30,11 +30,11 @@ struct Bounds
         low = std::min(low, value);
         high = std::max(high, value);
     }
-    // A little more than what is drawn, as gnuplot would round a logarithmic axis to whole decades.
-    std::string text(double room) const { return format("[{:.6g}:{:.6g}]", low / room, high * room); }
+    // With a little margin; gnuplot would round a logarithmic axis to whole decades.
+    std::string text(double margin) const { return format("[{:.6g}:{:.6g}]", low / margin, high * margin); }
 };
 
-// Labels of an axis: the more for a decade, the fewer decades there are.
+// Axis labels: the fewer decades, the more labels per decade.
 std::string log_tics(const Bounds& bounds)
 {
     const double span = bounds.high / bounds.low;
@@ -48,7 +48,7 @@ std::string log_tics(const Bounds& bounds)
     return OIIO::Strutil::join(tics, ",");
 }
 
-// Collects what is drawn, with its data before it.
+// Collects data blocks and the plot command.
 class Script
 {
 public:
@@ -116,10 +116,10 @@ Plot time_plot(const std::vector<Point>& points)
     for (const std::string& model : drawn_models())
         script.draw(curve(points, model), seconds_of, line_style(model));
     script.draw(points, seconds_of, "with points pt 7 ps 0.3 lc rgb '#999999' title 'other settings'");
-    script.draw(pareto_front(points), seconds_of, "with steps lw 4 lc rgb '#80009e73' title 'least for its time'");
+    script.draw(pareto_front(points), seconds_of, "with steps lw 4 lc rgb '#80009e73' title 'best at its time'");
     return { "error_time",
-             "Error against the time of a first picture: bake, filter, shade. Each curve is a model "
-             "from few rays to many; the broad line is the least error for its time.",
+             "Error against the time to a first picture: bake, filter, shade. Each curve is a model, "
+             "from few rays to many; the thick line is the lowest error at each time.",
              script.text("set xlabel 'seconds to a first picture'\n", true) };
 }
 
@@ -137,9 +137,9 @@ Plot bytes_plot(const std::vector<Point>& points)
         script.draw(found, bytes_of, line_style(model.name));
     }
     return { "error_bytes",
-             "Error at the default settings against the bytes that are read of a texel, stored as float "
-             "and as half.",
-             script.text("set xlabel 'bytes a texel'\nset logscale x 2\n") };
+             "Error at the default settings against the bytes read per texel, stored as float and as "
+             "half.",
+             script.text("set xlabel 'bytes per texel'\nset logscale x 2\n") };
 }
 
 Plot rays_plot(const std::vector<Point>& points)
@@ -155,9 +155,9 @@ Plot rays_plot(const std::vector<Point>& points)
     script.draw(knees, rays_of,
                 format("with points pt 6 ps 1.8 lw 2 lc rgb '#222222' title 'gains < {:g} % beyond'", 100 * kKneeGain));
     return { "error_rays",
-             "Error against rays a texel. The ring is the count beyond which a model gains next to "
-             "nothing: what is left is the model's own.",
-             script.text("set xlabel 'rays a texel'\nset logscale x 2\n") };
+             "Error against rays per texel. Beyond the ring a model gains almost nothing from more rays: "
+             "the remaining error is the model's own.",
+             script.text("set xlabel 'rays per texel'\nset logscale x 2\n") };
 }
 
 } // namespace
@@ -169,7 +169,7 @@ std::vector<Plot> plots(const std::vector<Point>& points)
 
 std::string svg_script(const Plot& plot)
 {
-    // A name keeps the marks of one plot from those of another in the same page.
+    // The name keeps element ids unique if a page has several plots.
     return format("set terminal svg size 760,430 dynamic font 'sans-serif,14' name '{}' background 'white'\n",
                   plot.name)
         + plot.script;

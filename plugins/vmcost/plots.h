@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Scripts for gnuplot: error against what it costs, one curve a model, means over environments.
+/// gnuplot scripts: error against cost, one curve per model, averaged over environments.
 #pragma once
 
 #include "summary.h"
@@ -11,18 +11,18 @@ namespace vmlight::cost {
 
 struct Plot
 {
-    /// Of its files, without extension.
+    /// Base name of its files.
     std::string name;
-    /// What it shows, in a sentence.
+    /// What it shows.
     std::string caption;
-    /// All but the terminal.
+    /// gnuplot commands, except for the terminal.
     std::string script;
 };
 
-/// Error against total time, against bytes a texel, and against rays.
+/// Error against total time, bytes per texel and rays per texel.
 std::vector<Plot> plots(const std::vector<Point>& points);
 
-/// The script of a plot as SVG, to stand in a page among others; or as PNG.
+/// The complete script for SVG, to embed in a page, and for PNG.
 std::string svg_script(const Plot& plot);
 std::string png_script(const Plot& plot);
 

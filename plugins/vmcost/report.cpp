@@ -3,7 +3,7 @@
 
 #include "heat_map.h"
 #include "models.h"
-#include "words.h"
+#include "number_text.h"
 
 #include <OpenImageIO/strutil.h>
 
@@ -14,7 +14,7 @@ using OIIO::Strutil::fmt::format;
 
 constexpr double kTargets[] = { 0.01, 0.05, 0.10 };
 constexpr int kManyPictures = 100;
-constexpr const char* kTooNoisy = "the reference is too noisy to tell";
+constexpr const char* kTooNoisy = "the reference is too noisy for a verdict";
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -63,7 +63,7 @@ std::vector<std::string> cost_cells(const Point& point)
              point.bytes ? format("{}", point.bytes) : "&ndash;" };
 }
 
-std::vector<Point> of_kind(const std::vector<Point>& points, bool traced)
+std::vector<Point> select(const std::vector<Point>& points, bool traced)
 {
     std::vector<Point> found;
     for (const Point& point : points)
@@ -88,21 +88,21 @@ std::string choices(const std::vector<Point>& points)
 {
     std::string text = "<table>\n"
         + cells("th",
-                { "for an error of", "choose", "error", "bake, once", "filter, each environment",
-                  "shade, each rotation", "bytes a texel", format("{} rotations", kManyPictures) });
+                { "for an error of", "choose", "error", "bake (once)", "filter (per environment)",
+                  "shade (per rotation)", "bytes per texel", format("{} rotations", kManyPictures) });
     for (const bool traced : { false, true }) {
-        const std::vector<Point> kind = of_kind(points, traced);
-        for (const bool maybe : { false, true }) {
+        const std::vector<Point> candidates = select(points, traced);
+        for (const bool uncertain : { false, true }) {
             std::vector<std::string> missed;
             for (const double target : kTargets)
-                if (!cheapest(kind, target) && may_reach(kind, target) == maybe)
+                if (!cheapest(candidates, target) && could_reach(candidates, target) == uncertain)
                     missed.push_back(percent_text(target));
-            if (!missed.empty() && !traced && !kind.empty())
-                text += choice_row(OIIO::Strutil::join(missed, ", "), *nearest(kind),
-                                   maybe ? kTooNoisy : "no model reaches it");
+            if (!missed.empty() && !traced && !candidates.empty())
+                text += choice_row(OIIO::Strutil::join(missed, ", "), *nearest(candidates),
+                                   uncertain ? kTooNoisy : "no model reaches it");
         }
         for (const double target : kTargets)
-            if (const Point* found = cheapest(kind, target))
+            if (const Point* found = cheapest(candidates, target))
                 text += choice_row(percent_text(target), *found);
     }
     return text + "</table>\n";
@@ -155,45 +155,49 @@ std::string heat_maps(const Report& report)
 
 std::string choice_text(const std::vector<Point>& points, double target)
 {
-    const std::vector<Point> models = of_kind(points, false);
+    const std::vector<Point> models = select(points, false);
     const Point* found = cheapest(models, target);
-    const Point* told = found ? found : nearest(models);
-    if (!told)
+    const Point* best = found ? found : nearest(models);
+    if (!best)
         return "";
     std::string missed;
     if (!found)
-        missed = format("{}; nearest ", may_reach(models, target) ? kTooNoisy : "not reached by any model");
-    return format("{}: {}{}, {} in {}", percent_text(target), missed, setting_text(told->setting),
-                  percent_text(told->rmse), seconds_text(told->total()));
+        missed = format("{}; nearest ", could_reach(models, target) ? kTooNoisy : "not reached by any model");
+    return format("{}: {}{}, {} in {}", percent_text(target), missed, setting_text(best->setting),
+                  percent_text(best->rmse), seconds_text(best->total()));
 }
 
 std::string report_html(const Report& report)
 {
     std::string text = kHead + format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", escaped(report.title));
-    text += "<h2>What to choose</h2>\n<p>The least time to a first picture. Errors are root mean squares over the "
-            "surface against ray tracing, in parts of the mean light, and means over the environments. A "
-            "setting has an error if its whole interval is below. "
-            "<i>traced</i> bakes nothing and traces rays to the light in each picture, at each rotation anew.</p>\n"
+    text += "<h2>What to choose</h2>\n<p>The fastest way to a first picture. Errors are RMS over the surface against "
+            "ray tracing, relative to "
+            "the mean light, averaged over the environments. A setting reaches an error if its whole confidence "
+            "interval is below it. "
+            "<i>traced</i> bakes nothing and ray traces the light again for each picture and rotation.</p>\n"
         + choices(report.points);
     text += "<h2>What accuracy costs</h2>\n";
     for (const Picture& plot : report.plots)
         text += format("<figure>{}<figcaption>{}</figcaption></figure>\n", plot.svg, escaped(plot.caption));
     if (report.plots.empty())
-        text += "<p class=none>Drawn without plots.</p>\n";
-    text += format("<h2>Each model at its knee</h2>\n<p>The fewest rays beyond which it gains less than {:g} %.</p>\n",
+        text += "<p class=none>No plots: they were disabled.</p>\n";
+    text += format("<h2>Each model at its knee</h2>\n<p>The smallest number of rays beyond which the error falls by "
+                   "less than {:g} %.</p>\n",
                    100 * kKneeGain)
         + knees(report.points);
-    text += format("<h2>Where they err</h2>\n<p>At the default settings, in texture space: red is too bright, blue too "
-                   "dark, full colour {:g} % of the mean light and more. Grey is no part of the mesh.</p>\n",
+    text += format("<h2>Where the errors are</h2>\n<p>At the default settings, in texture space: red is too bright, "
+                   "blue too "
+                   "dark, full colour is {:g} % of the mean light or more. Grey is not covered by the mesh.</p>\n",
                    100.0 * kHeatRange)
         + heat_maps(report);
-    text += "<h2>How it was measured</h2>\n<p>The reference traces pairs of rays, one by the cosine and one by the "
-            "light, with independent random numbers; its own variance, which it estimates texel by texel, is taken off "
-            "the mean square error. &plusmn; is half an interval of 95 %: other texels of the same surface, other rays "
-            "of bake and reference; not other environments, rotations or meshes. The 95th percentile holds the "
-            "reference's noise. Bake and shade are the whole map's at the reference's size; times are the least of a "
-            "few, in memory, files apart; shading prepares its "
-            "look-ups each time, which weighs on small maps.</p>\n<dl>\n";
+    text += "<h2>How it was measured</h2>\n<p>The reference traces pairs of rays, one sampling the cosine and one the "
+            "light, with independent "
+            "random numbers. Its variance, estimated per texel, is subtracted from the mean square error. &plusmn; is "
+            "half a 95 % confidence interval over texels of the surface and rays of bake and reference, not over "
+            "environments, rotations or meshes. The 95th percentile includes the reference's noise. Bake and shade "
+            "times "
+            "are for the whole map at the reference's size: the minimum of several runs, in memory, without file "
+            "access. Shading sets up its lookups each time, which matters for small maps.</p>\n<dl>\n";
     for (const auto& [name, value] : report.facts)
         text += format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
     return text + "</dl>\n</body></html>\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One page that says what to choose, without reading anything else.
+/// The report: one self-contained page that recommends settings.
 #pragma once
 
 #include "summary.h"
@@ -13,7 +13,7 @@ namespace vmlight::cost {
 struct Picture
 {
     std::string caption;
-    /// An SVG element, or the bytes of a PNG.
+    /// An SVG element, or a PNG file's bytes.
     std::string svg, png;
 };
 
@@ -22,15 +22,15 @@ struct Report
     std::string title;
     std::vector<Point> points;
     std::vector<Picture> plots;
-    /// Of each environment one of each model.
+    /// By environment, one picture per model.
     std::vector<std::pair<std::string, std::vector<Picture>>> heat_maps;
     Facts facts;
 };
 
-/// HTML with all of it inside: nothing is fetched.
+/// The report as HTML with everything embedded.
 std::string report_html(const Report& report);
 
-/// What reaches an error, or comes nearest to it: one line of text.
+/// One line of text: the fastest setting that reaches a target error, or the nearest one.
 std::string choice_text(const std::vector<Point>& points, double target);
 
 } // namespace vmlight::cost

@@ -8,18 +8,18 @@
 
 namespace vmlight::cost {
 
-/// One setting under one environment, measured.
+/// A measurement: one setting under one environment.
 struct Row
 {
     std::string environment;
     Setting setting;
-    /// Seconds: of the bake, once; of making the light, for each environment; of a picture, for each rotation.
+    /// Seconds: bake, once; filtering, per environment; shading, per rotation.
     double bake = 0, light = 0, shade = 0;
-    /// That are read of a texel.
+    /// Read per texel.
     int bytes = 0;
     Errors errors;
 
-    /// Columns of the tables, in their order.
+    /// Columns of the tables, in order.
     template <class Visit> void visit(Visit&& field)
     {
         field("environment", environment);

@@ -14,7 +14,7 @@ inline nlohmann::ordered_json row_to_json(Row row)
     return json;
 }
 
-/// False if a column is missing or of another type.
+/// Returns false if a column is missing or has the wrong type.
 inline bool row_from_json(Row& row, const nlohmann::json& json)
 {
     bool good = true;

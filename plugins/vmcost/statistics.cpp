@@ -9,7 +9,7 @@
 namespace vmlight::cost {
 namespace {
 
-// Of 97.5 % of Student's distribution, by degrees of freedom: Cornish and Fisher's expansion, within 1e-3 from 5 on.
+// The 97.5 % quantile of Student's t distribution: Cornish-Fisher expansion, within 1e-3 from 5 degrees of freedom.
 double student(int freedom)
 {
     constexpr double z = 1.959963985;

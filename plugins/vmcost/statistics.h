@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How far a picture is from a reference that is itself noisy, and how sure that is.
+/// The error of a picture against a noisy reference, with confidence intervals.
 #pragma once
 
 #include <OpenImageIO/span.h>
@@ -9,7 +9,7 @@
 
 namespace vmlight::cost {
 
-/// Texels are dealt to so many batches.
+/// Number of batches for the jackknife.
 constexpr int kBatches = 32;
 
 /// Sums over some values (texels times channels) of a model m, its reference r and the reference's standard error s.
@@ -28,7 +28,7 @@ struct Batch
 struct Estimate
 {
     double value = 0;
-    /// Of the interval of 95 %.
+    /// The 95 % confidence interval.
     double low = 0, high = 0;
 };
 
@@ -38,25 +38,26 @@ struct Errors
     Estimate rmse;
     /// mean(m - r) / mean(r)
     Estimate bias;
-    /// What 95 % of |m - r| / mean(r) are below, the reference's noise included.
+    /// The 95th percentile of |m - r| / mean(r), including the reference's noise.
     double p95 = 0;
 };
 
-/// The root mean square error and the bias, relative to the mean of the reference.
+/// RMS error and bias, relative to the mean of the reference.
 ///
-/// The intervals are Student's, from the jackknife over batches: they cover what another choice of texels of the same
-/// surface, other rays of the bake and other rays of the reference would have changed; not another environment or
-/// rotation. The one of `rmse` is made of its square, which may be 0 or below within the noise, and cut off at 0.
+/// The intervals are from a jackknife over batches with Student's t: they cover the choice of texels and the rays of
+/// bake and reference, not environments or rotations. That of `rmse` is computed for its square, which may be negative
+/// within the noise, and clamped at 0.
 ///
-/// @param batches  of which two or more hold values; the sum of `reference` is above 0 without any one of them, or
-///                 what is returned is not finite. Not checked
+/// @param batches  at least two with values. The sum of `reference` without any one of them must be above 0, or results
+///                 are not finite; not checked
 /// Source: B. Efron, "The Jackknife, the Bootstrap and Other Resampling Plans", SIAM 1982, chapter 3.
 Errors errors_of(OIIO::cspan<Batch> batches);
 
-/// The batch of a texel: a hash of where it is, so that neighbours, whose errors are alike, part.
+/// The batch of a texel: a hash of its position, so that neighbours, whose errors are correlated, are in different
+/// ones.
 int batch_of(int x, int y);
 
-/// The value that a share `q` of `values` is below, in [0, 1]. Sorts them partly; 0 if there is none.
+/// The `q` quantile of `values`, q in [0, 1]; 0 if there are none. Reorders them.
 double quantile(std::vector<float>& values, double q);
 
 } // namespace vmlight::cost

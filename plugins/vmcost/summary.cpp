@@ -94,7 +94,7 @@ const Point* nearest(const std::vector<Point>& points)
     return least == points.end() ? nullptr : cheapest(points, least->bound() / (1 - kKneeGain));
 }
 
-bool may_reach(const std::vector<Point>& points, double target)
+bool could_reach(const std::vector<Point>& points, double target)
 {
     return std::any_of(points.begin(), points.end(), [&](const Point& point) { return point.rmse <= target; });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What rows mean together: means over environments, the best that a budget buys, and where more rays stop paying.
+/// Summary over rows: averages over environments, the best setting for a budget, and where more rays stop paying off.
 #pragma once
 
 #include "row.h"
@@ -9,47 +9,48 @@
 
 namespace vmlight::cost {
 
-/// One setting over all environments.
+/// One setting, averaged over all environments.
 struct Point
 {
     Setting setting;
-    double rmse = 0, worst = 0; ///< mean and largest of the environments
-    /// Half the interval of 95 %: the mean of those of the environments, which bounds that of the mean however their
-    /// errors go together. Of `rmse`, which is cut off at 0, the longer half.
+    double rmse = 0, worst = 0; ///< mean and maximum over environments
+    /// Half of the 95 % confidence interval: the mean over environments, an upper bound however their errors correlate.
+    /// For `rmse`, which is clamped at 0, the longer half.
     double rmse_half = 0, bias_half = 0;
     double bias = 0; ///< mean
     double p95 = 0; ///< mean
     double bake = 0, light = 0, shade = 0; ///< seconds; means
     int bytes = 0;
 
-    /// What the error is surely below, as far as the interval is sure.
+    /// Upper end of the confidence interval of the error.
     double bound() const { return rmse + rmse_half; }
-    /// Seconds to so many pictures of one environment, each at another rotation.
+    /// Seconds to make this many pictures of one environment, each at another rotation.
     double total(int pictures = 1) const { return bake + light + pictures * shade; }
 };
 
-/// One point a setting, in the order in which settings first come.
+/// One point per setting, in order of first occurrence.
 std::vector<Point> summarize(const std::vector<Row>& rows);
 
-/// The points of one model that differ in samples alone, fewest first.
+/// The points of one model that differ in samples only, fewest first.
 std::vector<Point> curve(const std::vector<Point>& points, const std::string& model);
 
-/// Those than which no other takes less time and errs less, or as much, by time: total() grows, rmse falls.
+/// The Pareto front of time and error, by time: total() increases, rmse decreases.
 std::vector<Point> pareto_front(std::vector<Point> points);
 
-/// A model gains less than this share of its error beyond its knee.
+/// Beyond its knee a model improves by less than this fraction of its error.
 constexpr double kKneeGain = 0.02;
 
-/// The first point of a curve (not empty) whose error is within kKneeGain of the least that this or any later one has.
+/// The first point of a non-empty curve whose error is within kKneeGain of the minimum from there on.
 const Point& knee(const std::vector<Point>& curve);
 
-/// Of those that surely, by bound(), err no more than `target` the one that takes least time; nullptr if none does.
+/// The fastest point whose bound() is at most `target`, or nullptr.
 const Point* cheapest(const std::vector<Point>& points, double target);
 
-/// The one that takes least time of those whose bound() is least, but for kKneeGain; nullptr if there is none.
+/// The fastest point whose bound() is within kKneeGain of the minimum, or nullptr if there are no points.
 const Point* nearest(const std::vector<Point>& points);
 
-/// Does one seem to err no more than `target`? Where cheapest() has none, the reference is too noisy to tell.
-bool may_reach(const std::vector<Point>& points, double target);
+/// Whether the estimated error of a point is at most `target`. If so and cheapest() is nullptr, the reference is too
+/// noisy.
+bool could_reach(const std::vector<Point>& points, double target);
 
 } // namespace vmlight::cost

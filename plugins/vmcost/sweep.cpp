@@ -17,7 +17,7 @@ Axes axes(bool quick)
 {
     if (quick)
         return { { 16, 64, 128, 256 }, { 32, 128 }, { 1, 2 }, { 16, 64, 128, 256 } };
-    // Tracing for longer than this tells nothing that its slope does not.
+    // Longer tracing adds nothing to the known slope.
     return {
         { 16, 32, 64, 128, 256, 512, 1024, 4096 }, { 32, 64, 128, 256, 512 }, { 1, 2, 4 }, { 16, 32, 64, 128, 256, 512 }
     };
@@ -31,9 +31,9 @@ void add(std::vector<Setting>& settings, const Setting& setting)
 
 void add_model(std::vector<Setting>& settings, const ModelVariant& model, const Axes& axes)
 {
-    const Setting middle = default_setting(model.name);
+    const Setting center = default_setting(model.name);
     const auto with = [&](auto Setting::*member, auto value) {
-        Setting setting = middle;
+        Setting setting = center;
         setting.*member = value;
         add(settings, setting);
     };
@@ -83,7 +83,7 @@ std::vector<Setting> sweep(bool quick)
         settings.push_back(default_setting(kTraced));
         settings.back().samples = samples;
     }
-    // Few rays first: a run that is cut short has measured many settings.
+    // Few rays first, so that an interrupted run has measured many settings.
     std::stable_sort(settings.begin(), settings.end(), [](const Setting& a, const Setting& b) {
         return std::make_pair(a.samples, a.divisor) < std::make_pair(b.samples, b.divisor);
     });

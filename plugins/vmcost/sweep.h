@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which settings are measured.
+/// The settings to measure.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@ namespace vmlight::cost {
 
 struct Setting
 {
-    /// Of models(), or kTraced.
+    /// One of measured_models(), or kTraced.
     std::string model;
-    /// Rays a texel.
+    /// Rays per texel.
     int samples = 128;
-    /// Of the filtered environment, in pixels; 0 where there is none.
+    /// Width of the filtered environment in pixels; 0 if there is none.
     int cfem_width = 128;
-    /// Of the visibility map: float or half; "" where there is none.
+    /// Pixel format of the visibility map: float or half; "" if there is none.
     std::string storage = "float";
-    /// How many times smaller the visibility map is than the reference, each way.
+    /// The reference's resolution divided by that of the visibility map, per side.
     int divisor = 1;
 
     template <class Visit> void visit(Visit&& field)
@@ -32,14 +32,14 @@ struct Setting
 
 bool operator==(const Setting& a, const Setting& b);
 
-/// What a model is measured with where nothing else is said; traced with as many rays.
+/// The default setting of a model or of kTraced.
 Setting default_setting(const std::string& model);
 
-/// Is nothing but the number of samples other than the default?
+/// Whether only the number of samples differs from the default.
 bool varies_samples_alone(const Setting& setting);
 
-/// All models at all counts of samples; and each of the other axes around the default, for all models that know it.
-/// No setting comes twice; those that share a visibility map stand together.
+/// All models at all sample counts, and each of the other axes around the default where the model supports it. Settings
+/// are unique; those that share a visibility map are adjacent.
 std::vector<Setting> sweep(bool quick);
 
 } // namespace vmlight::cost

@@ -50,7 +50,7 @@ std::string json_text(const std::vector<Row>& rows, const Facts& facts)
     json["rows"] = nlohmann::ordered_json::array();
     for (const Row& row : rows)
         json["rows"].push_back(row_to_json(row));
-    // Names of files may hold any bytes.
+    // File names may contain any bytes.
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -10,10 +10,10 @@
 
 namespace vmlight::cost {
 
-/// What is true of all rows, by name.
+/// Facts about all rows, by name.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// A line of names, then one a row: numbers with a point, whatever the locale; texts in quotes where they must be.
+/// A header line, then one line per row. Numbers have a decimal point in all locales; text is quoted where necessary.
 std::string csv_text(const std::vector<Row>& rows);
 
 /// {"about": {facts}, "rows": [{column: value}]}

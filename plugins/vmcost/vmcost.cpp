@@ -3,7 +3,7 @@
 #include "report.h"
 #include "write_report.h"
 
-#include <vmlight/base/words.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/cli/main.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -16,24 +16,22 @@ int main(int argc, const char** argv)
     CostParams params;
     VismapRecipe mesh;
     ColorSettings color;
-    StageMain stage("vmcost", "measure what accuracy costs in time, and say what to choose",
-                    { "MESH", "ENVIRONMENT..." },
+    StageMain stage("vmcost", "measure accuracy against time, and recommend settings", { "MESH", "ENVIRONMENT..." },
                     "  vmcost hero.obj studio.hdr -o report\n"
                     "  vmcost hero.obj studio.hdr sky.hdr --occluder ground.obj -o report\n"
                     "  vmcost hero.obj studio.hdr --quick -o report\n"
-                    "A run that was cut short goes on where it stopped.",
+                    "An interrupted run resumes where it stopped.",
                     OutputKind::Folder);
     stage.params("Measure:", params);
     stage.params("Mesh:", mesh.mesh_params);
     stage.group("Inputs:");
-    stage.option("occluder", "FILE", "Meshes that cast and are not baked; may come more than once",
-                 [&](auto text, auto&) {
-                     mesh.occluder.emplace_back(text);
-                     return true;
-                 });
-    stage.option("colorspace", "NAME", "Colour space of the environments, if their names and tags do not tell",
-                 color.from);
-    stage.option("colorconfig", "FILE", "OCIO config; without it $OCIO", color.config);
+    stage.option("occluder", "FILE", "Mesh that occludes but is not baked; may be repeated", [&](auto text, auto&) {
+        mesh.occluder.emplace_back(text);
+        return true;
+    });
+    stage.option("colorspace", "NAME",
+                 advanced("Colour space of the environments; default: from their names and metadata"), color.from);
+    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), color.config);
 
     return stage.run(argc, argv, [&](std::string& error) {
         const std::vector<std::string>& operands = stage.operands();
@@ -54,7 +52,7 @@ int main(int argc, const char** argv)
             || !measure(measured, sweep(params.quick), inputs, params, folder, options, error)
             || !write_report(measured, inputs, params, folder, options, error))
             return false;
-        options.say("measured " + counted(measured.measured, "row", "rows") + ", reused "
+        options.say("measured " + count_text(measured.measured, "row", "rows") + ", reused "
                     + std::to_string(measured.reused));
         for (const double target : { 0.01, 0.05, 0.10 })
             options.say(choice_text(summarize(measured.rows), target));

@@ -21,7 +21,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-constexpr int kHeatSide = 128; // of the pictures within the page
+constexpr int kHeatSide = 128; // pictures embedded in the page
 
 bool draw(std::vector<Picture>& dst, const std::vector<Point>& points, const std::string& folder, std::string& error)
 {
@@ -31,7 +31,7 @@ bool draw(std::vector<Picture>& dst, const std::vector<Point>& points, const std
             || !write_file(format("{}/{}.svg", folder, plot.name), svg, error)
             || !write_file(format("{}/{}.png", folder, plot.name), png, error))
             return false;
-        // Within HTML an SVG has no prologue.
+        // Embedded in HTML, an SVG has no XML prologue.
         dst.push_back({ plot.caption, svg.substr(std::min(svg.size(), svg.find("<svg"))), "" });
     }
     return true;
@@ -64,7 +64,7 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
     for (const Environment& environment : inputs.environments)
         names.push_back(environment.name);
     return { { "mesh", scene.mesh().name },
-             { "triangles", format("{}, occluders among them", scene.triangle_count()) },
+             { "triangles", format("{}, including occluders", scene.triangle_count()) },
              { "environments", OIIO::Strutil::join(names, ", ") },
              { "reference", format("{0}x{0} texels, {1} pairs of rays", params.side(), params.pairs()) },
              { "threads", format("{}", worker_count(options.threads)) },
@@ -77,7 +77,7 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
 bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params, const std::string& folder,
                   const MakeOptions& options, std::string& error)
 {
-    const WhileWriting writing;
+    const DeferInterrupts writing;
     Report report;
     report.title = "What accuracy costs: " + inputs.scene->mesh().name;
     report.points = summarize(measured.rows);

@@ -6,7 +6,7 @@
 
 namespace vmlight::cost {
 
-/// Write costs.csv, costs.json, the plots as SVG and PNG, and report.html to `folder`, each whole or not at all. False,
+/// Write costs.csv, costs.json, the plots as SVG and PNG, and report.html to `folder`, each atomically. Returns false,
 /// with the reason in `error`.
 bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params, const std::string& folder,
                   const MakeOptions& options, std::string& error);

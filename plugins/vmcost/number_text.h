@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Numbers as the report tells them.
+/// Number formatting for the report.
 #pragma once
 
 #include <OpenImageIO/strutil.h>
@@ -9,7 +9,7 @@
 
 namespace vmlight::cost {
 
-/// "12.3 %", with three digits.
+/// "12.3 %", with three significant digits.
 inline std::string percent_text(double share)
 {
     const double x = 100 * share, size = std::abs(x);
@@ -26,7 +26,7 @@ inline std::string seconds_text(double seconds)
                          : OIIO::Strutil::fmt::format("{:.0f} min", seconds / 60);
 }
 
-/// Text for HTML.
+/// Escape text for HTML.
 inline std::string escaped(std::string text)
 {
     for (const auto& [plain, code] :
