@@ -15,7 +15,7 @@ int main(int argc, const char** argv)
 {
     LightmapRecipe recipe;
     Animation animation;
-    StageMain stage("makelightmap", "light a visibility map", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
+    StageMain stage("makelightmap", "light a visibility map with an environment", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
                     "  makelightmap hero_vismap.exr studio_cfem.exr --rotate 0,90,0 -o hero_lit.exr\n"
                     "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
                     "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
@@ -23,19 +23,21 @@ int main(int argc, const char** argv)
     UdimRun tiles(stage, recipe);
     stage.params("Light:", recipe.lightmap_params);
     stage.group("Frames:");
-    stage.option("frames", "RANGE", "Frames to make, 1-48: -o holds #### for the number", [&](auto text, auto& error) {
-        animation.asked = true;
+    stage.option("frames", "RANGE", "Frames to make, with #### in -o: 1-48", [&](auto text, auto& error) {
+        animation.has_frames = true;
         return parse_frames(animation.frames, std::string(text), error);
     });
-    stage.option("rotate_y", "FIRST:LAST", "Degrees about y at the first and at the last frame, after the other turns",
+    stage.option("rotate_y", "FIRST:LAST",
+                 "Turntable: degrees about y at the first and last frame, after the other rotations",
                  [&](auto text, auto& error) { return parse_ramp(animation.rotate_y, std::string(text), error); });
-    stage.params("Filter, if an environment is given:", recipe.cfem_params, "cfem_");
+    stage.params("Filter:", recipe.cfem_params, "cfem_");
     stage.group("Inputs:");
-    stage.option("is_cfem", "", "The second image is filtered already, though nothing in it says so", [&](auto, auto&) {
-        if (recipe.cfem.empty())
-            recipe.cfem.swap(recipe.environment);
-        return true;
-    });
+    stage.option("is_cfem", "", advanced("The second image is cosine-filtered, though its metadata does not say so"),
+                 [&](auto, auto&) {
+                     if (recipe.cfem.empty())
+                         recipe.cfem.swap(recipe.environment);
+                     return true;
+                 });
     stage.recipe(
         "Inputs:", recipe,
         [&](const auto& operands) {
@@ -43,19 +45,19 @@ int main(int argc, const char** argv)
             (image_stage(operands[1]) == kCfemStage ? recipe.cfem : recipe.environment) = operands[1];
         },
         [&] {
-            return animation.asked || animation.turns() ? "a recipe holds neither --frames nor --rotate-y"
-                                                        : tiles.unsaid();
+            return animation.has_frames || animation.rotates() ? "--frames and --rotate-y cannot be saved in a recipe"
+                                                               : tiles.unsavable();
         });
 
     stage.check([&] { return animation.fault(stage.output()); });
 
-    LightmapInputs inputs; // the light stays from tile to tile
+    LightmapInputs inputs; // tiles share the light
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& options, std::string& error) {
         if (!read_lightmap_inputs(inputs, tile, options, error))
             return false;
         const OIIO::Timer timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
-            const LightmapParams frame = animation.at(tile.lightmap_params, i, error);
+            const LightmapParams frame = animation.params_at(tile.lightmap_params, i, error);
             OIIO::ImageBuf lightmap;
             if (error.empty()
                 && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
@@ -70,5 +72,5 @@ int main(int argc, const char** argv)
                            inputs.vismap.spec().width, inputs.vismap.spec().height, timer()));
         return true;
     };
-    return stage.run(argc, argv, [&](std::string& error) { return tiles.each(make, error); });
+    return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });
 }

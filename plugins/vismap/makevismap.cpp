@@ -8,7 +8,7 @@ using namespace vmlight;
 int main(int argc, const char** argv)
 {
     VismapRecipe recipe;
-    StageMain stage("makevismap", "bake how much each texel of a mesh sees, and which way on average", { "MESH" },
+    StageMain stage("makevismap", "bake a visibility map: how much each texel of a mesh sees, and where", { "MESH" },
                     "  makevismap hero.obj -o hero_vismap.exr --resolution 2048 --samples 256\n"
                     "  makevismap hero.obj -o 'hero_vismap.<UDIM>.exr'\n"
                     "  makevismap hero.glb --occluder ground.obj --occluder tree.ply -o hero_vismap.exr\n"
@@ -16,7 +16,8 @@ int main(int argc, const char** argv)
                     "  makevismap hero.vismap -o hero_vismap.exr");
     UdimRun tiles(stage, recipe);
     stage.params("Visibility:", recipe.vismap_params);
-    stage.option("time_budget", "SECONDS", "Take as many rays as a map's bake has time for on this machine",
+    stage.option("time_budget", "SECONDS",
+                 advanced("Instead of a fixed count, trace as many rays as this machine can in this time"),
                  [&](OIIO::string_view text, std::string& error) {
                      if (parse_value(recipe.time_budget, text, Range { 1e-3, 1e6 }, error))
                          return true;
@@ -24,15 +25,17 @@ int main(int argc, const char** argv)
                      return false;
                  });
     stage.params("Mesh:", recipe.mesh_params);
-    const auto unsaid
-        = [&] { return recipe.time_budget > 0 ? "a recipe holds no --time-budget: machines differ" : tiles.unsaid(); };
+    const auto unsavable = [&] {
+        return recipe.time_budget > 0 ? "--time-budget cannot be saved in a recipe: it depends on the machine"
+                                      : tiles.unsavable();
+    };
     stage.recipe(
-        "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, unsaid);
+        "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, unsavable);
 
     stage.check([&] {
         const std::string& basis = recipe.vismap_params.basis;
         return stage.pixel_format() == "half" && find_basis(basis).whole_numbers
-            ? "--format half: the basis " + basis + " holds whole numbers that half cannot store exactly"
+            ? "--format half: the basis " + basis + " stores integers that half cannot represent; use float"
             : std::string();
     });
 
@@ -42,5 +45,5 @@ int main(int argc, const char** argv)
             error = vismap.geterror();
         return error.empty() && stage.write(vismap, output, error);
     };
-    return stage.run(argc, argv, [&](std::string& error) { return tiles.each(make, error); });
+    return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });
 }

@@ -9,7 +9,7 @@ namespace vmlight::cost {
 
 struct Setting
 {
-    /// One of measured_models(), or kTraced.
+    /// One of model_variants(), or kTraced.
     std::string model;
     /// Rays per texel.
     int samples = 128;

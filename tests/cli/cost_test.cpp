@@ -32,8 +32,8 @@ TEST_F(Cost, WrongUsageIsRefusedBeforeAnythingIsMade)
     refused(2, "unknown flag \"--format\"", line + "-o report --format half");
     write("file");
     refused(1, "\"file\": is a file, not a folder", line + "-o file");
-    refused(1, "\"a/b\": no folder \"a\"", line + "-o a/b");
-    refused(1, "the folder \"/proc\" cannot be written", line + "-o /proc/report");
+    refused(1, "\"a/b\": no such folder: \"a\"", line + "-o a/b");
+    refused(1, "folder \"/proc\" is not writable", line + "-o /proc/report");
     const std::string help = done("vmcost --help");
     EXPECT_THAT(help, HasSubstr("vmcost MESH ENVIRONMENT... -o FOLDER"));
     EXPECT_THAT(help, Not(HasSubstr("RECIPE")));
@@ -63,13 +63,13 @@ TEST_F(Cost, ADarkEnvironmentAndATinyMeshAreRefused)
     make_sky({ 0, 0, 0 }, "black.exr");
     Result result = run("vmcost step.obj black.exr -o report" + small);
     EXPECT_EQ(result.code, 1);
-    EXPECT_EQ(result.err, "vmcost ERROR: \"black.exr\": no light falls on the mesh\n");
+    EXPECT_EQ(result.err, "vmcost ERROR: \"black.exr\": no light reaches the mesh\n");
     const std::string narrow = replace(replace(kQuad, "vt 1", "vt 0.1"), "vt 0 1", "vt 0 0.1");
     write("tiny.obj", replace(narrow, "vt 0.1 1", "vt 0.1 0.1"));
     result = run("vmcost tiny.obj sky.exr -o report" + small);
     EXPECT_EQ(result.code, 1);
     EXPECT_THAT(result.err,
-                ContainsRegex("the mesh covers [0-9]+ of 16x16 texels, of which 64 are needed: raise resolution"));
+                ContainsRegex("the mesh covers [0-9]+ of 16x16 texels, at least 64 are needed: raise --resolution"));
 }
 
 TEST_F(Cost, LightOnASingleTexelIsRefused)
@@ -85,7 +85,7 @@ TEST_F(Cost, LightOnASingleTexelIsRefused)
     const Result result = run("vmcost speck.obj back.exr -o report" + small);
     EXPECT_EQ(result.code, 1);
     EXPECT_EQ(result.err,
-              "vmcost ERROR: \"back.exr\": light falls on too few texels to tell an error: raise resolution\n");
+              "vmcost ERROR: \"back.exr\": light reaches too few texels to estimate an error: raise --resolution\n");
 }
 
 TEST_F(Cost, GnuplotIsLookedForBeforeTheWork)

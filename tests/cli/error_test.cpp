@@ -106,7 +106,7 @@ TEST_F(Errors, ATimeTooShortForOneRayTakesOneWithAWarning)
 
 TEST_F(Errors, ATimeIsNoPartOfARecipe)
 {
-    refused(2, "a recipe holds no --time-budget", bake + "--time-budget 1 --print-recipe");
+    refused(2, "--time-budget cannot be saved in a recipe", bake + "--time-budget 1 --print-recipe");
     refused(2, "time_budget: 0 is not in [0.001, 1e+06]", bake + "--time-budget 0 -o x.exr");
     const std::string recipe = run(bake + "--target-error 0.05 --channels error,normal --print-recipe").out;
     EXPECT_THAT(recipe, HasSubstr("target_error = 0.05\nchannels = [\"normal\", \"error\"]\n"));

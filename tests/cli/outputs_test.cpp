@@ -30,10 +30,10 @@ protected:
 
 TEST_F(Outputs, ANameThatCannotBeWrittenIsRefusedBeforeTheWork)
 {
-    refused(2, "\"x.png\": outputs are EXR files", "makevismap quad.obj -o x.png");
-    refused(1, "no folder \"missing\"", "makevismap quad.obj -o missing/x.exr");
+    refused(2, "\"x.png\": output must be .exr", "makevismap quad.obj -o x.png");
+    refused(1, "no such folder: \"missing\"", "makevismap quad.obj -o missing/x.exr");
     if (std::filesystem::is_directory("/proc")) // takes no files, though root may write to it
-        refused(1, "\"/proc/x.exr\": the folder \"/proc\" cannot be written: ", "makevismap gone.obj -o /proc/x.exr");
+        refused(1, "\"/proc/x.exr\": folder \"/proc\" is not writable: ", "makevismap gone.obj -o /proc/x.exr");
     std::filesystem::create_directory("folder.exr");
     refused(1, "\"folder.exr\": is a folder", "makevismap quad.obj -o folder.exr");
     std::filesystem::create_directory("pipes");
@@ -41,7 +41,7 @@ TEST_F(Outputs, ANameThatCannotBeWrittenIsRefusedBeforeTheWork)
     refused(1, "is a device or a pipe", "makevismap quad.obj -o pipes/x.exr");
     if (::geteuid() != 0) {
         ASSERT_EQ(::mkdir("locked", 0500), 0);
-        refused(1, "cannot be written", "makevismap quad.obj -o locked/x.exr");
+        refused(1, "is not writable", "makevismap quad.obj -o locked/x.exr");
     }
 }
 
@@ -73,7 +73,7 @@ TEST_F(Outputs, AFullDiskIsReportedAndLeavesTheOldFile)
 TEST_F(Outputs, HalfIsRefusedWhereItWouldOverflow)
 {
     make_sky({ 1e5f, 1, 1 });
-    refused(1, "beyond the range of half", "makecfem sky.exr -o old.exr --format half");
+    refused(1, "the maximum of half is 65504", "makecfem sky.exr -o old.exr --format half");
     done("makecfem sky.exr -o old.exr");
 }
 

@@ -127,7 +127,7 @@ TEST_F(Tiles, TheMeshOfAVismapRecipeDefinesTheTiles)
     EXPECT_THAT(names("lit"), ElementsAre("lit.1001.exr", "lit.1002.exr", "lit.1011.exr"));
     for (const std::string udim : { "1001", "1002", "1011" })
         expect_same_pixels("lit." + udim + ".exr", "stored." + udim + ".exr", 0);
-    refused(2, "vismap: \"hero.vismap\" is of one tile; did you mean \"hero.vismap?udim=<UDIM>\"?",
+    refused(2, "vismap: \"hero.vismap\" is a single tile; did you mean \"hero.vismap?udim=<UDIM>\"?",
             "makelightmap hero.vismap sky.exr -o x.<UDIM>.exr");
 }
 
@@ -143,7 +143,7 @@ TEST_F(Tiles, ARecipeUnderTheNameOfATileIsOfThatTile)
     EXPECT_TRUE(read("a.exr") == read("b.exr"));
     EXPECT_TRUE(read("a.exr") == read("c.1011.exr"));
     EXPECT_THAT(done("makelightmap hero.1011.lightmap --print-recipe"), HasSubstr("udim = 1011\n"));
-    refused(2, "a recipe holds no --udims", "makelightmap hero.lightmap --udims=1001 --print-recipe");
+    refused(2, "--udims cannot be saved in a recipe", "makelightmap hero.lightmap --udims=1001 --print-recipe");
 }
 
 TEST_F(Tiles, MeshesInFilesByTile)
@@ -158,31 +158,31 @@ TEST_F(Tiles, TilesThatCannotBeToldApartAreRefused)
     bake();
     const std::string bake_all = "makevismap hero.obj" + small, light = "makelightmap vm.<UDIM>.exr sky.exr ",
                       one = "makelightmap vm.1001.exr sky.exr ";
-    refused(2, "\"x.exr\": 3 tiles need a name with <UDIM> for the number", light + "-o x.exr --udims 1001-1003");
+    refused(2, "\"x.exr\": 3 tiles need <UDIM> in the file name, for the number", light + "-o x.exr --udims 1001-1003");
     refused(2, "\"x.exr\": 2 tiles need", light + "-o x.exr --udims=1001,1002");
     for (const std::string& words : { bake_all, one }) {
-        refused(2, "udims: neither -o nor the name of an input holds <UDIM>", words + "-o x.exr --udims=1001");
+        refused(2, "udims: no file name contains <UDIM>", words + "-o x.exr --udims=1001");
         refused(2, "udims: \"1001-\" is not a list of UDIM tiles", words + "-o x.<UDIM>.exr --udims=1001-");
         refused(2, "udims: 1000 is not a UDIM tile", words + "-o x.<UDIM>.exr --udims=1000-1003");
         refused(2, "udim: 1000 is not in [1001, 9999]", words + "-o x.exr --udim=1000");
-        refused(2, "only one of udim and udims", words + "-o x.<UDIM>.exr --udim=1001 --udims=1001");
+        refused(2, "give only one of udim and udims", words + "-o x.<UDIM>.exr --udim=1001 --udims=1001");
     }
     refused(2, "vismap: \"vm.<UDIM>.exr\": which tile?", light + "-o x.exr");
     refused(2, "environment: \"sky.<UDIM>.exr\": which tile?", "makecfem sky.<UDIM>.exr -o x.exr");
     refused(2, "mesh: \"hero.<UDIM>.obj\": which tile?", "makevismap hero.<UDIM>.obj -o x.exr");
-    refused(2, "\"x.<UDIM>.exr\": which tiles? No name of an input tells", one + "-o x.<UDIM>.exr");
-    refused(2, "all tiles would be the same picture", one + "-o x.<UDIM>.exr --udims=1001,1002");
+    refused(2, "\"x.<UDIM>.exr\": which tiles? No input contains <UDIM>", one + "-o x.<UDIM>.exr");
+    refused(2, "all tiles would be identical", one + "-o x.<UDIM>.exr --udims=1001,1002");
     for (const auto& [key, line] :
          { std::pair<std::string, std::string>("vismap", "makelightmap gone.<UDIM>.exr sky.exr"),
            { "environment", "makecfem gone.<UDIM>.exr" },
            { "mesh", "makevismap gone.<UDIM>.exr" } })
-        refused(2, key + ": \"gone.<UDIM>.exr\": there is no such file for any tile", line + " -o x.<UDIM>.exr");
-    refused(2, "\"hero.<UDIM>.lightmap\": one recipe makes all tiles",
+        refused(2, key + ": \"gone.<UDIM>.exr\": no files match", line + " -o x.<UDIM>.exr");
+    refused(2, "\"hero.<UDIM>.lightmap\": use <UDIM> in the paths of the recipe",
             "makelightmap hero.<UDIM>.lightmap -o x.<UDIM>.exr");
     write("hero.vismap", "mesh = \"gone.<UDIM>.obj\"\n");
-    refused(1, "mesh: \"gone.<UDIM>.obj\": there is no such file for any tile",
+    refused(1, "mesh: \"gone.<UDIM>.obj\": no files match",
             "makelightmap hero.vismap?udim=<UDIM> sky.exr -o x.<UDIM>.exr");
-    refused(1, "no folder \"1001\"", light + "-o <UDIM>/x.exr");
+    refused(1, "no such folder: \"1001\"", light + "-o <UDIM>/x.exr");
 }
 
 TEST_F(Tiles, ATileThatFailsIsNamedAndThoseBeforeItStay)

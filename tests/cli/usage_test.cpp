@@ -52,7 +52,7 @@ TEST_F(Usage, AMissingOrSurplusArgumentIsNamed)
     refused(2, "-o OUTPUT.exr is missing", "makevismap quad.obj");
     for (const auto& [tool, operands] : tools) {
         refused(2, " is missing", tool + " -o x.exr");
-        refused(2, "\"surplus\" is one argument too many", tool + " " + operands + " surplus -o x.exr");
+        refused(2, "unexpected argument \"surplus\"", tool + " " + operands + " surplus -o x.exr");
     }
     refused(2, "", "makevismap quad.obj -o");
     refused(2, "", "makevismap quad.obj -o x.exr --samples");
@@ -77,7 +77,7 @@ TEST_F(Usage, ValuesAreParsedStrictly)
         { "--margin", "-2", "margin: -2 is not in" },
         { "--channels", "normals",
           "channels: \"normals\" is not one of normal, coverage, error; did you mean \"normal\"?" },
-        { "--channels", "normal,normal", "channels: \"normal\" comes twice" },
+        { "--channels", "normal,normal", "channels: \"normal\" is given twice" },
         { "--format", "double", "format: \"double\" is not one of float, half" },
         { "--threads", "-1", "threads: -1 is not in [0, 1024]" },
         { "--uv-set", "8", "uv_set: 8 is not in [0, 7]" },
@@ -99,13 +99,13 @@ TEST_F(Usage, ValuesMayBeginWithAMinusOrFollowAnEqualsSign)
 TEST_F(Usage, FramesAreRefusedInWords)
 {
     const std::string light = "makelightmap vm.exr sky.exr -o ";
-    refused(2, "is not a range of frames", light + "x.#.exr --frames 1-x");
+    refused(2, "is not a frame range", light + "x.#.exr --frames 1-x");
     refused(2, "--frames has an empty value", light + "x.#.exr --frames ''");
     refused(2, "is not FIRST:LAST or one number", light + "x.#.exr --rotate-y 0:b");
     for (const char* endless : { "1-2000000000", "1-3x0", "1-3x", "1-3x00,5" })
         refused(2, "up to 999999", light + "x.#.exr --frames " + endless);
-    refused(2, "from 0 to 90 degrees needs --frames", light + "x.exr --rotate-y 0:90");
-    refused(2, "4 frames need a name with ####", light + "x.exr --frames 1-4");
+    refused(2, "0 to 90 degrees needs --frames", light + "x.exr --rotate-y 0:90");
+    refused(2, "4 frames need #### in the file name", light + "x.exr --frames 1-4");
 }
 
 TEST_F(Usage, FlagsThatDoNotGoTogetherAreWrongUsageBeforeAnyWork)
@@ -113,9 +113,9 @@ TEST_F(Usage, FlagsThatDoNotGoTogetherAreWrongUsageBeforeAnyWork)
     const std::string mirror = "--matrix -1,0,0,0,1,0,0,0,1";
     const std::pair<std::string, std::string> cases[] = {
         { "only one of rotate, matrix and quaternion", "--rotate 1,2,3 " + mirror },
-        { "matrix: a mirror, not a rotation", mirror },
+        { "matrix: a reflection, not a rotation", mirror },
         { "matrix: not a rotation", "--matrix 1,0,0,0,1,0,0,0,2" },
-        { "quaternion: 0,0,0,0 has no direction", "--quaternion 0,0,0,0" },
+        { "quaternion: 0,0,0,0 is zero or not finite", "--quaternion 0,0,0,0" },
         { "environment is given too", "--cfem sky.exr" },
         { "--vismap has an empty value", "--vismap ''" },
         { "--environment has an empty value", "--environment ''" },

@@ -27,7 +27,7 @@ public:
     bool flag() { return byte() & 1; }
     /// From 0 to `count` - 1.
     size_t below(size_t count) { return byte() % count; }
-    template <class Words> auto choice(const ChoiceSet& words) { return words[below(std::size(words))]; }
+    template <class Words> auto choice(const Words& words) { return words[below(std::size(words))]; }
 
     /// Up to 200: that many less 100, of 32nds, so that much is equal, coplanar and on edges. Then ends and nonsense of
     /// the range; from 240 on the four bytes that follow, whatever they are.

@@ -55,7 +55,9 @@ std::vector<std::string> words_of(const std::string& text, bool is_stage)
 bool asks_for_help(const std::vector<std::string>& words)
 {
     return std::any_of(words.begin(), words.end(), [](const std::string& word) {
-        return OIIO::Strutil::starts_with(word, "--help") || OIIO::Strutil::starts_with(word, "--version");
+        return OIIO::Strutil::starts_with(word, "--help") || OIIO::Strutil::starts_with(word, "--version")
+            || OIIO::Strutil::starts_with(word, "--print-man")
+            || OIIO::Strutil::starts_with(word, "--print-completion");
     });
 }
 

@@ -146,11 +146,10 @@ TEST_F(Files, InputsThatMayNotBeRead)
     }
     ASSERT_EQ(::chmod("x.exr", 0444), 0);
     const auto before = contents();
-    expect_one_error(run_as_nobody("makecfem sky.exr -o x.exr"), 1, "\"x.exr\": cannot be written: Permission denied");
+    expect_one_error(run_as_nobody("makecfem sky.exr -o x.exr"), 1, "\"x.exr\": not writable: Permission denied");
     EXPECT_TRUE(contents() == before);
     ASSERT_EQ(::chmod(folder.c_str(), 0555), 0);
-    expect_one_error(run_as_nobody("makecfem sky.exr -o y.exr"), 1,
-                     "the folder \".\" cannot be written: Permission denied");
+    expect_one_error(run_as_nobody("makecfem sky.exr -o y.exr"), 1, "folder \".\" is not writable: Permission denied");
     ASSERT_EQ(::chmod(folder.c_str(), 0755), 0);
     EXPECT_TRUE(contents() == before);
     row.naive("a read-only file is replaced, because its folder is writable");
@@ -198,7 +197,7 @@ TEST_F(Files, TargetsThatAreLinks)
     EXPECT_EQ(read("twin.exr"), "old");
     EXPECT_EQ(fs::status("real/old.exr").permissions(), fs::perms(0640));
     fs::create_symlink("circle.exr", "circle.exr");
-    expect_one_error(run(filter + "circle.exr"), 1, "\"circle.exr\": a link that leads in circles");
+    expect_one_error(run(filter + "circle.exr"), 1, "\"circle.exr\": too many levels of symbolic links");
     EXPECT_THAT(names("", "real"), testing::ElementsAre("gone.exr", "old.exr"));
     row.naive("rename() replaces the link by a file, readable by everyone");
     row.ours(

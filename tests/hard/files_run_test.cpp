@@ -105,7 +105,7 @@ TEST_F(Files, DisplayWindowWithOneBitTooMany)
     write("wide.exr", bytes);
     const std::string fault = "its header says 268435472x8 pixels";
     expect_one_error(run("makecfem wide.exr -o x.exr --resolution 8"), 1,
-                     "\"wide.exr\": " + fault + ", of at most 1048576 a side");
+                     "\"wide.exr\": " + fault + "; the maximum is 1048576 per side");
     write("wide.cfem", "environment = \"wide.exr\"\nresolution = 8\n");
     EXPECT_THAT(read_by_plugin("wide.cfem"), HasSubstr(fault));
     row.naive("all are processed: 45 s, then out of memory");

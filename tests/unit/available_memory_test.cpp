@@ -74,5 +74,5 @@ TEST(MemoryNeed, RefusesWhatNoMachineHolds)
     EXPECT_EQ(memory_shortage(OIIO::ImageSpec(1024, 1024, 4)), "");
     EXPECT_EQ(memory_shortage(OIIO::ImageSpec()), "");
     const std::string fault = memory_shortage(OIIO::ImageSpec(1 << 30, 1 << 30, 16));
-    EXPECT_EQ(fault.find("1073741824x1073741824 pixels of 16 channels take "), 0u) << fault;
+    EXPECT_EQ(fault.find("1073741824x1073741824 pixels of 16 channels need "), 0u) << fault;
 }

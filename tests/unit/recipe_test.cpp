@@ -51,7 +51,7 @@ TEST(Recipe, TakesWordsAsAListOrAText)
     EXPECT_EQ(refusal<VismapRecipe>("channels = [1]"), at + "an integer where a word in quotes is needed");
     EXPECT_EQ(refusal<VismapRecipe>("channels = [\"\"]"), at + "one of its words is empty");
     EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal,coverage\"]"), at + "a word in a list cannot hold a comma");
-    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal\", \"normal\"]"), at + "\"normal\" comes twice");
+    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal\", \"normal\"]"), at + "\"normal\" is given twice");
 }
 
 TEST(Recipe, TextsAreAnyUnicode)

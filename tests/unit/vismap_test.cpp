@@ -249,7 +249,7 @@ TEST(Vismap, RefusesParametersOutOfRange)
     EXPECT_EQ(refusal(mesh, params), "width: 32769 is not in [0, 32768]");
     params = {};
     params.channels = { "normal", "coverage", "normal" };
-    EXPECT_EQ(refusal(mesh, params), "channels: \"normal\" comes twice");
+    EXPECT_EQ(refusal(mesh, params), "channels: \"normal\" is given twice");
     params = {};
     params.height = -1;
     EXPECT_EQ(refusal(mesh, params), "height: -1 is not in [0, 32768]");

@@ -267,7 +267,7 @@ std::string value_text(bool value, const Flag&)
 std::string allowed_text(const Range& allowed)
 {
     std::string text = format("{}..{}", number_text(allowed.min), number_text(allowed.max));
-    return allowed.word ? text + format(" or {}", allowed.word) : text;
+    return allowed.word ? text + format("|{}", allowed.word) : text;
 }
 
 std::string allowed_text(const SizeRange& allowed)
@@ -302,7 +302,8 @@ std::string allowed_text(const Paths&)
 
 std::string allowed_text(const Numbers& allowed)
 {
-    return format("{} numbers", allowed.count);
+    return allowed.count > 4 ? format("{} numbers", allowed.count)
+                             : OIIO::Strutil::join(std::vector<std::string>(allowed.count, "N"), ",");
 }
 
 std::string allowed_text(const Flag&)

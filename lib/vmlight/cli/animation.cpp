@@ -12,24 +12,23 @@ using OIIO::Strutil::fmt::format;
 std::string Animation::fault(const std::string& output) const
 {
     if (frames.size() > 1 && output.find('#') == std::string::npos)
-        return format("\"{}\": {} frames need a name with #### for the number", output, frames.size());
-    return asked || rotate_y.first == rotate_y.last
+        return format("\"{}\": {} frames need #### in the file name, for the number", output, frames.size());
+    return has_frames || rotate_y.first == rotate_y.last
         ? ""
-        : format("rotate_y: from {} to {} degrees needs --frames", rotate_y.first, rotate_y.last);
+        : format("rotate_y: {} to {} degrees needs --frames", rotate_y.first, rotate_y.last);
 }
 
 std::string Animation::path(const std::string& output, size_t index) const
 {
-    return asked ? frame_path(output, frames[index]) : output;
+    return has_frames ? frame_path(output, frames[index]) : output;
 }
 
-// The turn about y comes after the object's own rotation; both become one matrix.
-LightmapParams Animation::at(const LightmapParams& params, size_t index, std::string& error) const
+LightmapParams Animation::params_at(const LightmapParams& params, size_t index, std::string& error) const
 {
     LightmapParams frame = params, own = params;
     own.env_rotate.clear();
     Rotation rotation;
-    if (!turns() || !lightmap_rotation(rotation, own, error))
+    if (!rotates() || !lightmap_rotation(rotation, own, error))
         return frame;
     rotation = rotation_from_angles(0, rotate_y.at(index, frames.size()), 0) * rotation;
     frame.rotate.clear();

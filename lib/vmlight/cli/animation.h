@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lightmaps over frames: which, and what changes from one to the next.
+/// Animated lightmaps: a turntable of frames.
 #pragma once
 
 #include <vmlight/base/frames.h>
@@ -12,22 +12,23 @@ namespace vmlight {
 
 struct Animation
 {
-    /// Numbers of the frames; `asked` says that the user gave them.
+    /// Frame numbers, and whether the user gave them.
     std::vector<int> frames { 1 };
-    bool asked = false;
-    /// Degrees about y, after the object's own rotation.
+    bool has_frames = false;
+    /// Degrees about y, applied after the object's own rotation.
     Ramp rotate_y;
 
-    bool turns() const { return rotate_y.first != 0 || rotate_y.last != 0; }
+    bool rotates() const { return rotate_y.first != 0 || rotate_y.last != 0; }
 
-    /// Why this cannot be written to files named `output`, or "".
+    /// Why the frames cannot be written to `output`, or "".
     std::string fault(const std::string& output) const;
 
-    /// Where the frame at `index` of `frames` goes.
+    /// The file of frame number frames[index].
     std::string path(const std::string& output, size_t index) const;
 
-    /// `params` for the frame at `index`: both turns as one matrix. Their rotation must be sound, or `error` says why.
-    LightmapParams at(const LightmapParams& params, size_t index, std::string& error) const;
+    /// `params` for frame number frames[index], with both rotations as one matrix. Sets `error` if the rotation in
+    /// `params` is invalid.
+    LightmapParams params_at(const LightmapParams& params, size_t index, std::string& error) const;
 };
 
 } // namespace vmlight

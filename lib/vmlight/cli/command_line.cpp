@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/command_line.h>
 
-#include <vmlight/base/params.h>
+#include <vmlight/cli/completion.h>
+#include <vmlight/cli/help_text.h>
+#include <vmlight/cli/man_page.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/version.h>
 
-#include <OpenImageIO/argparse.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -14,6 +15,59 @@ namespace vmlight {
 namespace {
 
 using OIIO::Strutil::fmt::format;
+using Option = CommandLine::Option;
+
+// Flags of every executable that print something instead of working. The last two are for packagers: not in the help.
+struct AnswerFlag
+{
+    Option option;
+    bool is_hidden;
+    bool (*answer)(std::string& dst, const CommandLine& line, const std::string& value, std::string& error);
+};
+
+const std::vector<AnswerFlag>& answer_flags()
+{
+    static const std::vector<AnswerFlag> flags {
+        { { "Help:", "help", "", "Print this help" },
+          false,
+          [](std::string& dst, const CommandLine& line, const std::string&, std::string&) {
+              dst = help_text(line);
+              return true;
+          } },
+        { { "Help:", "version", "", "Print the version" },
+          false,
+          [](std::string& dst, const CommandLine&, const std::string&, std::string&) {
+              dst = VMLIGHT_VERSION_STRING "\n";
+              return true;
+          } },
+        { { "", "print_man", "", "Print the man page" },
+          true,
+          [](std::string& dst, const CommandLine& line, const std::string&, std::string&) {
+              dst = man_page(line);
+              return true;
+          } },
+        { { "", "print_completion", "SHELL", "Print the completion script for bash or zsh" }, true, print_completion },
+    };
+    return flags;
+}
+
+const AnswerFlag* find_answer_flag(const std::string& flag)
+{
+    for (const AnswerFlag& known : answer_flags())
+        if (known.option.flag() == flag)
+            return &known;
+    return nullptr;
+}
+
+std::string unknown_flag(const std::string& flag, const CommandLine& line)
+{
+    std::vector<std::string> known;
+    for (const CommandLine::Section& section : line.sections())
+        for (const Option* option : section.options)
+            known.push_back(option->flag());
+    const std::string near = nearest_name(flag, known);
+    return format("unknown flag \"{}\"{}", flag, near.empty() ? "" : format("; did you mean {}?", near));
+}
 
 } // namespace
 
@@ -22,112 +76,98 @@ std::string flag_of(const std::string& name)
     return name.size() == 1 ? "-" + name : "--" + OIIO::Strutil::replace(name, "_", "-", true);
 }
 
-std::vector<std::string> CommandLine::flags() const
-{
-    std::vector<std::string> all { "--help", "--version" };
-    for (const Option& option : options)
-        all.push_back(flag_of(option.name));
-    return all;
-}
-
-bool CommandLine::takes_more() const
-{
-    return OIIO::Strutil::ends_with(operand_names.back(), "...");
-}
-
 bool CommandLine::given_recipe() const
 {
     return !stage.empty() && !operands.empty() && recipe_stage(operands[0]) == stage;
 }
 
-// ArgParse takes neither --flag=value nor tells an unknown flag from a missing one's nearest name: both are done first.
-bool CommandLine::split_arguments(int argc, const char** argv, std::vector<std::string>& words,
-                                  std::string& error) const
+std::vector<std::string> CommandLine::synopses() const
 {
-    const std::vector<std::string> known = flags();
-    words.push_back(argc > 0 ? argv[0] : name);
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (word.size() < 2 || word[0] != '-') {
-            words.push_back(word);
-            continue;
-        }
-        const size_t equals = word.find('=');
-        const std::string flag = word.substr(0, equals);
-        if (std::find(known.begin(), known.end(), flag) == known.end()) {
-            const std::string near = nearest_name(flag, known);
-            error = format("unknown flag \"{}\"{}", flag, near.empty() ? "" : format("; did you mean {}?", near));
-            return false;
-        }
-        words.push_back(flag);
-        if (equals != std::string::npos)
-            words.push_back(word.substr(equals + 1));
-        for (const Option& option : options) {
-            const bool takes_value = !option.metavar.empty();
-            if (flag_of(option.name) != flag || (!takes_value && equals == std::string::npos))
-                continue;
-            if (!takes_value) {
-                error = format("{} takes no value", flag);
-                return false;
-            }
-            if (equals == std::string::npos && i + 1 < argc)
-                words.push_back(argv[++i]); // as it is, though it may begin with '-'
-        }
+    std::vector<std::string> lines { format("{} {} -o {} [options]", name, OIIO::Strutil::join(operand_names, " "),
+                                            output_metavar) };
+    if (!stage.empty())
+        lines.push_back(format("{} RECIPE.{} -o {} [options]", name, stage, output_metavar));
+    return lines;
+}
+
+std::vector<CommandLine::Section> CommandLine::sections() const
+{
+    std::vector<Section> found;
+    const auto add = [&](const std::string& heading, const Option& option) {
+        const auto same = [&](const Section& section) { return section.heading == heading; };
+        const auto section = std::find_if(found.begin(), found.end(), same);
+        (section == found.end() ? found.emplace_back(Section { heading, {} }) : *section).options.push_back(&option);
+    };
+    for (const bool advanced : { false, true })
+        for (const Option& option : options)
+            if (option.is_advanced == advanced)
+                add(advanced ? "Advanced:" : option.heading, option);
+    for (const AnswerFlag& flag : answer_flags())
+        if (!flag.is_hidden)
+            add(flag.option.heading, flag.option);
+    return found;
+}
+
+// Takes --flag=value or --flag value. A value that is a word of its own may begin with '-'.
+bool CommandLine::parse_flag(const char**& argument, const char** end, std::string& answer, std::string& error)
+{
+    const std::string word = *argument;
+    const size_t equals = word.find('=');
+    const std::string flag = word.substr(0, equals);
+    const AnswerFlag* answering = find_answer_flag(flag);
+    const auto found
+        = std::find_if(options.begin(), options.end(), [&](const Option& option) { return option.flag() == flag; });
+    if (!answering && found == options.end()) {
+        error = unknown_flag(flag, *this);
+        return false;
     }
+    const Option& option = answering ? answering->option : *found;
+    std::string value = option.metavar.empty() ? "true" : "";
+    if (option.metavar.empty() && equals != std::string::npos)
+        error = format("{} takes no value", flag);
+    else if (!option.metavar.empty() && equals == std::string::npos && argument + 1 == end)
+        error = format("{} needs a value: {}", flag, option.metavar);
+    else if (equals != std::string::npos)
+        value = word.substr(equals + 1);
+    else if (!option.metavar.empty())
+        value = *++argument;
+    if (!error.empty())
+        return false;
+    if (answering)
+        return answering->answer(answer, *this, value, error);
+    given.emplace_back(&option, value);
     return true;
 }
 
-bool CommandLine::parse_words(const std::vector<std::string>& words, bool& helped, std::string& error)
+bool CommandLine::check_operands(std::string& error) const
 {
-    OIIO::ArgParse parser;
-    parser.intro(format("{}: {}\n(vmlight {})", name, purpose, VMLIGHT_VERSION_STRING));
-    std::string usage = format("{} {} -o {} [options]", name, OIIO::Strutil::join(operand_names, " "), output_metavar);
-    if (!stage.empty())
-        usage += format("\n       {} RECIPE.{} -o {} [options]", name, stage, output_metavar);
-    parser.usage(usage);
-    parser.epilog(format("Example:\n{}\nExit code 0: done, 1: the work failed, 2: wrong usage.\n", example));
-    parser.exit_on_error(false);
-    parser.add_help(true);
-    parser.add_version(VMLIGHT_VERSION_STRING);
-    parser.arg("operand").hidden().action([&](OIIO::cspan<const char*> argv) { operands.push_back(argv[0]); });
-    std::string heading;
-    for (const Option& option : options) {
-        if (option.heading != heading)
-            parser.separator(heading = option.heading);
-        const std::string flag = flag_of(option.name);
-        // Metavars follow a colon and end at the next blank.
-        const std::string metavar = OIIO::Strutil::replace(option.metavar, " ", "_", true);
-        parser.arg((option.metavar.empty() ? flag : flag + " %s:" + metavar).c_str())
-            .help(option.help)
-            .action([this, &option](OIIO::cspan<const char*> argv) {
-                given.emplace_back(&option, argv.size() > 1 ? argv[1] : "true");
-            });
-    }
-    std::vector<const char*> pointers;
-    for (const std::string& word : words)
-        pointers.push_back(word.c_str());
-    const int result = parser.parse_args(int(pointers.size()), pointers.data());
-    helped = parser.aborted();
-    if (helped)
-        return true;
     const size_t wanted = given_recipe() ? 1 : operand_names.size();
-    if (result < 0)
-        error = parser.geterror();
-    else if (operands.size() < wanted || (operands.size() > wanted && !takes_more()))
-        error = operands.size() < wanted ? format("{} is missing", operand_names[operands.size()])
-                                         : format("\"{}\" is one argument too many", operands[wanted]);
+    const bool takes_more = OIIO::Strutil::ends_with(operand_names.back(), "...");
+    if (operands.size() < wanted)
+        error = format("{} is missing", operand_names[operands.size()]);
+    else if (operands.size() > wanted && !takes_more)
+        error = format("unexpected argument \"{}\"", operands[wanted]);
     return error.empty();
 }
 
-bool CommandLine::parse(int argc, const char** argv, bool& helped, std::string& error)
+bool CommandLine::parse(int argc, const char** argv, std::string& answer, std::string& error)
 {
-    std::vector<std::string> words;
-    if (!split_arguments(argc, argv, words, error) || !parse_words(words, helped, error))
+    const char** const end = argv + argc;
+    for (const char** argument = argv + 1; argument < end; ++argument) {
+        const std::string word = *argument;
+        if (word.size() < 2 || word[0] != '-')
+            operands.push_back(word);
+        else if (!parse_flag(argument, end, answer, error))
+            return false;
+        if (!answer.empty())
+            return true;
+    }
+    if (!check_operands(error))
         return false;
-    // Mostly a shell's variable that is not set. Of a recipe's keys it clears one.
+    // Mostly an unset shell variable. With a recipe it clears the key.
     for (const auto& [option, value] : given)
-        if (error.empty() && !helped && !given_recipe() && OIIO::Strutil::strip(value).empty())
-            error = format("{} has an empty value", flag_of(option->name));
+        if (error.empty() && !given_recipe() && OIIO::Strutil::strip(value).empty())
+            error = format("{} has an empty value", option->flag());
     return error.empty();
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The command line of an executable: the flags and operands that it takes, the help that tells them, and what a user
-/// gave.
+/// The command line of an executable: the flags and operands that it accepts, and the parser.
 #pragma once
+
+#include <vmlight/base/params.h>
 
 #include <OpenImageIO/string_view.h>
 
@@ -19,40 +20,58 @@ struct CommandLine
 {
     struct Option
     {
-        /// The metavar of a flag that takes no value is empty. Options of one heading stand together in the help.
+        /// `metavar` is what stands for the value in the help; "" for a flag without a value.
         std::string heading, name, metavar, help;
-        /// Takes the flag's value ("true" for one without); false and `error` refuse it. For the caller to call.
-        std::function<bool(OIIO::string_view text, std::string& error)> take;
+        /// Receives the value ("true" for a flag without one). Returns false, with the reason in `error`, to refuse it.
+        /// parse() does not call it.
+        std::function<bool(OIIO::string_view text, std::string& error)> take {};
+        bool is_advanced = false;
+        /// Whether each occurrence adds a value; otherwise the last one wins.
+        bool is_repeatable = false;
+        /// The words that it accepts, if it is one that takes words.
+        std::vector<Choice> choices {};
+
+        std::string flag() const { return flag_of(name); }
+        bool takes_file() const { return metavar == "FILE" || metavar == "FOLDER" || metavar == "OUTPUT.exr"; }
+    };
+    struct Section
+    {
+        std::string heading;
+        std::vector<const Option*> options;
     };
 
-    /// For the help: of the executable, one sentence, one or more command lines, and what -o names.
+    /// For the help: the executable, what it does, example command lines with their remarks, and what -o names.
     std::string name, purpose, example, output_metavar;
-    /// "", or the stage of which one recipe may come in place of the operands.
+    /// The stage whose recipe may replace the operands, or "".
     std::string stage;
     /// The last may end in "...": one or more.
     std::vector<std::string> operand_names;
     std::vector<Option> options;
 
-    /// Set by parse(): the operands, and the flags with their values in the order they came. Points into `options`.
+    /// Set by parse(): the operands, and the flags with their values, in order. Points into `options`.
     std::vector<std::string> operands;
     std::vector<std::pair<const Option*, std::string>> given;
 
-    /// Look at all words, and take none: what the values are is for `take` to tell. Help and the version go to stdout,
-    /// and set `helped`.
+    /// Split `argv` into operands and flags, without interpreting values.
     ///
-    /// @returns false, with the reason in `error`, at an unknown flag (with the nearest), a missing value, one that
-    ///          is too many or empty (where no recipe is given, whose key it would clear), or operands that are too few
-    ///          or too many.
-    bool parse(int argc, const char** argv, bool& helped, std::string& error);
+    /// @param answer   set to the text to print, if the user asks for the help, the version, the man page or a
+    ///                 completion script
+    /// @returns false, with the reason in `error`, if a flag is unknown (the error suggests the closest one), a value
+    /// is
+    ///          missing, unexpected or empty (a recipe's key may be cleared), or there are too few or too many operands
+    bool parse(int argc, const char** argv, std::string& answer, std::string& error);
 
     /// Whether the first operand is a recipe of `stage`.
     bool given_recipe() const;
 
+    /// How to call it, one form per line.
+    std::vector<std::string> synopses() const;
+    /// All options by heading, advanced ones last, under "Advanced:", then those of every executable, under "Help:".
+    std::vector<Section> sections() const;
+
 private:
-    std::vector<std::string> flags() const;
-    bool split_arguments(int argc, const char** argv, std::vector<std::string>& words, std::string& error) const;
-    bool parse_words(const std::vector<std::string>& words, bool& helped, std::string& error);
-    bool takes_more() const;
+    bool parse_flag(const char**& argument, const char** end, std::string& answer, std::string& error);
+    bool check_operands(std::string& error) const;
 };
 
 } // namespace vmlight

@@ -23,12 +23,12 @@ std::string rate_text(double rate)
 {
     struct
     {
-        double least;
+        double threshold;
         const char* prefix;
     } constexpr kScales[] { { 1e9, "G " }, { 1e6, "M " }, { 1e3, "k " } };
-    for (const auto& [least, prefix] : kScales)
-        if (rate >= 0.9995 * least) { // so that three digits never round to 1000
-            const double scaled = rate / least;
+    for (const auto& [threshold, prefix] : kScales)
+        if (rate >= 0.9995 * threshold) { // three digits never round to 1000
+            const double scaled = rate / threshold;
             return format("{:.{}f} {}", scaled, scaled < 9.995 ? 2 : scaled < 99.95 ? 1 : 0, prefix);
         }
     return format("{:.0f} ", rate);
@@ -52,7 +52,7 @@ std::string progress_line(const std::string& step, double done, double seconds, 
     return format("{} {:3.0f} %  {}texels/s  {}", step, std::floor(100 * done), rate_text(rate), time);
 }
 
-Progress progress_on_stderr(const std::string& step, int64_t texels, std::function<bool()> goes_on)
+Progress progress_on_stderr(const std::string& step, int64_t texels, std::function<bool()> keep_going)
 {
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
     auto timer = std::make_shared<OIIO::Timer>();
@@ -62,14 +62,14 @@ Progress progress_on_stderr(const std::string& step, int64_t texels, std::functi
         const std::string line = progress_line(step, done, seconds, texels);
         if (terminal && (seconds - *last > 0.1 || done >= 1)) {
             *last = seconds;
-            // Padded, so that nothing is left of a longer line.
+            // Padded, to overwrite a longer line.
             std::fprintf(stderr, "\r%-56s%s", line.c_str(), done >= 1 ? "\n" : "");
             s_line_is_open = done < 1;
         } else if (!terminal && int(10 * done) > *last && seconds > 1) {
             *last = int(10 * done);
             std::fprintf(stderr, "%s\n", line.c_str());
         }
-        return goes_on();
+        return keep_going();
     };
 }
 

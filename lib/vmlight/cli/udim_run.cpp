@@ -14,7 +14,7 @@ namespace {
 
 using OIIO::Strutil::fmt::format;
 
-// Names of inputs, that which tells the tiles first.
+// Parameters that name inputs, in the order in which they determine the tiles.
 constexpr const char* kInputs[] = { "mesh", "occluder", "vismap", "albedo", "environment", "cfem", "colorconfig" };
 
 bool is_vismap_recipe(const std::string& name)
@@ -40,12 +40,12 @@ UdimRun<Recipe>::UdimRun(StageMain& stage, Recipe& recipe)
     , m_recipe(recipe)
 {
     stage.group("UDIM tiles:");
-    stage.option("udim", format("{}..{}", kFirstUdim, kLastUdim), "The tile, which <UDIM> in names stands for [1001]",
+    stage.option("udim", format("{}..{}", kFirstUdim, kLastUdim), "Tile to make; replaces <UDIM> in file names [1001]",
                  [&](OIIO::string_view text, std::string& error) {
-                     m_flag = recipe.udim_given = true;
+                     m_udim_flag = recipe.udim_given = true;
                      return set_param(recipe, "udim", text, error);
                  });
-    stage.option("udims", "LIST", "Tiles, 1001-1003,1011: -o holds <UDIM> for the number [all there are]",
+    stage.option("udims", "LIST", "Tiles to make, with <UDIM> in -o: 1001-1003,1011 [all that exist]",
                  [&](OIIO::string_view text, std::string& error) {
                      if (parse_udims(m_udims, std::string(text), error))
                          return true;
@@ -65,42 +65,42 @@ template <class Recipe> auto UdimRun<Recipe>::inputs() const -> std::vector<Inpu
     return found;
 }
 
-// What is wrong with the command line. Sets the tiles, but for those that only a mesh can tell.
+// What is wrong with the command line, or "". Sets the tiles, unless they depend on a mesh.
 template <class Recipe> std::string UdimRun<Recipe>::fault()
 {
     const std::string& output = m_stage.output();
     const std::vector<Input> patterns = inputs();
-    if (m_flag && !m_udims.empty())
-        return "only one of udim and udims may be given";
+    if (m_udim_flag && !m_udims.empty())
+        return "give only one of udim and udims";
     if (!m_udims.empty() && !has_udim_pattern(output) && patterns.empty())
-        return "udims: neither -o nor the name of an input holds <UDIM>";
+        return "udims: no file name contains <UDIM>";
     if (m_udims.size() > 1 && !has_udim_pattern(output))
-        return format("\"{}\": {} tiles need a name with <UDIM> for the number", output, m_udims.size());
-    if (is_one() && !m_recipe.udim_given && !patterns.empty())
-        return format("{}: \"{}\": which tile? --udim says one, <UDIM> in -o asks for all", patterns[0].key,
+        return format("\"{}\": {} tiles need <UDIM> in the file name, for the number", output, m_udims.size());
+    if (is_single_tile() && !m_recipe.udim_given && !patterns.empty())
+        return format("{}: \"{}\": which tile? Pass --udim, or <UDIM> in -o for all", patterns[0].key,
                       patterns[0].name);
     m_tiles = m_udims;
-    if (is_one())
+    if (is_single_tile())
         m_tiles = { udim_of(m_recipe) };
     if constexpr (std::is_same_v<Recipe, LightmapRecipe>)
         if (m_tiles.size() != 1 && is_vismap_recipe(m_recipe.vismap) && !has_udim_pattern(m_recipe.vismap))
-            return format("vismap: \"{}\" is of one tile; did you mean \"{}{}udim=<UDIM>\"?", m_recipe.vismap,
+            return format("vismap: \"{}\" is a single tile; did you mean \"{}{}udim=<UDIM>\"?", m_recipe.vismap,
                           m_recipe.vismap, m_recipe.vismap.find('?') == std::string::npos ? "?" : "&");
     if (!std::is_same_v<Recipe, VismapRecipe> && m_tiles.size() > 1 && patterns.empty())
-        return "udims: no input's name holds <UDIM>: all tiles would be the same picture";
-    return m_tiles.empty() ? find_files() : "";
+        return "udims: no input contains <UDIM>: all tiles would be identical";
+    return m_tiles.empty() ? find_tiles_by_files() : "";
 }
 
-template <class Recipe> std::string UdimRun<Recipe>::find_files()
+template <class Recipe> std::string UdimRun<Recipe>::find_tiles_by_files()
 {
     for (const Input& input : inputs()) {
         const bool is_recipe = is_recipe_name(input.name);
         const std::string pattern = is_recipe ? recipe_path(input.name) : input.name;
         if (input.key == "occluder")
-            continue; // the mesh tells
+            continue; // the mesh determines the tiles
         if (has_udim_pattern(pattern)) {
             m_tiles = existing_udims(pattern);
-            return m_tiles.empty() ? format("{}: \"{}\": there is no such file for any tile", input.key, pattern) : "";
+            return m_tiles.empty() ? format("{}: \"{}\": no files match", input.key, pattern) : "";
         }
         if (input.key == "vismap" && is_vismap_recipe(input.name)) {
             m_vismap = input.name;
@@ -109,7 +109,7 @@ template <class Recipe> std::string UdimRun<Recipe>::find_files()
     }
     if (std::is_same_v<Recipe, VismapRecipe>)
         return "";
-    return format("\"{}\": which tiles? No name of an input tells: give --udim or --udims", m_stage.output());
+    return format("\"{}\": which tiles? No input contains <UDIM>: pass --udim or --udims", m_stage.output());
 }
 
 template <class Recipe> bool UdimRun<Recipe>::find_tiles(const MakeOptions& options, std::string& error)
@@ -128,18 +128,18 @@ template <class Recipe> bool UdimRun<Recipe>::find_tiles(const MakeOptions& opti
         return vismap_udims(m_tiles, recipe, inner, error);
     m_tiles = existing_udims(recipe.mesh);
     if (m_tiles.empty())
-        error = format("\"{}\": mesh: \"{}\": there is no such file for any tile", m_vismap, recipe.mesh);
+        error = format("\"{}\": mesh: \"{}\": no files match", m_vismap, recipe.mesh);
     return !m_tiles.empty();
 }
 
-template <class Recipe> bool UdimRun<Recipe>::each(const Make& make, std::string& error)
+template <class Recipe> bool UdimRun<Recipe>::make_tiles(const Make& make, std::string& error)
 {
-    std::shared_ptr<const BakeScene> scene; // lives as long as the run: tiles of one mesh share it
+    std::shared_ptr<const BakeScene> scene; // shared by all tiles of a mesh
     MakeOptions options = m_stage.make_options();
     options.scene = &scene;
     if (!find_tiles(options, error))
         return false;
-    const bool named = !is_one() || m_recipe.udim_given;
+    const bool named = !is_single_tile() || m_recipe.udim_given;
     for (const int udim : m_tiles) {
         error = output_fault(udim_path(m_stage.output(), udim));
         if (!error.empty())

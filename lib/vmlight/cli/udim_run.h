@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What executables share about UDIM tiles: --udim, --udims and <UDIM> in names; which tiles that means; and one tile
-/// made after the other.
+/// UDIM tiles in executables: --udim, --udims and <UDIM> in file names, and the loop over the tiles that they select.
 #pragma once
 
 #include <vmlight/cli/main.h>
@@ -14,25 +13,24 @@
 
 namespace vmlight {
 
-/// One of --udims, --udim (or the recipe's own `udim`), and <UDIM> in -o tells the tiles. <UDIM> in -o alone asks for
-/// all there are: for a vismap those that its mesh reaches; else those for which there are files of the first input
-/// that holds <UDIM>, or that the mesh reaches if that is the recipe of a vismap.
+/// The tiles come from --udims, --udim (or the recipe's `udim`), or else <UDIM> in -o, which selects all tiles that
+/// exist: for a vismap those that its mesh covers; otherwise those with a file of the first input that contains <UDIM>,
+/// or that the mesh covers if that input is a vismap recipe.
 template <class Recipe> class UdimRun
 {
 public:
-    /// Gives `stage` the flags and the checks of the command line; before the stage's other flags. Both must outlive
-    /// this.
+    /// Adds the flags and checks to `stage`; call it before the stage's own flags are added. Both must outlive this.
     UdimRun(StageMain& stage, Recipe& recipe);
 
-    /// What of this a recipe cannot hold, for StageMain::recipe().
-    std::string unsaid() const { return m_udims.empty() ? "" : "a recipe holds no --udims"; }
+    /// Which of these flags cannot be saved in a recipe, or "": see StageMain::recipe().
+    std::string unsavable() const { return m_udims.empty() ? "" : "--udims cannot be saved in a recipe"; }
 
-    /// Makes and writes one tile: `recipe` with its udim, to `output`. Reads one tile's images at a time.
+    /// Makes one tile, `recipe` with its udim, and writes it to `output`.
     using Make = std::function<bool(const Recipe& recipe, const std::string& output, const MakeOptions& options,
                                     std::string& error)>;
-    /// Call `make` for each tile, ascending; what it says goes with the tile's number. False, with the tile and the
-    /// reason in `error`, at the first that fails; the files of those before it stay.
-    bool each(const Make& make, std::string& error);
+    /// Call `make` for each tile in ascending order; its messages are prefixed with the tile's number. Stops at the
+    /// first failure: returns false, with the tile and the reason in `error`. Files of earlier tiles stay.
+    bool make_tiles(const Make& make, std::string& error);
 
 private:
     struct Input
@@ -40,17 +38,20 @@ private:
         std::string key, name;
     };
     std::vector<Input> inputs() const;
-    bool is_one() const { return m_udims.empty() && (m_recipe.udim_given || !has_udim_pattern(m_stage.output())); }
+    bool is_single_tile() const
+    {
+        return m_udims.empty() && (m_recipe.udim_given || !has_udim_pattern(m_stage.output()));
+    }
     std::string fault();
-    std::string find_files();
+    std::string find_tiles_by_files();
     bool find_tiles(const MakeOptions& options, std::string& error);
 
     StageMain& m_stage;
     Recipe& m_recipe;
-    bool m_flag = false;
-    std::vector<int> m_udims; // of --udims
-    std::vector<int> m_tiles; // to make; none before find_tiles() if only a mesh can tell
-    std::string m_vismap; // the recipe whose mesh tells; "" is this one's
+    bool m_udim_flag = false;
+    std::vector<int> m_udims; // from --udims
+    std::vector<int> m_tiles; // to make; empty until find_tiles() if they depend on a mesh
+    std::string m_vismap; // the recipe whose mesh they depend on; "" for m_recipe
 };
 
 #define VMLIGHT_INSTANTIATE(Recipe) extern template class UdimRun<Recipe>;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/cli/stage_command.h>
+
+#include <vmlight/base/output_file.h>
+#include <vmlight/base/utf8.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/uv/udim.h>
+
+#include <OpenImageIO/strutil.h>
+
+namespace vmlight {
+
+using OIIO::Strutil::fmt::format;
+
+std::string StageCommand::output_fault() const
+{
+    return output_kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
+}
+
+// What cannot be saved in a recipe.
+std::string StageCommand::unsavable() const
+{
+    std::vector<std::string> texts = line.operands;
+    for (const auto& [option, text] : line.given)
+        texts.push_back(text);
+    for (const std::string& text : texts)
+        if (!is_utf8(text))
+            return format("\"{}\": not valid UTF-8, which recipes require", text);
+    return recipe.unsavable();
+}
+
+ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
+{
+    if (line.given_recipe() && has_udim_pattern(recipe_path(line.operands[0]))) {
+        error = format("\"{}\": use <UDIM> in the paths of the recipe instead of its name: one recipe makes all tiles",
+                       line.operands[0]);
+        return ExitCode::Usage;
+    }
+    if (line.given_recipe()) {
+        if (!recipe.read(line.operands[0], error))
+            return ExitCode::Failed;
+        fault_of_recipe = recipe.fault();
+    } else {
+        recipe.set_operands(line.operands);
+    }
+    for (const auto& [option, text] : line.given)
+        if (!option->take(text, error))
+            return ExitCode::Usage;
+    return ExitCode::Done;
+}
+
+// Faults of the recipe's file are left to the work, which reports them with their line.
+std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
+{
+    std::string fault;
+    if (prints_recipe)
+        fault = unsavable();
+    else if (output.empty())
+        fault = format("-o {} is missing", line.output_metavar);
+    else if (output_kind == OutputKind::Image)
+        fault = output_name_fault(output);
+    if (fault.empty() && recipe.fault() != fault_of_recipe)
+        fault = recipe.fault();
+    for (const auto& [option, text] : line.given)
+        if (const std::string reason = recipe.unused_reason(option->name); fault.empty() && !reason.empty())
+            fault = format("{}{}: {}", option->flag(), option->metavar.empty() ? "" : " " + text, reason);
+    for (const auto& check : checks)
+        if (fault.empty() && !prints_recipe)
+            fault = check();
+    return fault;
+}
+
+ExitCode StageCommand::parse(int argc, const char** argv, std::string& answer, std::string& error)
+{
+    if (!line.parse(argc, argv, answer, error))
+        return ExitCode::Usage;
+    if (!answer.empty())
+        return ExitCode::Done;
+    std::string fault_of_recipe;
+    const ExitCode applied = apply(fault_of_recipe, error);
+    if (applied != ExitCode::Done)
+        return applied;
+    error = usage_fault(fault_of_recipe);
+    if (error.empty() && prints_recipe)
+        answer = recipe.text();
+    return error.empty() ? ExitCode::Done : ExitCode::Usage;
+}
+
+} // namespace vmlight

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a command line asks for: operands or a recipe, then flags, checked as a whole before any work starts.
+#pragma once
+
+#include <vmlight/base/params.h>
+#include <vmlight/cli/command_line.h>
+#include <vmlight/cli/exit_code.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// What -o names: an EXR, or a folder, which is created if necessary.
+enum class OutputKind
+{
+    Image,
+    Folder
+};
+
+/// Parameters of every executable that writes an image.
+struct FileParams
+{
+    std::string format = "float";
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("format", format, Choices { { { "float", "32 bits per channel" }, { "half", "16 bits per channel" } } },
+              "Pixel format of the output file");
+    }
+};
+
+/// Parameters of every executable.
+struct RunParams
+{
+    int threads = 0;
+    bool quiet = false;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("threads", threads, Range { 0, 1024 }, "Number of threads; 0: one per core");
+        field("quiet", quiet, Flag {}, "Print only warnings and errors");
+    }
+};
+
+/// The stage's recipe, whatever its type. The defaults are those of an executable without recipes.
+struct RecipeAccess
+{
+    /// Store the operands, none of which is a recipe of the stage.
+    std::function<void(const std::vector<std::string>&)> set_operands = [](const auto&) {};
+    /// Which of the given flags cannot be saved in a recipe, or "".
+    std::function<std::string()> unsavable = [] { return std::string(); };
+    std::function<bool(const std::string& name, std::string& error)> read;
+    /// What is wrong with the recipe as a whole, or "".
+    std::function<std::string()> fault = [] { return std::string(); };
+    /// The recipe as TOML.
+    std::function<std::string()> text;
+    /// Why the parameter has no effect with the others as they are, or "".
+    std::function<std::string(const std::string& name)> unused_reason = [](const auto&) { return std::string(); };
+};
+
+struct StageCommand
+{
+    CommandLine line;
+    RecipeAccess recipe;
+    OutputKind output_kind = OutputKind::Image;
+    /// Further checks, which return what is wrong, or "". Skipped if only a recipe is printed.
+    std::vector<std::function<std::string()>> checks;
+
+    std::string output;
+    bool prints_recipe = false;
+    FileParams file;
+    RunParams common;
+
+    /// Parse the command line: the operands or the recipe first, then the flags, which override it.
+    ///
+    /// @param answer   set to the text to print instead of working: help and the like, or the recipe
+    /// @returns Done, or the exit code with the reason in `error`
+    ExitCode parse(int argc, const char** argv, std::string& answer, std::string& error);
+
+    /// Why the output cannot be written now, or "".
+    std::string output_fault() const;
+
+private:
+    ExitCode apply(std::string& fault_of_recipe, std::string& error);
+    std::string usage_fault(const std::string& fault_of_recipe) const;
+    std::string unsavable() const;
+};
+
+} // namespace vmlight
