@@ -60,8 +60,7 @@ TEST_F(Light, AoNeedsNormals)
 {
     done("makevismap {spot} -o vm.exr --resolution 64 --samples 16");
     done("makecfem {sky} -o cfem.exr --resolution 64");
-    refused(1, "which makevismap --channels normal adds",
-            "makelightmap vm.exr cfem.exr --model ao -o lit.exr");
+    refused(1, "which makevismap --channels normal adds", "makelightmap vm.exr cfem.exr --model ao -o lit.exr");
     done("makevismap {spot} -o vmn.exr --resolution 64 --samples 16 --channels normal");
     done("makelightmap vmn.exr cfem.exr --model ao -o lit.exr");
     write("n.vismap", "mesh = \"" + kSpot + "\"\nresolution = 64\nsamples = 16\nchannels = [\"normal\"]\n");
@@ -101,7 +100,7 @@ TEST_F(Light, ABasisLightsByTheModelOfItsName)
             done(bake + " --order 3 --format half -o half.exr");
             done("makelightmap half.exr stack.exr -o x.exr");
         } else {
-            refused(2, "--format half: the basis " + basis + " holds whole numbers that half cannot store exactly",
+            refused(2, "--format half: the basis " + basis + " stores integers that half cannot represent; use float",
                     bake + " --format half -o half.exr");
             refused(1, "no longer whole numbers below 2^24", "makelightmap small.exr stack.exr -o x.exr");
         }

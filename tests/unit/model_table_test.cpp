@@ -41,7 +41,7 @@ TEST(ModelTable, NamesAndRanksAreUniqueAndPhrasesAreShort)
         EXPECT_EQ(find_model_entry(model.name), &model);
     }
     EXPECT_EQ(find_model_entry("auto"), nullptr);
-    EXPECT_EQ(model_choices().words.size(), names.size());
+    EXPECT_EQ(model_choices().choices.size(), names.size());
 }
 
 TEST(ModelTable, EachModelShadesTheMapThatItsRowBakes)
@@ -94,7 +94,7 @@ TEST(BasisTable, EachBasisFillsItsChannels)
             EXPECT_EQ(holds_whole_numbers(channel), basis.whole_numbers);
         }
     }
-    EXPECT_EQ(basis_choices().words.size(), names.size());
+    EXPECT_EQ(basis_choices().choices.size(), names.size());
 }
 
 TEST(BasisTable, AParameterOfAnotherBasisIsUnused)

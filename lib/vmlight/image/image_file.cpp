@@ -32,7 +32,7 @@ struct WriteProgress
     {
         WriteProgress& self = *static_cast<WriteProgress*>(watch);
         self.stopped = self.stopped || (self.progress && !self.progress(double(done)));
-        return self.stopped || !self.file.sound();
+        return self.stopped || !self.file.ok();
     }
 };
 
@@ -142,30 +142,31 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     OutputFile file(path);
     const auto failed = [&](const std::string& reason) {
         // The temporary file's name means nothing to the user.
-        error = oiio::with_path(path, OIIO::Strutil::replace(reason, file.temporary(), path, true));
+        error = oiio::with_path(path, OIIO::Strutil::replace(reason, file.temporary_path(), path, true));
         return false;
     };
     auto out = OIIO::ImageOutput::create("openexr");
     if (!out)
         return failed(OIIO::geterror());
-    if (!file.sound())
+    if (!file.ok())
         return failed(file.reason());
     const int count = int(specs.size());
     if (!out->set_ioproxy(&file)
-        || !(count == 1 ? out->open(file.temporary(), specs[0]) : out->open(file.temporary(), count, specs.data())))
+        || !(count == 1 ? out->open(file.temporary_path(), specs[0])
+                        : out->open(file.temporary_path(), count, specs.data())))
         return failed(oiio::error_line(*out));
     WriteProgress watch { progress, file };
     bool written = true;
     for (int i = 0; i < count && written && !watch.stopped; ++i)
-        written = (i == 0 || out->open(file.temporary(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
+        written = (i == 0 || out->open(file.temporary_path(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
             && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
                                 OIIO::AutoStride, WriteProgress::report, &watch);
     const bool closed = out->close();
     if (watch.stopped)
         return failed("interrupted");
-    if (file.sound() && (!written || !closed))
+    if (file.ok() && (!written || !closed))
         return failed(oiio::error_line(*out));
-    return file.keep() || failed(file.reason());
+    return file.commit() || failed(file.reason());
 }
 
 } // namespace vmlight
