@@ -9,6 +9,7 @@
 #include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
@@ -174,7 +175,7 @@ bool StageMain::write(const OIIO::ImageBuf& image, const std::string& path, std:
 bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error)
 {
     for (const OIIO::ImageBuf& image : images)
-        if (m_state->file.format == "half" && !(error = half_fault(image.spec())).empty()) {
+        if (pixel_format() == "half" && !(error = half_fault(image.spec())).empty()) {
             error = OIIO::Strutil::fmt::format("\"{}\": {}", path, error);
             return false;
         }

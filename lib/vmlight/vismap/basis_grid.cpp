@@ -14,7 +14,7 @@ template <Pack kPack> class GridAccumulator : public BasisAccumulator
 public:
     void project(const TexelRays& rays, float* dst) override
     {
-        m_grid.take(rays.fan, rays.traced);
+        m_grid.set_rays(rays.fan, rays.traced);
         (m_grid.*kPack)(dst, Imath::V3d(rays.normal), Imath::V3d(rays.geometric_normal));
     }
 
