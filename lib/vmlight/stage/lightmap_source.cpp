@@ -138,7 +138,8 @@ private:
             if (!read_all(cfem.emplace_back(), *m_inputs.cfem, error, image))
                 return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
-            error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
+            if (cfem[0].name().empty()) // a file's image names itself
+                error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
         }
         m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes());

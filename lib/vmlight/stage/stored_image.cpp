@@ -139,6 +139,8 @@ public:
         return true;
     }
 
+    const std::string& path() const { return m_path; }
+
     // The whole image, bypassing the block cache.
     bool read_file(int subimage, float* dst, int threads, std::string& error)
     {
@@ -214,13 +216,14 @@ bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int 
     error = memory_shortage(spec);
     if (!error.empty())
         return false;
-    dst.reset(spec, OIIO::InitializePixels::No);
+    auto* const file = dynamic_cast<StoredImage*>(&source);
+    dst.reset(file ? file->path() : "", spec, OIIO::InitializePixels::No);
     auto* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels) {
         error = format("out of memory for {}x{} pixels", spec.width, spec.height);
         return false;
     }
-    if (auto* file = dynamic_cast<StoredImage*>(&source))
+    if (file)
         return file->read_file(subimage, pixels, oiio_threads, error);
     return source.read_of(subimage, OIIO::get_roi(spec), pixels, error);
 }

@@ -15,7 +15,7 @@ namespace vmlight {
 /// image of a file with several; of a CFEM stack, read_all() and make() read the others too.
 PixelSourcePointer open_stored_image(const std::string& path, std::string& error);
 
-/// Read all pixels of `source` as float; `dst` has no name. Runs on the calling thread, except that `oiio_threads`
+/// Read all pixels of `source` as float; `dst` has the name of the file, if it is one. Runs on the calling thread, except that `oiio_threads`
 /// threads may decode a file (0: OIIO's default). With 1 it never waits for OIIO's thread pool, as callers that hold a
 /// lock need.
 bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage = 0, int oiio_threads = 1);
