@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Shading of a 1024x1024 visibility map with a 256x128 CFEM, memory to memory, against the time it takes to stream
-/// the same bytes: 16 read and 12 written a texel.
+/// the same bytes: 16 read and 12 written per texel.
 ///
-/// Counters: ns a texel, and ratios to a run of the other kind taken in turn with it, so that both see the same
+/// Counters: ns per texel, and ratios to a run of the other kind taken in turn with it, so that both see the same
 /// machine. Times are the best of the run. Two contents: `smooth`, where neighbours look along like directions, as in a
 /// baked chart; `random`, where each texel looks anywhere, the worst case for the cache that holds the CFEM.
 #include <vmlight/cfem/stack.h>

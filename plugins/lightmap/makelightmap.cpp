@@ -23,7 +23,7 @@ int main(int argc, const char** argv)
     UdimRun tiles(stage, recipe);
     stage.params("Light:", recipe.lightmap_params);
     stage.group("Frames:");
-    stage.option("frames", "RANGE", "Frames to make, with #### in -o: 1-48", [&](auto text, auto& error) {
+    stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o", [&](auto text, auto& error) {
         animation.has_frames = true;
         return parse_frames(animation.frames, std::string(text), error);
     });

@@ -140,7 +140,7 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
             return false;
         const int64_t covered = covered_texels(environment.reference);
         if (covered < kMinTexels)
-            error = format("the mesh covers {} of {}x{} texels, at least {} are needed: raise --resolution", covered,
+            error = format("the mesh covers {} of {}x{} texels; at least {} are needed: raise --resolution", covered,
                            params.side(), params.side(), kMinTexels);
         else if (const int lit = lit_batches(environment.reference); lit < 2)
             error = format("\"{}\": {}", environment.path,

@@ -14,7 +14,7 @@ using OIIO::Strutil::fmt::format;
 
 constexpr double kTargets[] = { 0.01, 0.05, 0.10 };
 constexpr int kManyPictures = 100;
-constexpr const char* kTooNoisy = "the reference is too noisy for a verdict";
+constexpr const char* kTooNoisy = "the reference is too noisy to tell";
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -47,7 +47,7 @@ std::string setting_text(const Setting& setting)
     if (setting.cfem_width && setting.cfem_width != default_setting(setting.model).cfem_width)
         text += format(", light {} wide", setting.cfem_width);
     if (setting.divisor > 1)
-        text += format(", map 1/{} the size", setting.divisor);
+        text += format(", map at 1/{} size", setting.divisor);
     return text + (setting.storage == "half" ? ", half" : "");
 }
 

@@ -69,7 +69,7 @@ TEST_F(Cost, ADarkEnvironmentAndATinyMeshAreRefused)
     result = run("vmcost tiny.obj sky.exr -o report" + small);
     EXPECT_EQ(result.code, 1);
     EXPECT_THAT(result.err,
-                ContainsRegex("the mesh covers [0-9]+ of 16x16 texels, at least 64 are needed: raise --resolution"));
+                ContainsRegex("the mesh covers [0-9]+ of 16x16 texels; at least 64 are needed: raise --resolution"));
 }
 
 TEST_F(Cost, LightOnASingleTexelIsRefused)

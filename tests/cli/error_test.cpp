@@ -112,7 +112,7 @@ TEST_F(Errors, ATimeIsNoPartOfARecipe)
     EXPECT_THAT(recipe, HasSubstr("target_error = 0.05\nchannels = [\"normal\", \"error\"]\n"));
     write("hero.vismap", recipe);
     error_line(done("makevismap hero.vismap -o a.exr"));
-    refused(2, "--time-budget 1: target_error says", "makevismap hero.vismap -o x.exr --time-budget 1");
+    refused(2, "--time-budget 1: target_error sets", "makevismap hero.vismap -o x.exr --time-budget 1");
     done("makevismap hero.vismap -o a.exr --target-error none --samples 4");
     EXPECT_EQ(samples("a.exr"), "4");
     write("time.vismap", "time_budget = 1\n");

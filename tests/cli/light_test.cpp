@@ -102,7 +102,7 @@ TEST_F(Light, ABasisLightsByTheModelOfItsName)
         } else {
             refused(2, "--format half: the basis " + basis + " stores integers that half cannot represent; use float",
                     bake + " --format half -o half.exr");
-            refused(1, "no longer whole numbers below 2^24", "makelightmap small.exr stack.exr -o x.exr");
+            refused(1, "no longer whole and below 2^24", "makelightmap small.exr stack.exr -o x.exr");
         }
         EXPECT_NE(attribute("b.exr", "vmlight:cfem_resolution"), "");
         EXPECT_EQ(attribute("b.exr", "vmlight:cfem_filter"), ""); // which was not used
@@ -153,7 +153,7 @@ TEST_F(Light, TheSameLightInTwoColourSpacesGivesTheSameMap)
     done("makelightmap vm.exr sky_acescg.exr --colorconfig {config} -o b.exr --colorspace ACEScg");
     expect_same_pixels("a.exr", "b.exr", 1e-4f);
     refused(1, "Nonsense", "makelightmap vm.exr {sky} --colorconfig {config} -o x.exr --colorspace Nonsense");
-    refused(1, "none is set (--colorconfig or $OCIO)", "makecfem {sky} --colorspace ACEScg -o x.exr");
+    refused(1, "needs an OCIO config: set --colorconfig or $OCIO", "makecfem {sky} --colorspace ACEScg -o x.exr");
     refused(1, "missing.ocio", "makecfem {sky} --colorconfig missing.ocio -o x.exr");
 }
 
@@ -208,6 +208,7 @@ TEST_F(Light, BadPixelsAreRefusedUnlessSanitizeIsGiven)
     write("bad.pfm", "PF\n8 4\n-1.0\n" + rows);
     refused(1, "environment has 3 values that are NaN, infinite or negative, the first at pixel (2, ",
             "makecfem bad.pfm -o x.exr");
-    EXPECT_THAT(done("makecfem bad.pfm -o x.exr --sanitize"), HasSubstr("3 bad values of the environment were mended"));
+    EXPECT_THAT(done("makecfem bad.pfm -o x.exr --sanitize"),
+                HasSubstr("3 bad values of the environment were repaired"));
     expect_finite("x.exr");
 }

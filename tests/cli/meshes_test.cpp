@@ -77,7 +77,7 @@ TEST_F(Meshes, SurprisesAreWarnedAboutWithTheirCounts)
           replace(kQuad, "f 1/1/1 2/2/1 3/3/1 4/4/1\n", "vt 2 2\n" + triangle + triangle + "f 1/1/1 2/2/1 3/5/1\n"));
     const std::string printed = done("makevismap one.obj -o x.exr --resolution 1 --samples 4");
     EXPECT_THAT(printed, HasSubstr("uv: 3 triangles cover"));
-    EXPECT_THAT(printed, HasSubstr("; 1 texel overlaps;"));
+    EXPECT_THAT(printed, HasSubstr("; 1 texel is shared;"));
     EXPECT_THAT(printed,
                 HasSubstr("WARNING: 1 texel (100.00 % of the covered ones) belongs to more than one triangle: the "
                           "first triangle in the file wins"));

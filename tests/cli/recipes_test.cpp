@@ -126,12 +126,12 @@ TEST_F(Recipes, AMissingInputIsNamedWithTheLineThatNamesIt)
     write("a.lightmap", "exposure = 1\n");
     refused(1, "\"a.lightmap\": vismap is missing", "makelightmap a.lightmap -o x.exr");
     write("b.lightmap", "vismap = \"vm.exr\"\n");
-    refused(1, "\"b.lightmap\": environment is missing, or cfem", "makelightmap b.lightmap -o x.exr");
+    refused(1, "\"b.lightmap\": environment or cfem is missing", "makelightmap b.lightmap -o x.exr");
     write("c.lightmap", "vismap = \"vm.exr\"\n\nenvironment = \"gone.exr\"\n");
     refused(1, "\"c.lightmap\" line 3: environment: \"gone.exr\": no such file", "makelightmap c.lightmap -o x.exr");
     refused(1, "ERROR: \"other.exr\": no such file", "makelightmap c.lightmap --environment other.exr -o x.exr");
     write("d.lightmap", "vismap = \"vm.exr\"\nenvironment = \"sky.exr\"\ncfem = \"sky.exr\"\n");
-    refused(1, "\"d.lightmap\" line 3: cfem: environment is given too", "makelightmap d.lightmap -o x.exr");
+    refused(1, "\"d.lightmap\" line 3: cfem: environment is set too", "makelightmap d.lightmap -o x.exr");
     done("makelightmap d.lightmap --environment= -o cleared.exr");
     write("e.vismap", "mesh = \"gone.obj\"\n");
     write("e.lightmap", "vismap = \"e.vismap\"\nenvironment = \"sky.exr\"\n");

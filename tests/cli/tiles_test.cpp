@@ -84,8 +84,8 @@ TEST_F(Tiles, TrianglesAcrossABorderOrOutsideAllTilesAreWarnedAbout)
     write_mesh("odd.obj", { { 0, 0 }, { 1.5, 0 }, { -3, 0 } });
     const std::string printed = done("makevismap odd.obj -o vm.<UDIM>.exr" + small);
     EXPECT_THAT(names("vm"), ElementsAre("vm.1001.exr", "vm.1002.exr", "vm.1003.exr"));
-    EXPECT_THAT(printed, HasSubstr("WARNING: tile 1002: 2 of 6 triangles reach out of tile 1002 in uv"));
-    EXPECT_EQ(count(printed, "2 of 6 triangles reach out of all UDIM tiles"), 1u) << "for each tile again";
+    EXPECT_THAT(printed, HasSubstr("WARNING: tile 1002: 2 of 6 triangles reach outside tile 1002 in UV"));
+    EXPECT_EQ(count(printed, "2 of 6 triangles reach outside all UDIM tiles"), 1u) << "for each tile again";
 }
 
 TEST_F(Tiles, ALightmapOfEachTile)

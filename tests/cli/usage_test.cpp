@@ -116,7 +116,7 @@ TEST_F(Usage, FlagsThatDoNotGoTogetherAreWrongUsageBeforeAnyWork)
         { "matrix: a reflection, not a rotation", mirror },
         { "matrix: not a rotation", "--matrix 1,0,0,0,1,0,0,0,2" },
         { "quaternion: 0,0,0,0 is zero or not finite", "--quaternion 0,0,0,0" },
-        { "environment is given too", "--cfem sky.exr" },
+        { "environment is set too", "--cfem sky.exr" },
         { "--vismap has an empty value", "--vismap ''" },
         { "--environment has an empty value", "--environment ''" },
     };
@@ -130,7 +130,7 @@ TEST_F(Usage, FlagsThatDoNotGoTogetherAreWrongUsageBeforeAnyWork)
     refused(2, " is missing", "makelightmap '' '' -o x.exr");
     // A recipe's fault is not the command line's, unless its flags caused it.
     write("mirror.lightmap", "vismap = \"vm.exr\"\nenvironment = \"sky.exr\"\nmatrix = [-1, 0, 0, 0, 1, 0, 0, 0, 1]\n");
-    refused(1, "\"mirror.lightmap\" line 3: matrix: a mirror", "makelightmap mirror.lightmap -o x.exr");
+    refused(1, "\"mirror.lightmap\" line 3: matrix: a reflection", "makelightmap mirror.lightmap -o x.exr");
     refused(2, "only one of rotate", "makelightmap mirror.lightmap -o x.exr --rotate 0,90,0");
     done("makelightmap mirror.lightmap -o x.exr --rotate 0,90,0 --matrix=");
 }
@@ -147,11 +147,11 @@ TEST_F(Usage, AFlagThatCannotChangeThePictureIsRefused)
         { "--cfem-filter sh: no environment to filter: " + filtered, lit + "--cfem-filter sh" },
         { "--cfem-sanitize: no environment to filter: " + filtered, lit + "--cfem-sanitize" },
         { "--colorspace data: no environment to convert: " + filtered, lit + "--colorspace data" },
-        { "--cfem-resolution 8: there is no environment", environment + "--is-cfem --cfem-resolution 8" },
+        { "--cfem-resolution 8: no environment to filter", environment + "--is-cfem --cfem-resolution 8" },
         { "--crease-angle 30: flat normals", bake + "--normals flat --crease-angle 30" },
-        { "--samples 8: target_error says how many", bake + "--samples 8 --target-error 0.1" },
-        { "--samples 8: time_budget says how many", bake + "--time-budget=1 --samples 8" },
-        { "--time-budget 1: target_error says how many", bake + "--time-budget=1 --target-error=0.1" },
+        { "--samples 8: target_error sets the number", bake + "--samples 8 --target-error 0.1" },
+        { "--samples 8: time_budget sets the number", bake + "--time-budget=1 --samples 8" },
+        { "--time-budget 1: target_error sets the number", bake + "--time-budget=1 --target-error=0.1" },
         { "--resolution 8: width and height", bake + "--resolution 8 --width 4 --height 4" },
     };
     for (const auto& [error, line] : cases)

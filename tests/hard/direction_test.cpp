@@ -66,7 +66,7 @@ TEST(Arithmetic, VisibilitiesThatAreNone)
         for (float v : { -3.0f, 2.1f, 255.0f, 1e30f }) {
             OIIO::ImageBuf dst;
             EXPECT_FALSE(make_lightmap(dst, one_texel(v, V3f(0, 0.6f, 0)), stack, model(name)));
-            EXPECT_NE(dst.geterror().find("outside [-2, 2] and so not a visibility, at pixel (0, 0)"),
+            EXPECT_NE(dst.geterror().find("outside [-2, 2] and so cannot be visibility, at pixel (0, 0)"),
                       std::string::npos);
         }
         const V3f light = color(lit(one_texel(1, V3f(0, 1.0f / 3, 0)), stack, model(name)));

@@ -169,6 +169,6 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
     const std::string first = R"({"asset":{"version":"1.0"},"scene":"s","scenes":{"s":{"nodes":["a"]}},)"
                               R"("nodes":{"a":{"children":["b"]},"b":{"children":["a"]}}})";
     EXPECT_EQ(refusal(folder, "a.gltf", first), "cannot read as glTF 2.0: Unsupported glTF version: 1.0");
-    EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive: unpack it, and give the mesh in it");
+    EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive: unpack it, and pass the mesh inside");
     row.ours("refused; README lists the formats that are read");
 }

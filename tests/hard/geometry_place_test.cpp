@@ -146,7 +146,7 @@ TEST(Geometry, AnOccluderAtTheEndOfFloat)
     half.each([](const Texel& t, int, int) { EXPECT_NEAR(t.visibility, 0.5, 0.02); });
     EXPECT_FALSE(make_vismap(image, floor, { placed(wall, 1e3) }, map_params(8, 8, 64)));
     EXPECT_EQ(image.geterror(),
-              "\"quad\": vertex 0 is 1e+20 times the size of the baked mesh away; rays reach 1e+18 times at most");
+              "\"quad\": vertex 0 is 1e+20 times the size of the baked mesh away; rays reach at most 1e+18 times");
     row.ours("V = 1/2 beside the first; the second is refused, naming the vertex");
 }
 

@@ -88,14 +88,14 @@ TEST(CostSummary, AnErrorWithinTheNoiseReachesNothingYet)
     EXPECT_EQ(cheapest(points, 0.01), nullptr);
     EXPECT_TRUE(could_reach(points, 0.01));
     EXPECT_EQ(choice_text(points, 0.01),
-              "1.0 %: the reference is too noisy for a verdict; nearest paper, 128 rays, 3.0 % in 3.0 s");
+              "1.0 %: the reference is too noisy to tell; nearest paper, 128 rays, 3.0 % in 3.0 s");
     points[0].rmse = 0.02;
     EXPECT_FALSE(could_reach(points, 0.01));
     EXPECT_EQ(choice_text(points, 0.01), "1.0 %: not reached by any model; nearest paper, 128 rays, 3.0 % in 3.0 s");
     EXPECT_EQ(choice_text(points, 0.05), "5.0 %: paper, 128 rays, 3.0 % in 3.0 s");
     EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("no model reaches it; nearest:"), std::string::npos);
     points[0].rmse = 0;
-    EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("too noisy for a verdict; nearest:"), std::string::npos);
+    EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("too noisy to tell; nearest:"), std::string::npos);
 }
 
 TEST(CostSummary, PointsAreMeansOverEnvironments)

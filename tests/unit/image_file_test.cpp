@@ -176,9 +176,12 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
     for (float value : { 65505.0f, -1e6f }) {
         image.setpixel(3, 4, std::vector<float> { 0, 0, value, 0, 0 });
         EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
-        EXPECT_EQ(error,
-                  "\"" + folder / "a.exr" + "\": channel direction.y reaches " + (value > 0 ? "65505" : "1e+06")
-                      + ", but the maximum of half is 65504: write float");
+        const std::string reached = value > 0 ? "65505" : "1e+06";
+        EXPECT_EQ(
+            error,
+            OIIO::Strutil::fmt::format("\"{}\": channel direction.y reaches {}, but the maximum of half is 65504: "
+                                       "write float",
+                                       folder / "a.exr", reached));
         EXPECT_TRUE(folder.bytes("a.exr") == old);
     }
     image.setpixel(3, 4, std::vector<float> { 0, 0, 0, std::numeric_limits<float>::infinity(), 0 });

@@ -216,7 +216,7 @@ TEST(LightmapBasis, PackedNumbersThatWereFilteredAreRefused)
             ImageBuf vm = baked(name, 8);
             pixels(vm)[3 * vm.nchannels() + 9] = bad;
             EXPECT_EQ(refusal(vm, stack, {}),
-                      std::string("visibility map has 1 value that is no longer whole numbers below 2^24 (was the map "
+                      std::string("visibility map has 1 value that is no longer whole and below 2^24 (was the map "
                                   "resized, mipmapped or stored as half?), at pixel (3, 0) channel \"")
                           + channel + "\"");
         }

@@ -216,7 +216,7 @@ TEST(LightmapModel, ALobeWithoutItsStackIsRefused)
         refusal(vm, map, model("lobe")),
         "model lobe needs a stack of lobes, not a single cosine-filtered environment; make one with makecfem --stack");
     EXPECT_EQ(refusal(vm, OIIO::cspan<ImageBuf>(stack.data(), 5), {}),
-              "a stack of 5 levels instead of 9; make it anew with makecfem --stack");
+              "a stack of 5 levels instead of 9; make it again with makecfem --stack");
     EXPECT_EQ(refusal(vm, with(2, [](ImageBuf& level) { level.specmod().erase_attribute("vmlight:lobe"); }), {}),
               "level 2 of the stack: vmlight:lobe is -1 instead of 0.7374");
     EXPECT_EQ(refusal(vm, with(4, [](ImageBuf& level) { level.specmod().attribute("vmlight:lobe", 0.8f); }), {}),

@@ -86,7 +86,7 @@ TEST(LightmapRefusal, AVisibilityThatIsNoneIsRefusedByEveryModel)
         for (float none : { -2.1f, 2.1f, 255.0f, 1e30f }) {
             EXPECT_FALSE(make_lightmap(dst, with_value(baked, 3, 2, 0, none), light, params));
             EXPECT_EQ(dst.geterror(),
-                      "visibility map has 1 value that is outside [-2, 2] and so not a visibility, at pixel (3, 2) "
+                      "visibility map has 1 value that is outside [-2, 2] and so cannot be visibility, at pixel (3, 2) "
                       "channel \"visibility\"");
         }
     }

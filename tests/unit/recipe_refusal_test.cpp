@@ -54,7 +54,7 @@ TEST(Recipe, RefusesAWrongType)
     EXPECT_EQ(refusal<VismapRecipe>("occluder = [\"\"]"),
               "\"hero.lightmap\" line 1: occluder: one of the names is empty");
     EXPECT_EQ(refusal<VismapRecipe>("occluder = [\"a\\nb\"]"),
-              "\"hero.lightmap\" line 1: occluder: a name in a list cannot hold a line break");
+              "\"hero.lightmap\" line 1: occluder: a name in a list cannot contain a line break");
 }
 
 TEST(Recipe, RefusesAValueOutOfRange)
@@ -82,7 +82,7 @@ TEST(Recipe, RefusesWhatIsNotToml)
     const std::string twice = refusal("rotate = [0, 90, 0]\nexposure = 1\nrotate = [0, 0, 0]");
     EXPECT_EQ(twice.rfind("\"hero.lightmap\" line 3: not TOML: ", 0), 0u) << twice;
     EXPECT_NE(twice.find("cannot redefine existing array 'rotate'"), std::string::npos) << twice;
-    EXPECT_NE(refusal("vismap = hero.exr").find("; texts need quotes"), std::string::npos);
+    EXPECT_NE(refusal("vismap = hero.exr").find("; strings need quotes"), std::string::npos);
     for (const char* text : { "vismap = hero.exr", "vismap: a", "a\nb", "rotate = [0, 90", "\x89PNG\r\n\x1a\n",
                               "vismap = \"\xff\xfe\"", "vismap = \"a", "vismap = [[[[[[[[[[[[[[]]]]]]]]]]]]]]", "= 1",
                               "vismap = ", "vismap = 1 2", "vismap = \"a\" cfem = \"b\"", "[a", "\x01" })
@@ -106,7 +106,7 @@ TEST(Recipe, RefusesWhatItsParserCannotTake)
     for (const char* text : { "[=", "rotate = [ }", "rotate = [ 0, }" }) // asserted against, or assumed never to come
         EXPECT_EQ(refusal(text).rfind("\"hero.lightmap\" line 1: not TOML: ", 0), 0u) << text;
     for (const char* text : { "vismap = \"\"\"a\"\"\"", "vismap = '''a'''" })
-        EXPECT_EQ(refusal(text), "\"hero.lightmap\" line 1: three quotes in a row: a recipe's texts are of one line");
+        EXPECT_EQ(refusal(text), "\"hero.lightmap\" line 1: three quotes in a row: recipe strings are single-line");
 }
 
 TEST(Recipe, AMessageIsOfReadableLength)

@@ -50,7 +50,8 @@ TEST(Recipe, TakesWordsAsAListOrAText)
     EXPECT_EQ(refusal<VismapRecipe>("channels = true"), at + "a boolean where an array of words in quotes is needed");
     EXPECT_EQ(refusal<VismapRecipe>("channels = [1]"), at + "an integer where a word in quotes is needed");
     EXPECT_EQ(refusal<VismapRecipe>("channels = [\"\"]"), at + "one of its words is empty");
-    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal,coverage\"]"), at + "a word in a list cannot hold a comma");
+    EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal,coverage\"]"),
+              at + "a word in a list cannot contain a comma");
     EXPECT_EQ(refusal<VismapRecipe>("channels = [\"normal\", \"normal\"]"), at + "\"normal\" is given twice");
 }
 

@@ -51,7 +51,7 @@ TEST(Rotation, MirrorsScalesAndShearsAreRefused)
     Rotation r;
     std::string error;
     EXPECT_FALSE(rotation_from_matrix(r, { -1, 0, 0, 0, 1, 0, 0, 0, 1 }, error));
-    EXPECT_NE(error.find("a mirror"), std::string::npos) << error;
+    EXPECT_NE(error.find("a reflection"), std::string::npos) << error;
     EXPECT_FALSE(rotation_from_matrix(r, { 2, 0, 0, 0, 2, 0, 0, 0, 2 }, error));
     EXPECT_NE(error.find("not a rotation"), std::string::npos) << error;
     EXPECT_FALSE(rotation_from_matrix(r, { 1, 0.01, 0, 0, 1, 0, 0, 0, 1 }, error));

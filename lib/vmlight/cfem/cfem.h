@@ -22,12 +22,12 @@ struct CfemParams
     std::string filter = "exact";
     /// Bands of the `sh` filter: N keeps l = 0 .. N-1, N*N coefficients per channel.
     int order = 3;
-    /// Pixels. A lat-long map is twice as wide as high; other shapes are allowed. Measured on six scenes under four
-    /// skies (bench/ladder.py): going from 256x128 to 64x32 adds at most .0006 to the error of any model (and reduces
-    /// that of `mask` and `cells`, which read the environment at this size). The default is twice 64 for unoccluded
-    /// texels, where `paper` is exact and only interpolation errs: by at most 0.5 % of the mean light under soft skies
-    /// and 2.6 % under a sun, and half of that at 256x128. A stack of 128x64 also stays in the caches: `lobe`
-    /// takes 1.36 times as long as `paper`, instead of 1.5.
+    /// Pixels. A lat-long map is twice as wide as it is high; other shapes are allowed. Measured on six scenes under
+    /// four skies (bench/ladder.py): going from 256x128 to 64x32 adds at most .0006 to the error of any model (and
+    /// reduces that of `mask` and `cells`, which read the environment at this size). The default is twice that for
+    /// the sake of unoccluded texels, where `paper` is exact and only interpolation errs: by at most 0.5 % of the mean
+    /// light under soft skies and 2.6 % under a sun, and half of that at 256x128. A stack of 128x64 also stays in the
+    /// caches: `lobe` then takes 1.36 times as long as `paper`, instead of 1.5.
     Size resolution { 128, 64 };
     /// Repair bad pixels instead of refusing the image: NaN and infinity become the mean of the valid pixels among
     /// their eight neighbours (0 if there are none), negative values become 0.
@@ -59,12 +59,12 @@ struct CfemParams
 ///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy preserved. Measured error,
 ///                 relative to the map's mean: below 1e-5 on photographed maps, below 5e-5 with a sun of one pixel. Its
 ///                 cost grows with the height of `env` and little with its width: 12 ms for 128x64 from 1024x512, one
-///                 thread. `sh` rings under small bright lights, also below 0.
+///                 thread. `sh` rings under small bright lights, and can go below 0.
 /// @param nthreads 0 means OIIO's default. The result is the same bits for every value.
 /// @returns false, with the reason in `dst.geterror()` and no pixels in `dst`, if a parameter is out of range, `env`
 ///          has no colour, is marked as a cube map or as flipped or rotated, a pixel is NaN, infinite or negative (the
 ///          message has the count, the first place and the flag that repairs them), a result does not fit a float,
-///          memory is too small, or `progress` stopped the work ("interrupted"). Not checked: that `env` is
+///          memory runs out, or `progress` stopped the work ("interrupted"). Not checked: that `env` is
 ///          scene-linear, or a lat-long map at all.
 VMLIGHT_API bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params = {}, int nthreads = 0,
                            const Progress& progress = {});

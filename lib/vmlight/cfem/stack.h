@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Stacks: one environment filtered by lobes from wide to narrow, for models that know how wide the visible part of the
+/// Stacks: one environment filtered by lobes of several widths, for models that know how wide the visible part of the
 /// sky is. A level is filtered with the power lobe
 ///     K(w) = (s + 1) / (2 pi) max(0, w.d)^s,
 /// whose mean direction has the length r = (s + 1) / (s + 2): r = 2/3 is s = 1, the cosine, and so the CFEM; r = 1/2 is
@@ -22,7 +22,7 @@ namespace vmlight {
 constexpr int kStackLevels = 9;
 /// Images of a stack: its lobes, and last the unfiltered environment (radiance.h), r = 1.
 constexpr int kStackImages = kStackLevels + 1;
-/// Above r = 2/3, levels are evenly spaced in sqrt(1 - r), at half the distance of r = 1/2 and 2/3.
+/// Above r = 2/3, levels are evenly spaced in sqrt(1 - r), at half the distance between r = 1/2 and 2/3.
 constexpr double kStackStep = 0.064878256; // (sqrt(1/2) - sqrt(1/3)) / 2
 
 /// r of an image.

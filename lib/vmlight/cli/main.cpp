@@ -50,7 +50,7 @@ void StageMain::accept_recipe(const char* stage, RecipeAccess access)
     const auto take = [this](OIIO::string_view, std::string&) { return m_command.prints_recipe = true; };
     m_command.line.options.insert(
         m_command.line.options.begin() + 1,
-        { "Output:", "print_recipe", "", "Print this command line as a recipe on stdout instead of working", take });
+        { "Output:", "print_recipe", "", "Print this command line as a recipe on stdout, and make no image", take });
 }
 
 void StageMain::group(const std::string& heading)

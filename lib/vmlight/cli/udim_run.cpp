@@ -45,7 +45,7 @@ UdimRun<Recipe>::UdimRun(StageMain& stage, Recipe& recipe)
                      m_udim_flag = recipe.udim_given = true;
                      return set_param(recipe, "udim", text, error);
                  });
-    stage.option("udims", "LIST", "Tiles to make, with <UDIM> in -o: 1001-1003,1011 [all that exist]",
+    stage.option("udims", "LIST", "Tiles to make, such as 1001-1003,1011, with <UDIM> in -o [all that exist]",
                  [&](OIIO::string_view text, std::string& error) {
                      if (parse_udims(m_udims, std::string(text), error))
                          return true;

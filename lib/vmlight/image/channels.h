@@ -40,7 +40,7 @@ VMLIGHT_API std::vector<std::string> numbered_channels(const std::string& basis,
 /// @returns false if a channel is missing, `vmlight:stage` names another stage, or a colour conversion may have damaged
 ///          the map: its `colorInteropID` is a colour space, or its `Software` attribute shows a colour conversion
 ///          (OIIO 2.4 converts data channels too, and the pixels do not show it). An image without `vmlight:stage`
-///          needs the channels only.
+///          needs only the channels.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
 /// Find the colour channels R, G, B. A channel Y, or a single channel other than A or Z, is used for all three.

@@ -28,8 +28,7 @@ struct ColorSettings
 /// integers; the working space. Without a config the working space is linear Rec.709 and only sRGB is converted; a file
 /// that is tagged with another space keeps its pixels and tag.
 ///
-/// @param image    R, G, B (or one channel) are converted; alpha, other channels and pixels that are not finite are
-/// not.
+/// @param image    R, G, B (or one channel) are converted; alpha, other channels and non-finite pixels are not.
 ///                 A converted image becomes float and owns its memory.
 /// @param note     set to a line for the user: "Linear Rec.709 (sRGB) -> ACEScg"
 /// @param error    set if the config cannot be read or lacks a space (it suggests the closest name)

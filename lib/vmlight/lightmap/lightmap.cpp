@@ -95,7 +95,7 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
         target.reset(spec, OIIO::InitializePixels::No);
     }
     if (!target.localpixels()) {
-        error = format("no memory for a lightmap of {}x{} pixels", spec.width, spec.height);
+        error = format("out of memory for a lightmap of {}x{} pixels", spec.width, spec.height);
         return false;
     }
     if (!shade(target, reader, shader, nthreads, progress, error))

@@ -24,7 +24,8 @@ struct LightmapParams
     /// `paper`: V C(R B / |B|). `lobe`: as `paper`, with the environment filtered by a lobe as wide as |B| / V implies,
     /// instead of the cosine; needs a stack (cfem/stack.h). `sh`, `mask`, `cells`: the unfiltered environment, summed
     /// over the visible part of the sky that the further channels of a map describe (VismapParams::basis); need a
-    /// stack, whose last image it is. `auto`: the most accurate of these that map and light allow, never `ao`.
+    /// stack, whose last image is that environment. `auto`: the most accurate of these that map and light allow, never
+    /// `ao`.
     std::string model = "auto";
     /// Rotation of the object in the environment: at most one of these three. Degrees about fixed x, then y, then z; or
     /// 9 numbers, row major, for column vectors; or w, x, y, z.
@@ -75,8 +76,8 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 ///          that rings could cause; a map for `mask` or `cells` no longer holds whole numbers; the result is too large
 ///          for float; or `progress` stopped the work ("interrupted"). Not checked: that `cfem` was filtered with a
 ///          cosine, unless its `vmlight:stage` says otherwise.
-/// Cost: about 3 ns per texel and thread for `paper`, three times that of moving the bytes; `lobe` takes 1.3 times as
-/// long, `sh` 2 to 6, `mask` and `cells` 18 times (bench/lightmap_bench.cpp).
+/// Cost: about 3 ns per texel on one thread for `paper`, 1.9 to 2.4 times that of moving the bytes; `lobe` takes 1.3
+/// times as long, `sh` 2 to 6 times, `mask` and `cells` 18 times (docs/accuracy.md).
 VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& vismap, const OIIO::ImageBuf& cfem,
                                const LightmapParams& params = {}, const OIIO::ImageBuf* albedo = nullptr,
                                int nthreads = 0, const Progress& progress = {});

@@ -47,7 +47,7 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
 {
     dst = {};
     if (levels.size() != kStackLevels) {
-        error = format("a stack of {} levels instead of {}; make it anew with makecfem --stack", levels.size(),
+        error = format("a stack of {} levels instead of {}; make it again with makecfem --stack", levels.size(),
                        kStackLevels);
         return false;
     }

@@ -9,7 +9,7 @@
 
 namespace vmlight {
 
-/// ModelShader::shade(), four floats a texel.
+/// ModelShader::shade(), four floats per texel.
 bool shade_lobe(const LobeLookup& lobes, const ShadeSetup& setup, TexelLayout layout, const float* vismap,
                 size_t texels, float* rgb);
 /// The same, one texel at a time.

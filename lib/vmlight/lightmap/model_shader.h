@@ -47,7 +47,7 @@ public:
     /// Shade a run of texels. Any thread.
     ///
     /// @param vismap   the floats of the model's channels (ShadingModel::channels), texel by texel
-    /// @param rgb      set to three floats a texel; must not overlap `vismap`
+    /// @param rgb      set to three floats per texel; must not overlap `vismap`
     /// @returns false if an input may not have been finite, |V| may be above kLargestVisibility, a number that must be
     ///          whole is not, or a result may be out of float's range: the caller finds out which. Never reads or
     ///          writes outside its arrays, whatever the input.

@@ -22,11 +22,11 @@ constexpr ModelEntry kModels[] = {
       ao_model_channels, nullptr, prepare_paper },
     { "paper", "V times the light around the mean visible direction", ModelLight::cfem, 1, "", "", 0, 0,
       paper_model_channels, nullptr, prepare_paper },
-    { "lobe", "as paper, with a lobe as wide as the visible part of the sky", ModelLight::lobes, 2, "", "", 0, 0,
+    { "lobe", "like paper, with a lobe as wide as the visible part of the sky", ModelLight::lobes, 2, "", "", 0, 0,
       paper_model_channels, nullptr, prepare_lobe },
     { "sh", "light and visibility in spherical harmonics", ModelLight::radiance, 3, "sh", "", 0, 0, sh_model_channels,
       has_sh, prepare_sh },
-    { "mask", "light within the visible range of heights of 16 longitudes", ModelLight::radiance, 4, "mask", "",
+    { "mask", "light within the visible range of heights in each of 16 longitudes", ModelLight::radiance, 4, "mask", "",
       kMaskFloats, 3, mask_model_channels, has_mask, prepare_mask },
     { "cells", "light of 144 cells of the sphere, each weighted by visibility", ModelLight::radiance, 5, "cells", "",
       kCellsFloats, 3, cells_model_channels, has_cells, prepare_cells },
@@ -65,7 +65,7 @@ const ModelEntry* find_model_entry(const std::string& name)
 
 Choices model_choices()
 {
-    Choices choices { { { "auto", "the most accurate model that map and light allow" } } };
+    Choices choices { { { "auto", "the most accurate model that the map and the light allow" } } };
     for (const ModelEntry& entry : kModels)
         choices.choices.push_back({ entry.name, entry.phrase });
     return choices;

@@ -170,16 +170,15 @@ std::string LightmapShader::fault_text(const ShadeFaults& faults, const std::str
     if (faults.vismap.any())
         return led_by(vismap_name, faults.vismap.describe("visibility map", "not finite", m_model.channels));
     if (faults.visibility.any())
-        return led_by(
-            vismap_name,
-            faults.visibility.describe("visibility map", "outside [-2, 2] and so not a visibility", m_model.channels));
+        return led_by(vismap_name,
+                      faults.visibility.describe("visibility map", "outside [-2, 2] and so cannot be visibility",
+                                                 m_model.channels));
     if (faults.packed.any())
-        return led_by(
-            vismap_name,
-            faults.packed.describe("visibility map",
-                                   "no longer whole numbers below 2^24 (was the map resized, mipmapped or stored "
-                                   "as half?)",
-                                   m_model.channels));
+        return led_by(vismap_name,
+                      faults.packed.describe("visibility map",
+                                             "no longer whole and below 2^24 (was the map resized, mipmapped or stored "
+                                             "as half?)",
+                                             m_model.channels));
     if (faults.albedo.any())
         return led_by(albedo_name, m_albedo->fault_text(faults.albedo));
     return faults.result.describe("lightmap", "too large for float", std::array { "R", "G", "B" });

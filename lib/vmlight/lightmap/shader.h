@@ -54,7 +54,7 @@ public:
     /// Shade the pixels of `roi`. Any thread, with a `scratch` of its own.
     ///
     /// @param vismap   the floats of the model's channels, texel by texel
-    /// @param rgb      set to three floats a texel
+    /// @param rgb      set to three floats per texel
     /// @param faults   bad values are added
     void shade(OIIO::ROI roi, TexelLayout layout, const float* vismap, float* rgb, std::vector<float>& scratch,
                ShadeFaults& faults) const;

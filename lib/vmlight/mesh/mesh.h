@@ -55,10 +55,10 @@ struct MeshParams
                           { "flat", "one per triangle" } } },
               "Vertex normals");
         field("crease_angle", crease_angle, Range { 0, 180 },
-              advanced("Smooth normals: keep edges sharper than this hard, in degrees"));
+              advanced("With smooth normals: edges sharper than this, in degrees, stay hard"));
         field("uv_set", uv_set, Range { 0, 7 }, "UV set to bake; 0 is the first");
         field("up", up,
-              Choices { { { "file", "from the file's metadata, else y" },
+              Choices { { { "file", "from the file's metadata, otherwise y" },
                           { "y", "y is up: no rotation" },
                           { "z", "z is up: rotate to y up" } } },
               "Up axis of the mesh");

@@ -174,7 +174,7 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
     float* pixels = static_cast<float*>(dst.localpixels());
     const int width = dst.spec().width, height = dst.spec().height;
     if (!pixels)
-        return fail_with(dst, format("no memory for {}x{} texels", width, height));
+        return fail_with(dst, format("out of memory for {}x{} texels", width, height));
     const float length
         = map.max_distance > 0 ? float(map.max_distance * scene.frame().scale) : std::numeric_limits<float>::infinity();
     const double gain = std::exp2(light.exposure);

@@ -19,7 +19,7 @@ class BakeScene;
 
 struct ReferenceParams
 {
-    /// Pairs of rays per texel: one distributed as the cosine, one as the environment.
+    /// Pairs of rays per texel: one ray distributed like the cosine, one like the environment.
     int samples = 1024;
     int seed = 0;
     /// As CfemParams::sanitize.
@@ -42,14 +42,14 @@ struct ReferenceParams
 /// @param dst      set to a float image of the size of `map`, in the units of `env`: `R`, `G`, `B`, their standard
 ///                 errors `error.R`, `error.G`, `error.B`, and `coverage`: 1 where a triangle covers the texel, else 0
 ///                 and black. Without a margin
-/// @param occluders meshes in the same space that cast and are not shaded
+/// @param occluders meshes in the same space that occlude and are not shaded
 /// @param env      a lat-long map in linear light, as for make_cfem(): pixels are constant over their area
 /// @param map      size, UDIM tile and maximum distance, as for a visibility map of the same texels; its rays and
 ///                 measure have no effect
 /// @param light    rotation and exposure; the model has no effect
 /// @param nthreads 0 means OIIO's default. The result is the same bits for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no triangle or no
-///          uvs, `env` has no colour or bad pixels, memory runs out, or `progress` stopped the work ("interrupted").
+///          uvs, `env` lacks colour or has bad pixels, memory runs out, or `progress` stopped the work ("interrupted").
 /// Source: E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 9.2 (balance
 /// heuristic).
 VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders,

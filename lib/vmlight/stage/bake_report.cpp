@@ -88,7 +88,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         "{} without area in UV, {} in space, {} without UVs",
         uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
         percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
-        plural(report.overlapping, "texel overlaps", "texels overlap"), uv.outside - uv.fully_outside, tile,
+        plural(report.overlapping, "texel is shared", "texels are shared"), uv.outside - uv.fully_outside, tile,
         uv.fully_outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
     say(format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
                double(report.rays) * 1e-6, report.bake_seconds,

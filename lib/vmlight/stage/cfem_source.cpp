@@ -69,7 +69,7 @@ public:
         const ImageRange range = radiance ? ImageRange { kStackLevels, 1 } : ImageRange { 0, kStackLevels };
         auto& images = radiance ? m_radiance : m_cfem;
         if (!(radiance ? m_reduce : m_make)
-                 .run([&](std::string& reason) { return filter(images, range, {}, 1, reason); }, error))
+                 .run([&](std::string& reason) { return filter(images, range, {}, true, reason); }, error))
             return false;
         // Not get_pixels(): it waits for OIIO's thread pool, and the caller may hold a lock.
         const auto* pixels = static_cast<const float*>(images[radiance ? 0 : size_t(subimage)].localpixels());
@@ -82,7 +82,7 @@ public:
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
               std::string& error) override
     {
-        return filter(dst, range, options, options.threads, error);
+        return filter(dst, range, options, false, error);
     }
 
     bool failed() const override { return m_make.failed() || m_reduce.failed(); }
@@ -90,13 +90,13 @@ public:
 
 private:
     // The last image of a stack, the environment itself, needs no filter: reading only that one does only that work.
-    bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options, int oiio_threads,
+    bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options, bool under_lock,
                 std::string& error)
     {
         OIIO::ImageBuf held; // the pixels of `environment`, unless they are streamed
         std::optional<Environment> environment;
         std::string note;
-        if (!open(environment, held, options, oiio_threads, note, error))
+        if (!open(environment, held, options, under_lock, note, error))
             return false;
         const OIIO::ImageSpec& spec = environment->spec();
         const int width = spec.width, height = spec.height;
@@ -120,7 +120,7 @@ private:
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
                               m_spec.height, timer()));
         if (const int mended = dst[0].spec().get_int_attribute("vmlight:sanitized"))
-            options.report_warning(format("{} of the environment {} mended",
+            options.report_warning(format("{} of the environment {} repaired",
                                           count_text(mended, "bad value", "bad values"),
                                           plural(mended, "was", "were")));
         return true;
@@ -134,7 +134,10 @@ private:
         if (m_recipe.stack && range.first < kStackLevels) {
             const bool all = range.first + range.count > kStackLevels;
             const auto make = all ? make_cfem_stack : make_lobes;
-            return make(dst, environment, params, error, options.threads, progress);
+            if (!make(dst, environment, params, error, options.threads, progress))
+                return false;
+            dst.resize(std::min(dst.size(), size_t(range.count)));
+            return true;
         }
         dst.resize(1);
         if (m_recipe.stack)
@@ -145,18 +148,20 @@ private:
         return false;
     }
 
-    bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, const MakeOptions& options, int oiio_threads,
+    bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, const MakeOptions& options, bool under_lock,
               std::string& note, std::string& error)
     {
         const std::string& name = m_recipe.environment;
         if (is_too_large_to_hold(m_environment->spec()))
             return stream_environment(dst, m_environment, name, m_color, note, error);
         dst.emplace(held);
-        if (!read_all(held, *m_environment, error, 0, oiio_threads)) {
-            error = with_location(m_recipe, "environment", options.chain, error);
+        if (under_lock) // OIIO's loops on this thread alone
+            return read_all(held, *m_environment, error) && to_scene_linear(held, name, m_color, note, error, 1);
+        std::vector<OIIO::ImageBuf> images;
+        if (!make_input(images, *m_environment, {}, m_recipe, "environment", name, options, error))
             return false;
-        }
-        return to_scene_linear(held, name, m_color, note, error, oiio_threads);
+        held = std::move(images[0]);
+        return to_scene_linear(held, name, m_color, note, error, options.threads);
     }
 
     const CfemRecipe m_recipe;

@@ -138,8 +138,7 @@ private:
             if (!read_all(cfem.emplace_back(), *m_inputs.cfem, error, image))
                 return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
-            if (cfem[0].name().empty()) // a file's image names itself
-                error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
+            error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
         }
         m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes());

@@ -16,8 +16,7 @@ namespace vmlight {
 /// Make a stage.
 ///
 /// @param dst      set to the image, as make_vismap(), make_cfem() and make_lightmap() make it; the metadata of a
-/// vismap
-///                 include the parameters of its mesh
+///                 vismap also include the parameters of its mesh
 /// @returns false, with the reason in `dst.geterror()` (and the recipe's line, where that sets the input), if an input
 ///          is missing, cannot be read or made, or is of the wrong kind, or if a recipe reads itself through others.
 VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const VismapRecipe& recipe, const MakeOptions& options = {});

@@ -65,6 +65,21 @@ bool is_unchanged(const std::string& stamp, const std::string& path, std::string
     return stamp == path + "\n" || check_stamp(stamp, path, error); // a bare name cannot change
 }
 
+// A float image of `spec`, its pixels not set. `name` is for messages.
+bool allocate(OIIO::ImageBuf& dst, const std::string& name, OIIO::ImageSpec spec, std::string& error)
+{
+    spec.set_format(OIIO::TypeFloat);
+    error = memory_shortage(spec);
+    if (error.empty()) {
+        dst.reset(name, spec, OIIO::InitializePixels::No);
+        if (!dst.localpixels())
+            error = format("out of memory for {}x{} pixels", spec.width, spec.height);
+    }
+    if (!error.empty() && !name.empty())
+        error = format("\"{}\": {}", name, error);
+    return error.empty();
+}
+
 class StoredImage : public PixelSource
 {
 public:
@@ -129,35 +144,48 @@ public:
         return error.empty();
     }
 
+    // What is in the file now: an hour may have passed since it was opened, and a change of its time alone must not
+    // fail the run.
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
               std::string& error) override
     {
         dst.clear();
         for (int image = range.first; image < range.first + range.count; ++image)
-            if (!read_all(dst.emplace_back(), *this, error, image, options.threads))
+            if (!allocate(dst.emplace_back(), m_path, spec_of(image), error)
+                || !read_file(image, static_cast<float*>(dst.back().localpixels()), options.threads, error))
                 return false;
         return true;
     }
 
-    const std::string& path() const { return m_path; }
-
-    // The whole image, bypassing the block cache.
-    bool read_file(int subimage, float* dst, int threads, std::string& error)
+    // The image as it was when it was opened, bypassing the block cache.
+    bool read_unchanged(int subimage, float* dst, std::string& error)
     {
-        const auto file = OIIO::ImageInput::open(m_path);
-        if (!is_unchanged(key(), m_path, error))
-            return false;
-        if (file)
-            file->threads(threads);
-        if (file && file->read_image(subimage, 0, 0, spec_of(subimage).nchannels, OIIO::TypeFloat, dst))
-            return true;
-        error = oiio::with_path(m_path, file ? file->geterror() : OIIO::geterror());
-        return false;
+        return is_unchanged(key(), m_path, error) && read_file(subimage, dst, 1, error);
     }
+    const std::string& path() const { return m_path; }
 
     bool failed() const override { return m_open.failed(); }
 
 private:
+    bool read_file(int subimage, float* dst, int threads, std::string& error) const
+    {
+        const auto file = OIIO::ImageInput::open(m_path);
+        if (!file || !file->seek_subimage(subimage, 0)) {
+            error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
+            return false;
+        }
+        const OIIO::ImageSpec& spec = spec_of(subimage);
+        if (OIIO::get_roi(file->spec()) != OIIO::get_roi(spec) || file->spec().channelnames != spec.channelnames) {
+            error = format("\"{}\": changed since it was opened", m_path);
+            return false;
+        }
+        file->threads(threads);
+        if (file->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst))
+            return true;
+        error = oiio::named_reason(m_path, file->geterror());
+        return false;
+    }
+
     // Thrown through the cache, which keeps no failures: the next read fails again.
     using BadBlock = std::runtime_error;
 
@@ -209,23 +237,14 @@ PixelSourcePointer open_stored_image(const std::string& path, std::string& error
     return image->open(error) ? keep_source(image) : nullptr;
 }
 
-bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage, int oiio_threads)
+bool read_all(OIIO::ImageBuf& dst, PixelSource& source, std::string& error, int subimage)
 {
-    OIIO::ImageSpec spec = source.spec_of(subimage);
-    spec.set_format(OIIO::TypeFloat);
-    error = memory_shortage(spec);
-    if (!error.empty())
+    if (!allocate(dst, "", source.spec_of(subimage), error))
         return false;
-    auto* const file = dynamic_cast<StoredImage*>(&source);
-    dst.reset(file ? file->path() : "", spec, OIIO::InitializePixels::No);
     auto* pixels = static_cast<float*>(dst.localpixels());
-    if (!pixels) {
-        error = format("out of memory for {}x{} pixels", spec.width, spec.height);
-        return false;
-    }
-    if (file)
-        return file->read_file(subimage, pixels, oiio_threads, error);
-    return source.read_of(subimage, OIIO::get_roi(spec), pixels, error);
+    if (auto* file = dynamic_cast<StoredImage*>(&source))
+        return file->read_unchanged(subimage, pixels, error);
+    return source.read_of(subimage, OIIO::get_roi(dst.spec()), pixels, error);
 }
 
 } // namespace vmlight

@@ -23,7 +23,7 @@ bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
             if (reach <= kFarthestCaster)
                 continue;
             error = OIIO::Strutil::fmt::format(
-                "\"{}\": vertex {} is {:.2g} times the size of the baked mesh away; rays reach {:g} times at most",
+                "\"{}\": vertex {} is {:.2g} times the size of the baked mesh away; rays reach at most {:g} times",
                 mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
             return false;
         }

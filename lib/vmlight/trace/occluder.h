@@ -14,7 +14,7 @@
 namespace vmlight {
 
 /// From object space to the space of the ray-tracing scene, where positions are float: recentred and scaled so that the
-/// baked mesh fills [-1, 1]. The scale is a power of two, so that scaling is exact and results do not depend on units.
+/// baked mesh fits [-1, 1]. The scale is a power of two, so that scaling is exact and results do not depend on units.
 struct SceneFrame
 {
     Imath::V3d centre { 0 };

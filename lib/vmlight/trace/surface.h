@@ -10,8 +10,8 @@
 
 namespace vmlight {
 
-/// Distance of ray origins from the surface, in units of SceneFrame, where the baked mesh fills [-1, 1]: 256 times the
-/// rounding of coordinates, so that no ray hits the surface it starts from.
+/// Distance of ray origins from the surface, in units of SceneFrame, where the baked mesh fits in [-1, 1]: 256 times
+/// the rounding of coordinates, so that no ray hits the surface it starts from.
 constexpr double kRayOffset = 1.0 / (1 << 16);
 /// The same where another surface is that near: 8 times the rounding, half of the smallest gap between surfaces that is
 /// resolved. Embree's floats may put it on the wrong side of a sliver: pass `is_near` to Occluder::clear_blocked().

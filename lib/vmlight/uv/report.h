@@ -19,7 +19,7 @@ struct UvReport
     int64_t mirrored = 0; ///< clockwise in UV
     // Only set by count_islands(), which takes longer than the rest.
     int64_t islands = 0; ///< groups of triangles connected in UV, with area in space, in the tile
-    int64_t uncovered_islands = 0; ///< of these, covering no texel: thinner than a texel, without area, or too large
+    int64_t uncovered_islands = 0; ///< of these, covering no texel: thinner than a texel, without area, or too far away
     int64_t uncovered_triangles = 0; ///< triangles of those
 };
 

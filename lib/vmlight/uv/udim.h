@@ -24,7 +24,7 @@ inline Imath::V2f udim_corner(int udim)
     return Imath::V2f(float((udim - kFirstUdim) % 10), float((udim - kFirstUdim) / 10));
 }
 
-/// Parse a list such as "1001-1003,1011" to ascending tile numbers without duplicates. False, with the reason in
+/// Parse a list such as "1001-1003,1011" into ascending tile numbers without duplicates. False, with the reason in
 /// `error`, if it is not a list or a number is not a UDIM tile.
 VMLIGHT_API bool parse_udims(std::vector<int>& dst, const std::string& text, std::string& error);
 

@@ -56,7 +56,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     dst.reset(spec, OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels)
-        return fail_with(dst, OIIO::Strutil::fmt::format("no memory for {}x{} texels", spec.width, spec.height));
+        return fail_with(dst, OIIO::Strutil::fmt::format("out of memory for {}x{} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
     counts.tiny = scene->tiny_triangles();
     counts.rounding = scene->rounding();

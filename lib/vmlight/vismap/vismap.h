@@ -70,12 +70,12 @@ struct VismapParams
     template <class Visit> void visit(Visit&& field)
     {
         field("resolution", resolution, SizeRange { 32768, 1 }, "Size of the map in texels; one number for a square");
-        field("width", width, Range { 0, 32768 }, advanced("Width in texels; 0: as resolution says"));
-        field("height", height, Range { 0, 32768 }, advanced("Height in texels; 0: as resolution says"));
+        field("width", width, Range { 0, 32768 }, advanced("Width in texels; 0: the width of resolution"));
+        field("height", height, Range { 0, 32768 }, advanced("Height in texels; 0: the height of resolution"));
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile to bake; replaces <UDIM> in file names");
         field("samples", samples, Range { 1, 1 << 20 }, "Rays per texel");
         field("target_error", target_error, Range { 0, 1, "none", 0 },
-              "Instead of a fixed count, trace until the RMS error of visibility is this low: 0.01");
+              "Instead of a fixed count, choose one for this RMS error of visibility, such as 0.01");
         field("sampler", sampler,
               Choices { { { "fibonacci", "Fibonacci lattice: lowest error at a fixed ray count" },
                           { "sobol", "Sobol sequence, Owen-scrambled" },
@@ -85,7 +85,7 @@ struct VismapParams
               advanced("Random seed; the same seed gives the same pixels on any number of threads"));
         field("measure", measure,
               Choices { { { "cosine", "weight directions by the cosine: what a diffuse surface receives" },
-                          { "uniform", "weight all directions equally, as the paper words it" } } },
+                          { "uniform", "weight all directions equally: the paper, read literally" } } },
               advanced("Weighting of directions"));
         field("max_distance", max_distance, Range { 0, 1e30, "infinite", 0 },
               "Maximum occluder distance, in mesh units");

@@ -41,7 +41,7 @@ bool import_parts(MeshBuilder& dst, const std::string& path, const BeforeOpen& b
 {
     const FileHead head { read_bytes(path, FileHead::kBytes), OIIO::Filesystem::file_size(path) };
     if (OIIO::Strutil::starts_with(head.bytes, "PK\3\4")) {
-        error = "a zip archive: unpack it, and give the mesh in it";
+        error = "a zip archive: unpack it, and pass the mesh inside";
         return false;
     }
     const MeshFormat* format = find_mesh_format(formats, path, head);

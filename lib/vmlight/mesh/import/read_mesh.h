@@ -22,8 +22,8 @@ namespace vmlight {
 /// @param error        set to the reason, with the path in quotes, if the result is false
 /// @param before_open  called with the path of each file before it is opened, a glTF's buffers among them
 /// @returns false if the file cannot be read, ends early, has no triangle, a NaN or infinite vertex (the first is
-///          named), a face of a vertex that does not exist, or, in an OBJ, texture coordinates that are not finite.
-///          A mesh without the UV set that was asked for is read: the caller decides whether it needs one.
+///          named), a face that uses a vertex that does not exist, or, in an OBJ, texture coordinates that are not
+///          finite. A mesh without the UV set that was asked for is read: the caller decides whether it needs one.
 VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                            const std::function<void(const std::string& path)>& before_open = {});
 

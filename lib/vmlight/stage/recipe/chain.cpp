@@ -90,7 +90,7 @@ std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
     if (recipe.vismap.empty())
         return missing("vismap", chain);
     if (recipe.cfem.empty() && recipe.environment.empty())
-        return missing("environment", chain) + ", or cfem";
+        return missing("environment or cfem", chain);
     if (!recipe.cfem.empty() && !recipe.environment.empty())
         return with_location(recipe, "cfem", chain, "environment is set too: set only one of them");
     Rotation rotation;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which keys of a recipe matter, whatever the files that it names hold.
+/// Which parameters have no effect, whatever the files that a recipe names hold. Flags are checked, keys in a file
+/// are not.
 #pragma once
 
 #include <vmlight/stage/recipe/recipe.h>

@@ -106,7 +106,7 @@ struct LightmapRecipe
     }
 };
 
-/// Every recipe, one a stage, in the order of the pipeline: a new stage adds its line here.
+/// Every recipe, one per stage, in the order of the pipeline: a new stage adds its line here.
 #define VMLIGHT_RECIPES(APPLY)                                                                                         \
     APPLY(VismapRecipe)                                                                                                \
     APPLY(CfemRecipe)                                                                                                  \

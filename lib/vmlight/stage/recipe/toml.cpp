@@ -83,7 +83,7 @@ bool parse_toml(toml::table& dst, OIIO::string_view text, const std::string& pat
         error = at_line(path, fault.source().begin.line)
             + ": not TOML: " + shortened_line(std::string(fault.description()));
         if (error.find("could not determine value type") != std::string::npos)
-            error += "; texts need quotes";
+            error += "; strings need quotes";
         return false;
     }
     dst = std::move(result).table();
@@ -131,7 +131,7 @@ bool node_text(std::string& text, const toml::node& node, const std::vector<std:
         if (!string_text(word, element, "a word in quotes", reason))
             return false;
         if (word.empty() || word.find(',') != std::string::npos) {
-            reason = word.empty() ? "one of its words is empty" : "a word in a list cannot hold a comma";
+            reason = word.empty() ? "one of its words is empty" : "a word in a list cannot contain a comma";
             return false;
         }
         text += (text.empty() ? "" : ",") + word;
@@ -161,7 +161,7 @@ bool node_text(std::string& text, const toml::node& node, const std::vector<std:
         if (!string_text(path, element, "a path in quotes", reason))
             return false;
         if (path.empty() || path.find('\n') != std::string::npos) {
-            reason = path.empty() ? "one of the names is empty" : "a name in a list cannot hold a line break";
+            reason = path.empty() ? "one of the names is empty" : "a name in a list cannot contain a line break";
             return false;
         }
         text += (text.empty() ? "" : "\n") + path;

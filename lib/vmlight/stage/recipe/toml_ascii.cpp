@@ -42,7 +42,7 @@ std::string append_ascii(std::string& dst, string_view line)
             dst += where == Comment ? "?" : format("\\U{:08x}", code);
         } else if (where == Plain && (c == '"' || c == '\'')) {
             if (line.substr(i, 3) == std::string(3, c))
-                return "three quotes in a row: a recipe's texts are of one line";
+                return "three quotes in a row: recipe strings are single-line";
             where = c == '"' ? Basic : Literal;
             dst += '"';
         } else if (where == Plain) {
