@@ -325,4 +325,9 @@ std::string nearest_name(string_view name, const std::vector<std::string>& names
     return best;
 }
 
+std::string metadata_name(const char* parameter)
+{
+    return format("vmlight:{}", parameter);
+}
+
 } // namespace vmlight

@@ -191,11 +191,14 @@ template <class Params> bool check_params(Params params, std::string& error)
     return good;
 }
 
+/// The metadata of a parameter: `vmlight:` and its name.
+VMLIGHT_API std::string metadata_name(const char* parameter);
+
 /// Add every parameter to `spec` as `vmlight:<parameter>`, as text that set_param() reads back.
 template <class Params> void append_params(OIIO::ImageSpec& spec, Params params)
 {
     params.visit([&](const char* field, auto& value, const auto& allowed, const char*) {
-        spec.attribute(std::string("vmlight:") + field, value_text(value, allowed));
+        spec.attribute(metadata_name(field), value_text(value, allowed));
     });
 }
 

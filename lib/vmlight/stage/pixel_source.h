@@ -34,7 +34,8 @@ public:
     /// Number of images: several for a CFEM stack.
     virtual int subimages() const { return 1; }
     virtual const OIIO::ImageSpec& spec_of(int /*subimage*/) const { return m_spec; }
-    /// Everything that the pixels depend on: parameters, and name, size and time of each file. Equal keys, equal pixels.
+    /// Everything that the pixels depend on: parameters, and name, size and time of each file. Equal keys, equal
+    /// pixels.
     const std::string& key() const { return m_key; }
 
     /// Set `dst` to the float pixels of `roi`, which is within the data window: all channels, rows without padding. Any
