@@ -187,8 +187,9 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
     image.setpixel(3, 4, std::vector<float> { 0, 0, 0, std::numeric_limits<float>::infinity(), 0 });
     EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
     EXPECT_EQ(error,
-              "\"" + folder / "a.exr"
-                  + "\": channel direction.z reaches inf, but the maximum of half is 65504: write float");
+              OIIO::Strutil::fmt::format("\"{}\": channel direction.z reaches inf, but the maximum of half is 65504: "
+                                         "write float",
+                                         folder / "a.exr"));
     image.setpixel(3, 4, std::vector<float> { 65504, 0, 0, -65504, 0 });
     EXPECT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
 }

@@ -171,7 +171,7 @@ private:
     {
         const auto file = OIIO::ImageInput::open(m_path);
         if (!file || !file->seek_subimage(subimage, 0)) {
-            error = oiio::named_reason(m_path, file ? file->geterror() : OIIO::geterror());
+            error = oiio::with_path(m_path, file ? file->geterror() : OIIO::geterror());
             return false;
         }
         const OIIO::ImageSpec& spec = spec_of(subimage);
@@ -182,7 +182,7 @@ private:
         file->threads(threads);
         if (file->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst))
             return true;
-        error = oiio::named_reason(m_path, file->geterror());
+        error = oiio::with_path(m_path, file->geterror());
         return false;
     }
 
