@@ -9,6 +9,7 @@
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/trace/embree.h>
 #include <vmlight/trace/surface.h>
+#include <vmlight/uv/raster.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/timer.h>

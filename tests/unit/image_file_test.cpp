@@ -18,6 +18,12 @@ using namespace vmlight;
 
 namespace {
 
+// Not "\"" + path + "\"", of which GCC 12 warns falsely.
+std::string quoted(const std::string& path)
+{
+    return OIIO::Strutil::fmt::format("\"{}\"", path);
+}
+
 OIIO::ImageBuf vismap_like(int width, int height, float factor = 1)
 {
     OIIO::ImageSpec spec(width, height, 5, OIIO::TypeDesc::FLOAT);
@@ -119,7 +125,7 @@ TEST(ImageFile, SeveralImagesStandInOneFileOrNone)
     int calls = 0;
     EXPECT_FALSE(write_images(
         images, folder / "a.exr", "float", [&](double) { return ++calls < 4; }, error));
-    EXPECT_EQ(error, "\"" + folder / "a.exr" + "\": interrupted");
+    EXPECT_EQ(error, quoted(folder / "a.exr") + ": interrupted");
     images[2].setpixel(3, 4, std::vector<float> { 0, 0, 1e6f, 0, 0 });
     EXPECT_FALSE(write_images(images, folder / "a.exr", "half", {}, error));
     EXPECT_TRUE(folder.bytes("a.exr") == old);
@@ -160,7 +166,7 @@ TEST(ImageFile, AnInterruptedOutputLeavesTheOldFileAsItWas)
         error.clear();
         EXPECT_FALSE(write_image(
             vismap_like(300, 500), folder / "a.exr", "float", [&](double) { return ++calls < stop_at; }, error));
-        EXPECT_EQ(error, "\"" + folder / "a.exr" + "\": interrupted");
+        EXPECT_EQ(error, quoted(folder / "a.exr") + ": interrupted");
         EXPECT_TRUE(folder.bytes("a.exr") == old);
         EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
     }
@@ -204,12 +210,12 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
         return error;
     };
     EXPECT_EQ(refusal(folder / "a.png"),
-              "\"" + folder / "a.png" + "\": output must be .exr; convert it with oiiotool afterwards");
+              quoted(folder / "a.png") + ": output must be .exr; convert it with oiiotool afterwards");
     EXPECT_EQ(refusal(""), "\"\": output must be .exr; convert it with oiiotool afterwards");
     EXPECT_EQ(refusal(folder / "none/a.exr"),
-              "\"" + folder / "none/a.exr" + "\": no such folder: \"" + folder / "none" + "\"");
+              quoted(folder / "none/a.exr") + ": no such folder: " + quoted(folder / "none"));
     ASSERT_EQ(::mkdir((folder / "dir.exr").c_str(), 0755), 0);
-    EXPECT_EQ(refusal(folder / "dir.exr"), "\"" + folder / "dir.exr" + "\": is a folder");
+    EXPECT_EQ(refusal(folder / "dir.exr"), quoted(folder / "dir.exr") + ": is a folder");
     EXPECT_EQ(output_fault("a.exr"), "");
     EXPECT_EQ(output_name_fault(folder / "none/a.exr"), ""); // where it would be is another matter
     EXPECT_EQ(output_name_fault(folder / "a.png"), output_fault(folder / "a.png"));
@@ -217,7 +223,7 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
     if (::geteuid() != 0) { // nothing is forbidden to root
         ASSERT_EQ(::chmod((folder / "dir.exr").c_str(), 0555), 0);
         EXPECT_EQ(refusal(folder / "dir.exr/a.exr"),
-                  "\"" + folder / "dir.exr/a.exr" + "\": folder \"" + folder / "dir.exr"
+                  quoted(folder / "dir.exr/a.exr") + ": folder \"" + folder / "dir.exr"
                       + "\" is not writable: Permission denied");
     }
 }
@@ -248,7 +254,7 @@ TEST(ImageFile, ALinkStaysAndWhatItLeadsToIsWritten)
                                         { "circle.exr", "too many levels of symbolic links" },
                                         { "folder.exr", "is a folder" } }) {
         EXPECT_FALSE(write(vismap_like(4, 4), folder / link, error));
-        EXPECT_EQ(error, "\"" + folder / link + "\": " + reason);
+        EXPECT_EQ(error, quoted(folder / link) + ": " + reason);
         EXPECT_TRUE(std::filesystem::is_symlink(folder / link)) << link;
     }
     EXPECT_EQ(folder.names().size(), 7u); // no debris
@@ -274,12 +280,12 @@ TEST(ImageFile, WhatCannotBeReadIsRefusedWithItsPath)
     OIIO::ImageBuf image(OIIO::ImageSpec(3, 3, 1, OIIO::TypeDesc::FLOAT));
     std::string error;
     EXPECT_FALSE(read_image(image, folder / "none.exr", error));
-    EXPECT_EQ(error, "\"" + folder / "none.exr" + "\": no such file");
+    EXPECT_EQ(error, quoted(folder / "none.exr") + ": no such file");
     EXPECT_FALSE(read_image(image, folder / "", error));
-    EXPECT_EQ(error, "\"" + folder / "" + "\": not a file");
+    EXPECT_EQ(error, quoted(folder / "") + ": not a file");
     folder.write("noise.exr", std::string("\x01\x02\x03 no image"));
     EXPECT_FALSE(read_image(image, folder / "noise.exr", error));
-    EXPECT_EQ(error.find("\"" + folder / "noise.exr" + "\": "), 0u) << error;
+    EXPECT_EQ(error.find(quoted(folder / "noise.exr") + ": "), 0u) << error;
     EXPECT_GT(error.size(), (folder / "noise.exr").size() + 6);
     EXPECT_EQ(error.find('\n'), std::string::npos);
     EXPECT_FALSE(image.initialized());
@@ -287,6 +293,6 @@ TEST(ImageFile, WhatCannotBeReadIsRefusedWithItsPath)
     ASSERT_TRUE(write(vismap_like(300, 300), folder / "cut.exr", error)) << error;
     folder.write("cut.exr", folder.bytes("cut.exr").substr(0, 3000));
     EXPECT_FALSE(read_image(image, folder / "cut.exr", error));
-    EXPECT_EQ(error.find("\"" + folder / "cut.exr" + "\": "), 0u) << error;
+    EXPECT_EQ(error.find(quoted(folder / "cut.exr") + ": "), 0u) << error;
     EXPECT_EQ(error.rfind("cut.exr"), error.find("cut.exr")) << "named twice: " << error;
 }
