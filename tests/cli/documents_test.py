@@ -41,7 +41,7 @@ class Documents(unittest.TestCase):
             self.assertGreaterEqual(len(flags), 8, tool)
             self.assertIn("--help", flags)
             for kind in ("man", "bash", "zsh"):
-                document = text(kind, tool).replace("\\-", "-")
+                document = re.sub(r"\\f[BIR]", " ", text(kind, tool).replace("\\-", "-"))  # troff's fonts
                 for name in flags + words:
                     self.assertRegex(document, r"(?<![\w-])" + re.escape(name) + r"(?![\w-])", (tool, kind))
 

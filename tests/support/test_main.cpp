@@ -117,7 +117,6 @@ int main(int argc, char** argv)
             ::_exit(1);
     });
     ::unsetenv("OCIO");
-    OIIO::attribute("plugin_searchpath", VMLIGHT_TEST_PLUGINS);
     const int result = RUN_ALL_TESTS();
     s_finished = true;
     return result;

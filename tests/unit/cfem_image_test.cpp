@@ -108,8 +108,8 @@ TEST(Cfem, WrongImagesAndParametersAreRefused)
         OIIO::ImageBuf cropped = image(Map(4, 2));
         cropped.specmod().full_height = side;
         EXPECT_EQ(refusal(cropped),
-                  OIIO::Strutil::fmt::format("environment: a display window of 4x{} pixels; sides of 1 "
-                                             "to 65536 are allowed",
+                  OIIO::Strutil::fmt::format("environment: display window of 4x{} pixels: sides must be 1 to "
+                                             "65536",
                                              side));
     }
     EXPECT_NE(refusal(image(Map(4, 2)), exact(0, 2)).find("resolution: "), std::string::npos);
