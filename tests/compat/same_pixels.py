@@ -72,7 +72,7 @@ def vismap_cases(formats):
         uniform = "spot.obj", "--basis", basis, "--measure", "uniform"
         yield bake("uniform", *uniform) if basis == "vector" else refused("makevismap", f"vm_{basis}_uniform", *uniform)
         yield bake(basis + "_occluders", "spot.obj", "--basis", basis, "--occluder", "gazebo.obj", "--occluder", "text.stl")
-        yield bake(basis + "_half", "spot.obj", "--basis", basis, "--format", "half") if basis in ("vector", "sh") else \
+        yield bake(basis + "_half", "spot.obj", "--basis", basis, "--format", "half", essential=True) if basis in ("vector", "sh") else \
             refused("makevismap", f"vm_{basis}_half", "spot.obj", "--basis", basis, "--format", "half")
     for order in 3, 4, 6, 7, 8:
         yield bake(f"sh{order}", "gazebo.obj", "--basis", "sh", "--order", str(order), essential=True)

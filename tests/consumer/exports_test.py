@@ -12,7 +12,7 @@ def exported(library):
     listing = subprocess.run(["nm", "-DC", "--defined-only", library], check=True, capture_output=True, text=True).stdout
     names = set()
     for symbol in re.findall(r"^[0-9a-f]+ [TBDRW] (.*)$", listing, re.MULTILINE):
-        plain = symbol.split("(")[0]
+        plain = symbol.replace("[abi:cxx11]", "").split("(")[0]
         while "<" in plain and plain != (plain := re.sub(r"<[^<>]*>", "", plain)):
             pass
         name = re.search(r"\bvmlight::([\w:~]+)$", plain)
