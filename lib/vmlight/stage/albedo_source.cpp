@@ -4,7 +4,6 @@
 #include <vmlight/base/work_counts.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
-#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
@@ -66,23 +65,14 @@ bool AlbedoSource::prepare(std::string& error)
     return true;
 }
 
-bool AlbedoSource::make_whole(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options,
-                              std::string& error)
+bool AlbedoSource::make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error)
 {
-    std::vector<OIIO::ImageBuf> images;
     std::string note;
-    if (!make_input(images, *m_image, {}, recipe, "albedo", m_path, options, error)
-        || !to_scene_linear(images[0], m_path, m_color, note, error, options.threads))
+    if (!m_image->make(dst, {}, options, error)
+        || !to_scene_linear(dst[0], m_path, m_color, note, error, options.threads))
         return false;
-    dst = std::move(images[0]);
     options.report("albedo: " + note);
     return true;
-}
-
-bool AlbedoSource::make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions&, std::string& error)
-{
-    dst.resize(1);
-    return read_all(dst[0], *this, error);
 }
 
 bool AlbedoSource::read(OIIO::ROI roi, float* dst, std::string& error)

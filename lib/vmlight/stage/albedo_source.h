@@ -31,10 +31,8 @@ public:
     /// nullptr, with the reason in `error`, if it cannot be read or converted. Valid as long as this source.
     const AlbedoReader* reader(std::string& error);
 
-    /// The texture in linear light, not resized, for make_lightmap(). Errors name the location of the key `albedo`.
-    bool make_whole(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, const MakeOptions& options, std::string& error);
-
     bool read(OIIO::ROI roi, float* dst, std::string& error) override;
+    /// The texture in linear light, but not resized: make_lightmap() does that.
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,
               std::string& error) override;
     bool failed() const override { return m_prepare.failed() || m_image->failed(); }

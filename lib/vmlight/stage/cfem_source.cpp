@@ -119,10 +119,10 @@ private:
         options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
                               m_spec.height, timer()));
-        if (const int mended = dst[0].spec().get_int_attribute("vmlight:sanitized"))
+        if (const int repaired = dst[0].spec().get_int_attribute("vmlight:sanitized"))
             options.report_warning(format("{} of the environment {} repaired",
-                                          count_text(mended, "bad value", "bad values"),
-                                          plural(mended, "was", "were")));
+                                          count_text(repaired, "bad value", "bad values"),
+                                          plural(repaired, "was", "were")));
         return true;
     }
 

@@ -119,7 +119,10 @@ public:
             return false;
         if (!m_inputs.albedo)
             return true;
-        return m_inputs.albedo->make_whole(dst.albedo, m_recipe, options, error);
+        if (!make_input(images, *m_inputs.albedo, {}, m_recipe, "albedo", m_recipe.albedo, options, error))
+            return false;
+        dst.albedo = std::move(images[0]);
+        return true;
     }
 
     bool failed() const override
@@ -166,14 +169,16 @@ private:
         dst.light.clear();
         dst.cfem.clear();
         const bool filtered = !m_recipe.cfem.empty();
-        MakeOptions unplaced = options; // the implicit CFEM recipe has no file
-        unplaced.chain.clear();
         if (filtered) {
             if (!make_input(dst.cfem, *m_inputs.cfem, range, m_recipe, "cfem", m_recipe.cfem, options, error))
                 return false;
-        } else if (!m_inputs.cfem->make(dst.cfem, range, unplaced, error)) {
-            error = with_location(m_recipe, "environment", options.chain, error);
-            return false;
+        } else {
+            MakeOptions fileless = options; // the implicit CFEM recipe has no file
+            fileless.chain.clear();
+            if (!m_inputs.cfem->make(dst.cfem, range, fileless, error)) {
+                error = with_location(m_recipe, "environment", options.chain, error);
+                return false;
+            }
         }
         if (m_recipe.lightmap_params.model == "auto")
             options.report(filtered && m_model.light == ModelLight::cfem
