@@ -5,14 +5,13 @@
 /// time. The bake's time is all of make_vismap(): building, covering, sampling, tracing, summing, margin. The two take
 /// turns, so that a slow spell of the machine hits both; medians of their times are compared.
 #include <vmlight/base/parallel.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/math/sampling.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/trace/embree.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
 #include <vmlight/vismap/vismap.h>
-
-#include <OpenImageIO/timer.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -134,7 +133,7 @@ int main(int argc, const char** argv)
         double seconds = 0;
         bare_rays = 0;
         const auto flush = [&] {
-            OIIO::Timer timer;
+            vmlight::Stopwatch timer;
             trace(rays, scene, threads);
             seconds += timer();
             for (uint8_t lanes : rays.lanes)
@@ -169,7 +168,7 @@ int main(int argc, const char** argv)
 
         OIIO::ImageBuf vismap;
         VismapReport report;
-        OIIO::Timer timer;
+        vmlight::Stopwatch timer;
         make_vismap(vismap, mesh, {}, params, &report, threads);
         bake_seconds.push_back(timer());
         bake_rays = report.rays;

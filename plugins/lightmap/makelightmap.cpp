@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/cli/animation.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/recipe/udim.h>
 
-#include <OpenImageIO/strutil.h>
-#include <OpenImageIO/timer.h>
-
 using namespace vmlight;
-using OIIO::Strutil::fmt::format;
 
 int main(int argc, const char** argv)
 {
@@ -55,7 +53,7 @@ int main(int argc, const char** argv)
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& options, std::string& error) {
         if (!read_lightmap_inputs(inputs, tile, options, error))
             return false;
-        const OIIO::Timer timer;
+        const vmlight::Stopwatch timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
             const LightmapParams frame = animation.params_at(tile.lightmap_params, i, error);
             OIIO::ImageBuf lightmap;

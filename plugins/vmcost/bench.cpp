@@ -5,20 +5,17 @@
 #include "journal.h"
 #include "min_seconds.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/version.h>
 #include <vmlight/vismap/baker.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Increment when the method of measurement changes: invalidates the rows of earlier journals.
 constexpr int kMethod = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gnuplot.h"
 
-#include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 
 #include <array>
 #include <cerrno>
@@ -10,8 +10,6 @@
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Returns the exit code, -1 if the command cannot be started.
 int run(const std::string& command, std::string& output)

@@ -5,6 +5,7 @@
 #include "journal.h"
 #include "named_channels.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/reference/reference.h>
@@ -19,8 +20,6 @@
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Fewer are not representative.
 constexpr int64_t kMinTexels = 2 * kBatches;

@@ -3,6 +3,7 @@
 
 #include "row_json.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -16,8 +17,6 @@
 #include <unistd.h>
 
 namespace vmlight::cost {
-
-using OIIO::Strutil::fmt::format;
 
 bool Journal::open(const std::string& path, std::string& error)
 {

@@ -3,9 +3,8 @@
 
 #include "min_seconds.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/lightmap/model_light.h>
-
-#include <OpenImageIO/strutil.h>
 
 namespace vmlight::cost {
 
@@ -26,7 +25,7 @@ const FilteredLight* FilteredLights::find(size_t index, ModelLight light, int wi
         return &dst;
     dst.images.clear();
     if (error != "interrupted")
-        error = OIIO::Strutil::fmt::format("\"{}\": {}", environment.path, error);
+        error = format("\"{}\": {}", environment.path, error);
     return nullptr;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <OpenImageIO/timer.h>
+#include <vmlight/base/stopwatch.h>
 
 #include <algorithm>
 
@@ -13,9 +13,9 @@ template <class Work> bool min_seconds(double& seconds, Work&& work)
 {
     constexpr double kEnoughSeconds = 0.02;
     constexpr int kMaxRuns = 8;
-    const OIIO::Timer all;
+    const vmlight::Stopwatch all;
     for (int i = 0; i < kMaxRuns && (i == 0 || all() < kEnoughSeconds); ++i) {
-        const OIIO::Timer timer;
+        const vmlight::Stopwatch timer;
         if (!work())
             return false;
         seconds = i == 0 ? timer() : std::min(seconds, timer());

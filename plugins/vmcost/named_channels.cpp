@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "named_channels.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/image_file.h>
 
 #include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/strutil.h>
 
 namespace vmlight::cost {
 
@@ -18,7 +18,7 @@ bool read_channels(OIIO::ImageBuf& dst, const std::string& path, const std::vect
     for (const std::string& name : names) {
         order.push_back(read.spec().channelindex(name));
         if (order.back() < 0) {
-            error = OIIO::Strutil::fmt::format("\"{}\": no channel {}", path, name);
+            error = format("\"{}\": no channel {}", path, name);
             return false;
         }
     }

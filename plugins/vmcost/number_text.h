@@ -2,6 +2,8 @@
 /// Number formatting for the report.
 #pragma once
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <cmath>
@@ -13,7 +15,7 @@ namespace vmlight::cost {
 inline std::string percent_text(double share)
 {
     const double x = 100 * share, size = std::abs(x);
-    return OIIO::Strutil::fmt::format("{:.{}f} %", x, size < 0.995 ? 2 : size < 99.95 ? 1 : 0);
+    return format("{:.{}f} %", x, size < 0.995 ? 2 : size < 99.95 ? 1 : 0);
 }
 
 /// "1.2 ms", "3.4 s", "12 min"
@@ -21,9 +23,8 @@ inline std::string seconds_text(double seconds)
 {
     const double ms = 1000 * seconds;
     if (ms < 995)
-        return OIIO::Strutil::fmt::format("{:.{}f} ms", ms, ms < 0.0995 ? 3 : ms < 0.995 ? 2 : ms < 9.95 ? 1 : 0);
-    return seconds < 600 ? OIIO::Strutil::fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0)
-                         : OIIO::Strutil::fmt::format("{:.0f} min", seconds / 60);
+        return format("{:.{}f} ms", ms, ms < 0.0995 ? 3 : ms < 0.995 ? 2 : ms < 9.95 ? 1 : 0);
+    return seconds < 600 ? format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0) : format("{:.0f} min", seconds / 60);
 }
 
 /// Escape text for HTML.

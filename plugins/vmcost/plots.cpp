@@ -3,6 +3,8 @@
 
 #include "models.h"
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr const char* kStyle = "set encoding utf8\n"
                                "set logscale xy\n"

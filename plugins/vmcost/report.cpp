@@ -5,12 +5,12 @@
 #include "models.h"
 #include "number_text.h"
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr double kTargets[] = { 0.01, 0.05, 0.10 };
 constexpr int kManyPictures = 100;

@@ -3,12 +3,12 @@
 
 #include "row_json.h"
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 std::string cell(const std::string& text)
 {

@@ -9,6 +9,7 @@
 #include "plots.h"
 #include "report.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/parallel.h>
@@ -18,8 +19,6 @@
 
 namespace vmlight::cost {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr int kHeatSide = 128; // pictures embedded in the page
 

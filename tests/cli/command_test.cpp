@@ -4,6 +4,8 @@
 #include "captured.h"
 #include "mains.h"
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
@@ -18,7 +20,6 @@ namespace vmlight {
 namespace {
 
 namespace fs = std::filesystem;
-using OIIO::Strutil::fmt::format;
 
 const std::map<std::string, Main> kMains { { "makevismap", makevismap_main },
                                            { "makecfem", makecfem_main },

@@ -2,15 +2,15 @@
 // Light on the command line: the same light by other ways, and what is no light.
 #include "command_test.h"
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/strutil.h>
 
 #include <cmath>
 #include <limits>
 
 using namespace vmlight;
-using OIIO::Strutil::fmt::format;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;

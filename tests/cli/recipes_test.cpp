@@ -2,12 +2,11 @@
 // Recipes on the command line.
 #include "command_test.h"
 
-#include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 
 #include <filesystem>
 
 using namespace vmlight;
-using OIIO::Strutil::fmt::format;
 using testing::HasSubstr;
 
 namespace {

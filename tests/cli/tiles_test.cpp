@@ -2,12 +2,11 @@
 // UDIM tiles on the command line.
 #include "command_test.h"
 
-#include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 
 #include <filesystem>
 
 using namespace vmlight;
-using OIIO::Strutil::fmt::format;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;

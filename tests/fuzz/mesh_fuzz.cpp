@@ -6,15 +6,13 @@
 #include "imported_of_bytes.h"
 #include "law.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/assimp_importer.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/vismap/vismap.h>
 
-#include <OpenImageIO/strutil.h>
-
 using namespace vmlight;
 using namespace vmlight::fuzz;
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

@@ -3,6 +3,8 @@
 #include "files.h"
 #include "hard_case.h"
 
+#include <vmlight/base/format.h>
+
 #include <filesystem>
 
 using namespace vmlight;
@@ -83,7 +85,7 @@ TEST_F(Files, TenThousandFiles)
     HardCase row("Two UDIM tiles among 10000 files with similar names");
     fs::create_directory("many");
     for (int i = 0; i < 10000; ++i)
-        std::fclose(std::fopen(OIIO::Strutil::fmt::format("many/sky.{:05}.exr", i).c_str(), "w"));
+        std::fclose(std::fopen(format("many/sky.{:05}.exr", i).c_str(), "w"));
     for (const std::string udim : { "1001", "1013" })
         fs::copy_file("sky.exr", "many/sky." + udim + ".exr");
     done("makecfem many/sky.<UDIM>.exr -o cfem.<UDIM>.exr --resolution 8");

@@ -5,6 +5,7 @@
 #include "quad_files.h"
 #include "watchdog.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
@@ -14,7 +15,6 @@
 #include <cmath>
 
 using namespace vmlight;
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include "hard_case.h"
 #include "temporary_folder.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/mesh.h>
 
@@ -39,11 +40,13 @@ std::string fbx(int64_t models, const std::vector<Connection>& connections, int 
     objects.records.push_back(object("Geometry", kTriangle, "", "Mesh", version,
                                      { { "Vertices", { std::vector<double> { 0, 0, 0, 1, 0, 0, 0, 1, 0 } }, {} },
                                        { "PolygonVertexIndex", { std::vector<int32_t> { 0, 1, -3 } }, {} } }));
-    for (const Connection& c : connections)
-        connected.records.push_back({ "C", { c.type, c.child, c.parent }, {} });
-    for (FbxRecord& record : connected.records)
-        if (record.properties[0] == FbxProperty(std::string("OP")))
-            record.properties.push_back(std::string());
+    for (const Connection& c : connections) {
+        FbxRecord& record = connected.records.emplace_back();
+        record.name = "C";
+        record.properties = { c.type, c.child, c.parent };
+        if (c.type == "OP")
+            record.properties.emplace_back(std::string());
+    }
     return fbx_of({ { "FBXHeaderExtension", {}, { { "FBXVersion", { version == 0 ? 7400 : version }, {} } } },
                     objects,
                     connected },
@@ -57,8 +60,7 @@ std::string outcome(const TemporaryFolder& folder, const std::string& bytes, con
     Mesh mesh;
     std::string error;
     if (read_mesh(mesh, path, {}, error))
-        return OIIO::Strutil::fmt::format("{} triangle{}", mesh.triangles.size(),
-                                          mesh.triangles.size() == 1 ? "" : "s");
+        return format("{} triangle{}", mesh.triangles.size(), mesh.triangles.size() == 1 ? "" : "s");
     EXPECT_EQ(error.find("\"" + path + "\": "), 0u) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     return error.substr(std::min(error.size(), path.size() + 4));

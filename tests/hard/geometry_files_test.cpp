@@ -6,6 +6,7 @@
 #include "scenes.h"
 #include "temporary_folder.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/read_mesh.h>
 
 using namespace vmlight;
@@ -19,7 +20,7 @@ const char* const kPly = "ply\nformat ascii 1.0\nelement vertex 3\nproperty floa
 
 std::string ply(int faces, const std::string& lines)
 {
-    return OIIO::Strutil::fmt::format(kPly, faces, lines);
+    return format(kPly, faces, lines);
 }
 
 } // namespace
@@ -98,9 +99,8 @@ TEST(Geometry, VerticesBeyondFloat)
     row.naive("bounds of NaN or infinity: an empty or black map");
     const TemporaryFolder folder;
     for (const auto& [text, told] : { std::pair("nan", "nan"), { "inf", "inf" }, { "1e39", "inf" } }) {
-        const std::string says = OIIO::Strutil::fmt::format(" is not finite: (0, {}, 0)", told);
-        EXPECT_EQ(refusal(folder, "a.obj",
-                          OIIO::Strutil::fmt::format("o thing\nv 0 0 0\nv 1 0 0\nv 0 {} 0\nf 1 2 3\n", text)),
+        const std::string says = format(" is not finite: (0, {}, 0)", told);
+        EXPECT_EQ(refusal(folder, "a.obj", format("o thing\nv 0 0 0\nv 1 0 0\nv 0 {} 0\nf 1 2 3\n", text)),
                   "vertex 2 of \"thing\"" + says);
         std::string bytes = ply(1, "3 0 1 2");
         bytes.replace(bytes.find("0 1 0\n3"), 5, std::string("0 ") + text + " 0");
@@ -131,9 +131,9 @@ TEST(Geometry, ConcavePolygonsAnySize)
         for (int first = 0; first < 6; ++first) {
             std::string text, face = "f";
             for (const auto& [x, y] : { std::pair(0, 0), { 4, 0 }, { 4, 1 }, { 1, 1 }, { 1, 4 }, { 0, 4 } })
-                text += OIIO::Strutil::fmt::format("v {:.9g} {:.9g} 0\n", x * size, y * size);
+                text += format("v {:.9g} {:.9g} 0\n", x * size, y * size);
             for (int corner = 0; corner < 6; ++corner)
-                face += OIIO::Strutil::fmt::format(" {}", (first + corner) % 6 + 1);
+                face += format(" {}", (first + corner) % 6 + 1);
             Mesh mesh;
             std::string error;
             ASSERT_TRUE(read_mesh(mesh, folder.write("l.obj", text + face + "\n"), {}, error)) << error;

@@ -4,6 +4,7 @@
 #include "mesh_refusal.h"
 
 #include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/read_mesh.h>
 
 #include <cmath>
@@ -40,7 +41,7 @@ TEST(Geometry, ATreeOfAHundredThousandNodes)
     const int count = 100000;
     std::string nodes;
     for (int i = 1; i < count; ++i)
-        nodes += OIIO::Strutil::fmt::format("{{\"children\":[{}]}},", i);
+        nodes += format("{{\"children\":[{}]}},", i);
     EXPECT_EQ(triangles_of_gltf(folder, nodes + R"({"mesh":0})"), 1u);
     row.ours("its triangle");
 }
@@ -52,7 +53,7 @@ std::string numbers(int first, int last)
 {
     std::string text;
     for (int i = first; i <= last; ++i)
-        text += OIIO::Strutil::fmt::format(",{}", i);
+        text += format(",{}", i);
     return text;
 }
 
@@ -66,7 +67,7 @@ TEST(Geometry, NodesUnderTwoOthers)
     const TemporaryFolder folder;
     std::string twice;
     for (int i = 1; i < 40; ++i)
-        twice += OIIO::Strutil::fmt::format("{{\"children\":[{0},{0}]}},", i);
+        twice += format("{{\"children\":[{0},{0}]}},", i);
     const auto gltf = [](const std::string& nodes, const std::string& roots = "0") {
         return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" + nodes
             + "]}";
@@ -99,7 +100,7 @@ std::string collada(int count, const std::function<std::string(int next)>& inner
 {
     std::string nodes;
     for (int i = 0; i + 1 < count; ++i)
-        nodes += OIIO::Strutil::fmt::format(R"(<node id="n{}">{}</node>)", i, inner(i + 1));
+        nodes += format(R"(<node id="n{}">{}</node>)", i, inner(i + 1));
     return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">)"
            R"(<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">)"
            R"(0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#pa" count="3" stride="3">)"
@@ -107,14 +108,14 @@ std::string collada(int count, const std::function<std::string(int next)>& inner
            R"(</technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)"
            R"(<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh>)"
            R"(</geometry></library_geometries><library_nodes>)"
-        + nodes + OIIO::Strutil::fmt::format(R"(<node id="n{}"><instance_geometry url="#g"/></node>)", count - 1)
+        + nodes + format(R"(<node id="n{}"><instance_geometry url="#g"/></node>)", count - 1)
         + R"(</library_nodes><library_visual_scenes><visual_scene id="s"><node><instance_node url="#n0"/></node>)"
           R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
 }
 
 std::string named(int next)
 {
-    return OIIO::Strutil::fmt::format(R"(<instance_node url="#n{}"/>)", next);
+    return format(R"(<instance_node url="#n{}"/>)", next);
 }
 
 } // namespace
@@ -138,14 +139,14 @@ TEST(Geometry, ColladaNodesThatNameOthers)
         EXPECT_EQ(refusal(folder, name, collada(3, [](int) { return named(0); })), "node \"n0\" is its own ancestor");
     const auto in_scene = [](const char* attributes, const char* inner) {
         return OIIO::Strutil::replace(collada(3, named), "<node><instance_node url=\"#n0\"/>",
-                                      OIIO::Strutil::fmt::format("<node {}>{}", attributes, inner));
+                                      format("<node {}>{}", attributes, inner));
     };
     for (const char* url : { "#", "#s", "#a", "#b" }) // what has no id, the scene, by id, by name
-        EXPECT_NE(refusal(folder, "a.dae",
-                          in_scene("id=\"a\" name=\"b\"",
-                                   OIIO::Strutil::fmt::format("<node><instance_node url=\"{}\"/></node>", url).c_str()))
-                      .find("is its own ancestor"),
-                  std::string::npos)
+        EXPECT_NE(
+            refusal(folder, "a.dae",
+                    in_scene("id=\"a\" name=\"b\"", format("<node><instance_node url=\"{}\"/></node>", url).c_str()))
+                .find("is its own ancestor"),
+            std::string::npos)
             << url;
     EXPECT_EQ(refusal(folder, "a.dae", in_scene("id=\"a\" name=\"n0\"", "<instance_node url=\"#n0\"/>")), "")
         << "named as what it shows";

@@ -2,15 +2,8 @@
 /// Rows of the table in README.md. Each is written by the test that it tells of, once that has passed.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <OpenImageIO/strutil.h>
-
-#include <nlohmann/json.hpp>
-
-#include <cstdlib>
-#include <fstream>
 #include <string>
+#include <utility>
 
 namespace vmlight {
 
@@ -35,24 +28,7 @@ public:
     void ours(const std::string& result) { m_ours = result; }
 
 private:
-    // Into the folder VMLIGHT_HARD_ROWS, where there is one.
-    void write() const
-    {
-        const char* folder = std::getenv("VMLIGHT_HARD_ROWS");
-        if (testing::Test::HasFailure() || testing::Test::IsSkipped())
-            return;
-        EXPECT_FALSE(m_naive.empty() || m_ours.empty()) << "a row without a result";
-        if (!folder)
-            return;
-        const auto& test = *testing::UnitTest::GetInstance()->current_test_info();
-        const nlohmann::json row { { "family", test.test_suite_name() },
-                                   { "test", test.name() },
-                                   { "case", m_what },
-                                   { "naive", m_naive },
-                                   { "ours", m_ours },
-                                   { "peers", m_peers } };
-        std::ofstream(std::string(folder) + "/" + test.test_suite_name() + "." + test.name() + ".json") << row;
-    }
+    void write() const;
 
     std::string m_what, m_peers, m_naive, m_ours;
 };

@@ -7,6 +7,7 @@
 #include "temporary_folder.h"
 #include "watchdog.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/sanitizers.h>
 #include <vmlight/stage/make_stage.h>
 
@@ -18,7 +19,7 @@
 #include <limits>
 
 using namespace cfem_maps;
-using OIIO::Strutil::fmt::format;
+using vmlight::format;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "lightmap_scene.h"
 #include "temporary_folder.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/image_file.h>
@@ -16,7 +17,7 @@
 #include <limits>
 
 using namespace cfem_maps;
-using OIIO::Strutil::fmt::format;
+using vmlight::format;
 
 namespace {
 
@@ -218,7 +219,7 @@ TEST(Light, WhatIsNoLight)
         spec.channelnames[0] = channel;
         OIIO::ImageBuf cfem;
         EXPECT_FALSE(make_cfem(cfem, OIIO::ImageBuf(spec), exact(8, 4)));
-        EXPECT_EQ(cfem.geterror(), OIIO::Strutil::fmt::format("environment: no channels R, G, B among {}", channel));
+        EXPECT_EQ(cfem.geterror(), vmlight::format("environment: no channels R, G, B among {}", channel));
     }
     OIIO::ImageBuf crop = image(Map(8, 4, 1)), dst;
     crop.specmod().full_height = 8;

@@ -2,9 +2,8 @@
 /// Mesh files with all digits that a double has, for tests that read them back.
 #pragma once
 
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/mesh.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <cstring>
 #include <string>
@@ -14,7 +13,6 @@ namespace vmlight {
 /// Positions, uvs and normals; `line_end` between lines.
 inline std::string obj_of(const Mesh& mesh, const char* line_end = "\n")
 {
-    using OIIO::Strutil::fmt::format;
     std::string text;
     for (const Imath::V3d& p : mesh.positions)
         text += format("v {:.17g} {:.17g} {:.17g}{}", p.x, p.y, p.z, line_end);
@@ -30,7 +28,6 @@ inline std::string obj_of(const Mesh& mesh, const char* line_end = "\n")
 /// A PLY of one of the three formats, with positions as `double`.
 inline std::string ply_of(const Mesh& mesh, const std::string& format_name)
 {
-    using OIIO::Strutil::fmt::format;
     std::string bytes = format("ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
                                "property double z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                                "property float s\nproperty float t\nelement face {}\n"

@@ -4,12 +4,12 @@
 
 #include "lightmap_scene.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/math/rotation.h>
 
 #include <cmath>
 
 using namespace vmlight;
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include "scenes.h"
 #include "temporary_folder.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/uv/raster.h>
@@ -112,7 +113,7 @@ TEST(Uv, SharedEdgesOfAllPairs)
     }
     EXPECT_GT(naive_twice, 1000);
     row.naive("with >= 0 the texels on the shared edge are covered twice; with > 0 never");
-    row.ours(OIIO::Strutil::fmt::format("each once, for all {} pairs", pairs));
+    row.ours(format("each once, for all {} pairs", pairs));
 }
 
 TEST(Uv, TexturesOfAllShapes)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfem_maps.h"
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/filesystem.h>
 
 #include <gtest/gtest.h>
@@ -108,9 +110,9 @@ TEST(Cfem, WrongImagesAndParametersAreRefused)
         OIIO::ImageBuf cropped = image(Map(4, 2));
         cropped.specmod().full_height = side;
         EXPECT_EQ(refusal(cropped),
-                  OIIO::Strutil::fmt::format("environment: display window of 4x{} pixels: sides must be 1 to "
-                                             "65536",
-                                             side));
+                  vmlight::format("environment: display window of 4x{} pixels: sides must be 1 to "
+                                  "65536",
+                                  side));
     }
     EXPECT_NE(refusal(image(Map(4, 2)), exact(0, 2)).find("resolution: "), std::string::npos);
     EXPECT_NE(refusal(image(Map(4, 2)), harmonics(65, 4, 2)).find("order: 65"), std::string::npos);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "temporary_folder.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
 #include <vmlight/image/image_file.h>
@@ -21,7 +22,7 @@ namespace {
 // Not "\"" + path + "\"", of which GCC 12 warns falsely.
 std::string quoted(const std::string& path)
 {
-    return OIIO::Strutil::fmt::format("\"{}\"", path);
+    return format("\"{}\"", path);
 }
 
 OIIO::ImageBuf vismap_like(int width, int height, float factor = 1)
@@ -183,19 +184,18 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
         image.setpixel(3, 4, std::vector<float> { 0, 0, value, 0, 0 });
         EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
         const std::string reached = value > 0 ? "65505" : "1e+06";
-        EXPECT_EQ(
-            error,
-            OIIO::Strutil::fmt::format("\"{}\": channel direction.y reaches {}, but the maximum of half is 65504: "
-                                       "write float",
-                                       folder / "a.exr", reached));
+        EXPECT_EQ(error,
+                  format("\"{}\": channel direction.y reaches {}, but the maximum of half is 65504: "
+                         "write float",
+                         folder / "a.exr", reached));
         EXPECT_TRUE(folder.bytes("a.exr") == old);
     }
     image.setpixel(3, 4, std::vector<float> { 0, 0, 0, std::numeric_limits<float>::infinity(), 0 });
     EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
     EXPECT_EQ(error,
-              OIIO::Strutil::fmt::format("\"{}\": channel direction.z reaches inf, but the maximum of half is 65504: "
-                                         "write float",
-                                         folder / "a.exr"));
+              format("\"{}\": channel direction.z reaches inf, but the maximum of half is 65504: "
+                     "write float",
+                     folder / "a.exr"));
     image.setpixel(3, 4, std::vector<float> { 65504, 0, 0, -65504, 0 });
     EXPECT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
 }

@@ -2,6 +2,7 @@
 // A source made whole, as the executables do, and read by the tile, as the readers do.
 #include "stage_scene.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/stored_image.h>
@@ -84,5 +85,5 @@ TEST(PixelSource, AFileThatWasOnlyTouchedIsMadeAndOneOfAnotherSizeRefused)
     std::vector<OIIO::ImageBuf> images;
     error.clear();
     EXPECT_FALSE(source->make(images, {}, {}, error));
-    EXPECT_EQ(error, OIIO::Strutil::fmt::format("\"{}\": changed since it was opened", path));
+    EXPECT_EQ(error, format("\"{}\": changed since it was opened", path));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/available_memory.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -126,9 +128,8 @@ std::string memory_shortage(const OIIO::ImageSpec& spec)
     const int64_t available = available_memory();
     if (bytes <= double(available))
         return "";
-    return OIIO::Strutil::fmt::format("{}x{} pixels of {} channels need {} of memory, {} available", spec.width,
-                                      spec.height, spec.nchannels, memformat(int64_t(std::min(bytes, 1e18))),
-                                      memformat(available));
+    return format("{}x{} pixels of {} channels need {} of memory, {} available", spec.width, spec.height,
+                  spec.nchannels, memformat(int64_t(std::min(bytes, 1e18))), memformat(available));
 }
 
 } // namespace vmlight

@@ -2,7 +2,7 @@
 /// Counts invalid values of an image (NaN, negative, ...) and remembers where the first one is.
 #pragma once
 
-#include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 
 #include <cstdint>
 #include <string>
@@ -32,9 +32,9 @@ public:
     template <class Names> std::string describe(const char* image, const char* problem, const Names& channels) const
     {
         const bool one = m_count == 1;
-        return OIIO::Strutil::fmt::format("{} has {} value{} that {} {}, {}at pixel ({}, {}) channel \"{}\"", image,
-                                          m_count, one ? "" : "s", one ? "is" : "are", problem, one ? "" : "the first ",
-                                          m_x, m_y, channels[m_channel]);
+        return format("{} has {} value{} that {} {}, {}at pixel ({}, {}) channel \"{}\"", image, m_count,
+                      one ? "" : "s", one ? "is" : "are", problem, one ? "" : "the first ", m_x, m_y,
+                      channels[m_channel]);
     }
 
     BadValues() = default;

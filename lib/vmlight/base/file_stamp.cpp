@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/file_stamp.h>
 
-#include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -9,8 +9,6 @@
 #include <sys/stat.h>
 
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
 {

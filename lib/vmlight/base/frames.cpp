@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/frames.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/params.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 bool parse_frames(std::vector<int>& dst, const std::string& text, std::string& error)
 {

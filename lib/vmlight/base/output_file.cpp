@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/output_file.h>
 
-#include <OpenImageIO/strutil.h>
+#include <vmlight/base/format.h>
 
 #include <cerrno>
 #include <cstring>
@@ -12,8 +12,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Follows symbolic links, dangling ones too; "" if they form a loop.
 std::string link_target(std::string path)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/params.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/strutil.h>
@@ -12,7 +13,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::string_view;
-using OIIO::Strutil::fmt::format;
 
 // OIIO's stof/stoi parse a leading number and ignore the rest; here the whole text must be one finite number.
 bool whole_number_text(string_view text, double& value)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/temporary_file.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
@@ -16,8 +18,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr const char* kDigits = "%%%%%%%%"; // unique_path() replaces each by a random hexadecimal digit
 constexpr const char* kEnding = ".part";

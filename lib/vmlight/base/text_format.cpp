@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/text_format.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/utf8.h>
-
-#include <OpenImageIO/strutil.h>
 
 namespace vmlight {
 
@@ -15,7 +14,7 @@ std::string printable_line(OIIO::string_view text)
         uint32_t code = 0;
         count = decode_utf8(text, code);
         if (count == 0 || code < 0x20 || code == 0x7f) {
-            line += OIIO::Strutil::fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+            line += format("\\x{:02x}", static_cast<unsigned char>(text[0]));
             count = 1;
         } else {
             line.append(text.data(), count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/environment.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 
 #include <OpenImageIO/strutil.h>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 Environment::Environment(const OIIO::ImageBuf& image)
     : m_image(&image)

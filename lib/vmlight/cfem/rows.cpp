@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/rows.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/image/channels.h>
 
@@ -138,7 +139,7 @@ bool set_filtered(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const std::v
         const bool rounding = rgb[i] > kLargest && rgb[i] <= kLargest * (1 + 1e-6);
         pixels[i] = rounding ? kLargest : float(clamp ? std::max(0.0, rgb[i]) : rgb[i]);
         if (!std::isfinite(pixels[i])) {
-            error = OIIO::Strutil::fmt::format("filtered light of {:g} is too large for a float", rgb[i]);
+            error = format("filtered light of {:g} is too large for a float", rgb[i]);
             return false;
         }
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/stack.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/cfem/exact.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
-
-#include <OpenImageIO/strutil.h>
 
 namespace vmlight {
 namespace {
@@ -38,7 +37,7 @@ OIIO::ImageSpec describe_cfem_level(const OIIO::ImageSpec& env, const CfemParams
     spec.attribute("vmlight:stack", "true");
     spec.attribute("vmlight:lobe", float(stack_lobe(level)));
     // EXR requires a unique name for each of several images.
-    spec.attribute("oiio:subimagename", OIIO::Strutil::fmt::format("lobe{:.4f}", stack_lobe(level)));
+    spec.attribute("oiio:subimagename", format("lobe{:.4f}", stack_lobe(level)));
     return spec;
 }
 

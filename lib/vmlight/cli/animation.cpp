@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/animation.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/math/rotation.h>
 
-#include <OpenImageIO/strutil.h>
-
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 std::string Animation::fault(const std::string& output) const
 {

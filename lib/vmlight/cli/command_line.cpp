@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/command_line.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/cli/completion.h>
 #include <vmlight/cli/help_text.h>
 #include <vmlight/cli/man_page.h>
@@ -14,7 +15,6 @@
 namespace vmlight {
 namespace {
 
-using OIIO::Strutil::fmt::format;
 using Option = CommandLine::Option;
 
 // Flags of every executable that print something instead of working. The last two are for packagers: not in the help.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/completion.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
@@ -8,7 +10,6 @@ namespace {
 
 using OIIO::Strutil::join;
 using OIIO::Strutil::replace;
-using OIIO::Strutil::fmt::format;
 using Option = CommandLine::Option;
 
 std::vector<const Option*> all_options(const CommandLine& line)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/help_text.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/version.h>
 
 #include <OpenImageIO/strutil.h>
@@ -9,8 +10,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr size_t kColumns = 79, kHelpColumn = 28;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/main.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cli/progress_line.h>
@@ -9,7 +10,6 @@
 #include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
@@ -176,7 +176,7 @@ bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& pat
 {
     for (const OIIO::ImageBuf& image : images)
         if (pixel_format() == "half" && !(error = half_fault(image.spec())).empty()) {
-            error = OIIO::Strutil::fmt::format("\"{}\": {}", path, error);
+            error = format("\"{}\": {}", path, error);
             return false;
         }
     return write_images(

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/man_page.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/version.h>
 
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Text that roff prints as it is: no escapes, no hyphens for '-', no requests at the start of a line.
 std::string escaped(const std::string& text)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/progress_line.h>
 
-#include <OpenImageIO/strutil.h>
-#include <OpenImageIO/timer.h>
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,8 +14,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 std::atomic<bool> s_line_is_open { false };
 
@@ -55,7 +53,7 @@ std::string progress_line(const std::string& step, double done, double seconds, 
 Progress progress_on_stderr(const std::string& step, int64_t texels, std::function<bool()> keep_going)
 {
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    auto timer = std::make_shared<OIIO::Timer>();
+    auto timer = std::make_shared<Stopwatch>();
     auto last = std::make_shared<double>(-1); // seconds on a terminal, tenths elsewhere
     return [=](double done) {
         const double seconds = (*timer)();

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/stage_command.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/utf8.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/uv/udim.h>
 
-#include <OpenImageIO/strutil.h>
-
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 std::string StageCommand::output_fault() const
 {

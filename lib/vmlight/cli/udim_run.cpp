@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/udim_run.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/uv/udim.h>
@@ -11,8 +12,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Parameters that name inputs, in the order in which they determine the tiles.
 constexpr const char* kInputs[] = { "mesh", "occluder", "vismap", "albedo", "environment", "cfem", "colorconfig" };

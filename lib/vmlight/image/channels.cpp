@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/channels.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/color.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color_space.h>
@@ -8,7 +9,6 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagebufalgo_util.h>
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,6 @@
 #include <vector>
 
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/color_transform.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/params.h>
 #include <vmlight/image/color_space.h>
@@ -16,7 +17,6 @@
 namespace vmlight {
 
 using OIIO::ColorConfig;
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

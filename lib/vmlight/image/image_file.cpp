@@ -2,6 +2,7 @@
 #include <vmlight/image/image_file.h>
 
 #include <vmlight/base/available_memory.h>
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
 
@@ -18,8 +19,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // OIIO's progress callback: gets a pointer, returns true to stop. A writer that was stopped reports success.
 struct WriteProgress

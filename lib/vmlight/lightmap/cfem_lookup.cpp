@@ -2,19 +2,16 @@
 #include <vmlight/lightmap/cfem_lookup.h>
 
 #include <vmlight/base/bad_values.h>
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/math/latlong.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Row by row, and only the channels in use, so that a map in a cache is not copied as a whole.
 bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int, 3>& index, std::string& error)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/input.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -14,7 +13,6 @@ namespace vmlight {
 
 using OIIO::ImageBuf;
 using OIIO::ROI;
-using OIIO::Strutil::fmt::format;
 
 std::string named(const ImageBuf& image, const std::string& reason)
 {

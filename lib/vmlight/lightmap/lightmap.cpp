@@ -3,14 +3,13 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/fail_with.h>
+#include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <mutex>
@@ -20,7 +19,6 @@ namespace {
 
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
-using OIIO::Strutil::fmt::format;
 
 // A turntable makes image after image of one size: memory that fits is reused, since fresh pages cost as much as the
 // shading.

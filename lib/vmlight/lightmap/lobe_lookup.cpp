@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/lobe_lookup.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/lightmap/cfem_lookup.h>
-
-#include <OpenImageIO/strutil.h>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr double kLobeTolerance = 1e-4;
 // The vector kernel indexes floats with 32 bits.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/model_cells.h>
@@ -13,8 +14,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // Name, phrase, light, rank, basis, added channel, whole numbers, unread, channels, is_baked, prepare.
 constexpr ModelEntry kModels[] = {

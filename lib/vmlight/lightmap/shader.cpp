@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/shader.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
@@ -17,7 +18,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::ImageSpec;
-using OIIO::Strutil::fmt::format;
 
 void copy_attribute(ImageSpec& dst, const ImageSpec& src, const char* name)
 {

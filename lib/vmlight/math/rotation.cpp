@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/math/rotation.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/math/latlong.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 struct SinCos
 {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/mesh.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <cmath>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 std::string find_error(const Mesh& mesh)
 {

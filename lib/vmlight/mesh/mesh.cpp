@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/mesh.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/hash.h>
-#include <OpenImageIO/strutil.h>
 
 #include <array>
 
@@ -17,7 +18,7 @@ std::string mesh_hash(const Mesh& mesh)
     const std::array<uint64_t, 4> parts { fingerprint(mesh.positions), fingerprint(mesh.normals), fingerprint(mesh.uvs),
                                           fingerprint(mesh.triangles) };
     const uint64_t hash = fingerprint(parts);
-    return OIIO::Strutil::fmt::format("{:016x}", hash);
+    return format("{:016x}", hash);
 }
 
 } // namespace vmlight

@@ -2,6 +2,7 @@
 #include <vmlight/reference/reference.h>
 
 #include <vmlight/base/fail_with.h>
+#include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/lightmap/environment_light.h>
 #include <vmlight/math/latlong.h>
@@ -9,8 +10,6 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,6 @@ namespace {
 using Imath::V3d;
 using Imath::V3f;
 using latlong::pi;
-using OIIO::Strutil::fmt::format;
 
 constexpr int kChannels = 7;
 constexpr int kPairs = 128; // traced at once

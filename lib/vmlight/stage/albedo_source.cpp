@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/albedo_source.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <array>
 
 namespace vmlight {
-
-using OIIO::Strutil::fmt::format;
 
 AlbedoSource::AlbedoSource(const std::string& key, const LightmapRecipe& recipe, PixelSourcePointer image,
                            OIIO::ROI size)

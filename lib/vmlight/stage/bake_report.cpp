@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/bake_report.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 double percent(int64_t part, int64_t whole)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/once_cache.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
@@ -13,9 +15,6 @@
 #include <vmlight/stage/stored_image.h>
 #include <vmlight/stage/streamed_environment.h>
 
-#include <OpenImageIO/strutil.h>
-#include <OpenImageIO/timer.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -23,8 +22,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 class CfemSource : public PixelSource
 {
@@ -104,7 +101,7 @@ private:
             options.report_warning(
                 format("\"{}\" is {}x{}, not twice as wide as high: treated as a lat-long map anyway",
                        m_recipe.environment, spec.full_width, spec.full_height));
-        const OIIO::Timer timer;
+        const Stopwatch timer;
         if (!filter(dst, range, *environment, options, error)) {
             error = format("\"{}\": {}", m_recipe.environment, error);
             return false;

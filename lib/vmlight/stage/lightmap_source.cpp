@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/once_cache.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/stack.h>
@@ -14,17 +16,12 @@
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
-#include <OpenImageIO/strutil.h>
-#include <OpenImageIO/timer.h>
-
 #include <algorithm>
 #include <atomic>
 #include <vector>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 /// The images that a lightmap reads. The albedo may be nullptr.
 struct Inputs
@@ -91,7 +88,7 @@ public:
         LightmapInputs inputs;
         if (!make_inputs(inputs, options, error))
             return false;
-        const OIIO::Timer timer;
+        const Stopwatch timer;
         dst.clear();
         OIIO::ImageBuf& lightmap = dst.emplace_back();
         if (!make_lightmap(lightmap, inputs.vismap, inputs.cfem, m_recipe.lightmap_params, inputs.albedo_or_none(),

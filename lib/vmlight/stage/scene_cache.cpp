@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/scene_cache.h>
 
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
-
-#include <OpenImageIO/timer.h>
 
 #include <map>
 #include <memory>
@@ -84,7 +83,7 @@ bool build(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps&
             return false;
     }
     work_counts().meshes_read += int64_t(stamps.files.size());
-    const OIIO::Timer timer;
+    const Stopwatch timer;
     at = key_of(0);
     if (!scene->build(std::move(mesh), occluders, nthreads, error))
         return false;

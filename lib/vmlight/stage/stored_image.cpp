@@ -3,6 +3,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/file_stamp.h>
+#include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/once_cache.h>
 #include <vmlight/image/image_file.h>
@@ -10,7 +11,6 @@
 #include <vmlight/stage/source_cache.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,8 +22,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr size_t kMostBlocks = size_t(256) << 20; // bytes
 constexpr int kStripRows = 64;

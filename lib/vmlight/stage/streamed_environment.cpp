@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/streamed_environment.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <array>
 #include <utility>
@@ -41,7 +40,7 @@ bool stream_environment(std::optional<Environment>& dst, const PixelSourcePointe
     std::array<int, 3> channels;
     ColorConversion conversion;
     if (!find_color_channels(spec, channels, error)) {
-        error = OIIO::Strutil::fmt::format("\"{}\": {}", path, error);
+        error = format("\"{}\": {}", path, error);
         return false;
     }
     if (!describe_scene_linear(spec, conversion, path, settings, note, error))

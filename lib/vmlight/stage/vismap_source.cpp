@@ -2,6 +2,7 @@
 #include <vmlight/stage/make_stage.h>
 
 #include <vmlight/base/available_memory.h>
+#include <vmlight/base/format.h>
 #include <vmlight/stage/bake_report.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
@@ -12,7 +13,6 @@
 #include <vmlight/vismap/tiles.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <atomic>
@@ -143,9 +143,8 @@ bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOp
         *options.scene = scene;
     dst = mesh_udims(scene->mesh());
     if (dst.empty())
-        error = with_location(
-            recipe, "mesh", options.chain,
-            OIIO::Strutil::fmt::format("\"{}\": its texture coordinates are outside all UDIM tiles", recipe.mesh));
+        error = with_location(recipe, "mesh", options.chain,
+                              format("\"{}\": its texture coordinates are outside all UDIM tiles", recipe.mesh));
     return !dst.empty();
 }
 

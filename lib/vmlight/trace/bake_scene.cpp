@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/bake_scene.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/trace/surface.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,7 @@ bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
             const double reach = ((mesh.positions[vertex] - frame.centre) * frame.scale).length();
             if (reach <= kFarthestCaster)
                 continue;
-            error = OIIO::Strutil::fmt::format(
+            error = format(
                 "\"{}\": vertex {} is {:.2g} times the size of the baked mesh away; rays reach at most {:g} times",
                 mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
             return false;
@@ -63,7 +62,6 @@ double rounding_of(const Mesh& mesh, const SceneFrame& frame)
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
                       std::string& error)
 {
-    using OIIO::Strutil::fmt::format;
     const std::string& path = mesh->path.empty() ? mesh->name : mesh->path;
     if (mesh->triangles.empty()) {
         error = format("\"{}\": no triangles", path);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/occluder.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/trace/embree.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <array>
@@ -125,7 +124,7 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
 {
     auto scene = std::make_unique<EmbreeScene>();
     // A thread count limits all of the process's TBB work for good: set it only if the user did.
-    const std::string threads = nthreads > 0 ? OIIO::Strutil::fmt::format("threads={},", nthreads) : "";
+    const std::string threads = nthreads > 0 ? format("threads={},", nthreads) : "";
     scene->device = rtcNewDevice((threads + "set_affinity=0").c_str());
     bool good = scene->device != nullptr;
     if (good) {

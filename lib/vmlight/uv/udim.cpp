@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uv/udim.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/frames.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -12,8 +13,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr const char* kPattern = "<UDIM>";
 constexpr size_t kDigits = 4;

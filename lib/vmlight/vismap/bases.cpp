@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/vismap/basis.h>
 #include <vmlight/vismap/basis_grid.h>
 #include <vmlight/vismap/basis_sh.h>
@@ -9,8 +10,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 std::vector<std::string> no_channels(const VismapParams&)
 {

@@ -2,10 +2,9 @@
 #include <vmlight/vismap/pilot.h>
 
 #include <vmlight/base/parallel.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/math/sampling.h>
 #include <vmlight/vismap/visibility_integrator.h>
-
-#include <OpenImageIO/timer.h>
 
 #include <algorithm>
 #include <array>
@@ -82,7 +81,7 @@ bool VismapPilot::pick(const UvRaster& raster)
 
 bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
 {
-    const OIIO::Timer timer;
+    const Stopwatch timer;
     const SamplePattern pattern(m_params.sampler, samples, m_params.measure == "uniform");
     const Point32 hash = texel_hash(uint32_t(samples), 0, uint32_t(m_params.seed));
     std::array<VismapParams, 2> params { m_params, m_params };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/sample_count.h>
 
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/vismap/pilot.h>
-
-#include <OpenImageIO/strutil.h>
-#include <OpenImageIO/timer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +118,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& ra
         error = "samples: 1 is too few for the channel error, which needs 2";
         return false;
     }
-    const OIIO::Timer timer;
+    const Stopwatch timer;
     VismapPilot pilot(scene, params, nthreads, progress);
     if (!pilot.pick(raster))
         return stopped();
@@ -129,8 +128,8 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& ra
         if (outcome == Outcome::Stopped)
             return stopped();
         if (outcome == Outcome::OutOfReach) {
-            error = OIIO::Strutil::fmt::format("target_error: {:.6g} is out of reach: {} rays per texel give {:.2g}",
-                                               target, kMost, error_at(kMost, measured));
+            error = format("target_error: {:.6g} is out of reach: {} rays per texel give {:.2g}", target, kMost,
+                           error_at(kMost, measured));
             return false;
         }
     } else {

@@ -3,11 +3,10 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/fail_with.h>
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/uv/margin.h>
 #include <vmlight/vismap/baker.h>
-
-#include <OpenImageIO/strutil.h>
-#include <OpenImageIO/timer.h>
 
 namespace vmlight {
 namespace {
@@ -29,7 +28,7 @@ OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
 bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params,
                  VismapReport* report, int nthreads, const Progress& progress)
 {
-    const OIIO::Timer timer;
+    const Stopwatch timer;
     std::string error;
     auto scene = std::make_shared<BakeScene>();
     if (!check_params(params, error) || !scene->build(non_owning(mesh), occluders, nthreads, error))
@@ -45,7 +44,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
                  int nthreads, const Progress& progress, double time_budget)
 {
     VismapReport counts;
-    OIIO::Timer timer;
+    Stopwatch timer;
     std::string error;
     if (check_params(params, error))
         error = memory_shortage(describe_vismap("", params));
@@ -56,7 +55,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     dst.reset(spec, OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels)
-        return fail_with(dst, OIIO::Strutil::fmt::format("out of memory for {}x{} texels", spec.width, spec.height));
+        return fail_with(dst, format("out of memory for {}x{} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
     counts.tiny = scene->tiny_triangles();
     counts.rounding = scene->rounding();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/assimp_importer.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -22,7 +23,6 @@ namespace vmlight {
 namespace {
 
 using Imath::V3d;
-using OIIO::Strutil::fmt::format;
 
 // The format's usual extension, which assimp's importers list first, too.
 std::string extension_of(const ImportRequest& request)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/assimp_importer.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <assimp/scene.h>
 
@@ -78,8 +77,8 @@ std::string face_error(const aiScene& imported)
         for (unsigned f = 0; f < part.mNumFaces; ++f)
             for (unsigned corner = 0; corner < part.mFaces[f].mNumIndices; ++corner)
                 if (const unsigned vertex = part.mFaces[f].mIndices[corner]; vertex >= part.mNumVertices)
-                    return OIIO::Strutil::fmt::format("face {} of \"{}\" uses vertex {}, but there are only {}", f,
-                                                      part.mName.C_Str(), vertex, part.mNumVertices);
+                    return format("face {} of \"{}\" uses vertex {}, but there are only {}", f, part.mName.C_Str(),
+                                  vertex, part.mNumVertices);
     }
     return "";
 }

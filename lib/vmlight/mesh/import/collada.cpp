@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/node_graph.h>
 
@@ -16,7 +17,6 @@
 namespace vmlight {
 namespace {
 
-using OIIO::Strutil::fmt::format;
 using pugi::xml_node;
 
 constexpr int kMaxDepth = 100000; // the deep stack holds twice as many

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/fbx_records.h>
 #include <vmlight/mesh/import/format_checks.h>
@@ -14,8 +15,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr int kMaxModelDepth = 5000; // assimp makes up to 18 nodes of each Model
 constexpr size_t kMaxExtraModels = 50000; // copies under several parents, which no exporter is known to write

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/fbx_records.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr size_t kMaxDepth = 1000; // of brackets; an FBX has about six
 constexpr size_t kProperties = 4; // the first ones of a record: no more are needed

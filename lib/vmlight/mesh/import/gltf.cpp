@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/node_graph.h>
 
@@ -14,7 +15,6 @@ namespace vmlight {
 namespace {
 
 using nlohmann::json;
-using OIIO::Strutil::fmt::format;
 
 constexpr int kMaxDepth = 1000; // of brackets; a glTF has about ten
 

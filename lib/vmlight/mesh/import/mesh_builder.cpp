@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/mesh_builder.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,6 @@ namespace vmlight {
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
-using OIIO::Strutil::fmt::format;
 
 namespace {
 

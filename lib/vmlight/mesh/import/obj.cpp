@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/obj_text.h>
@@ -15,7 +16,6 @@ namespace {
 
 using namespace obj;
 using Imath::V3d;
-using OIIO::Strutil::fmt::format;
 
 // A vertex of 3 numbers, 4 (homogeneous) or 6 (with a colour), as assimp reads it.
 bool parse_vertex(const char* at, std::vector<double>& numbers, V3d& vertex)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/ply_header.h>
@@ -14,7 +15,6 @@ namespace vmlight {
 namespace {
 
 using namespace ply;
-using OIIO::Strutil::fmt::format;
 
 // Reads the numbers of the body in order. Each read is false past the end, or past the element's line.
 class Body

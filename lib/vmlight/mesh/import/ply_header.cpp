@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/ply_header.h>
 
+#include <vmlight/base/format.h>
+
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 namespace vmlight::ply {
 namespace {
 
-using OIIO::Strutil::fmt::format;
 using Words = std::vector<std::string>;
 
 constexpr Type kTypes[]

@@ -2,6 +2,7 @@
 #include <vmlight/mesh/import/read_mesh.h>
 
 #include <vmlight/base/deep_stack.h>
+#include <vmlight/base/format.h>
 #include <vmlight/mesh/import/importer.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -11,8 +12,6 @@
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 // The first `most` bytes; none of a file that cannot be read.
 std::string read_bytes(const std::string& path, uint64_t most)

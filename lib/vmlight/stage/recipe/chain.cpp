@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/chain.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/recipe/udim.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <filesystem>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 constexpr size_t kLongestChain = 64;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/check.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/vismap/basis.h>
 
@@ -34,8 +35,8 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
 {
     const bool is_filter = OIIO::Strutil::starts_with(key, "cfem_");
     if ((is_filter || key == "colorspace") && !recipe.cfem.empty())
-        return OIIO::Strutil::fmt::format("no environment to {}: \"{}\" is already filtered",
-                                          is_filter ? "filter" : "convert", recipe.cfem);
+        return format("no environment to {}: \"{}\" is already filtered", is_filter ? "filter" : "convert",
+                      recipe.cfem);
     const std::string& model = recipe.lightmap_params.model;
     if ((key == "cfem_filter" || key == "cfem_order") && reads_radiance(model))
         return "the model " + model + " reads the unfiltered environment";

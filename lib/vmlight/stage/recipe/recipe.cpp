@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/recipe.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/stage/recipe/toml.h>
 
@@ -15,7 +16,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::string_view;
-using OIIO::Strutil::fmt::format;
 
 constexpr uint64_t kLargestFile = 1 << 20;
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes recipes as TOML.
+#include <vmlight/base/format.h>
 #include <vmlight/stage/recipe/recipe.h>
 
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
 namespace {
-
-using OIIO::Strutil::fmt::format;
 
 std::string quoted(const std::string& text)
 {

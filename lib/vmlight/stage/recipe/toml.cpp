@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/toml.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
-
-#include <OpenImageIO/strutil.h>
 
 #include <utility>
 
@@ -32,16 +31,16 @@ const char* kind_of(const toml::node& node)
 
 bool misfit(const toml::node& node, const std::string& wanted, std::string& reason)
 {
-    reason = OIIO::Strutil::fmt::format("{} where {} is needed", kind_of(node), wanted);
+    reason = format("{} where {} is needed", kind_of(node), wanted);
     return false;
 }
 
 bool number_text(std::string& text, const toml::node& node, bool integral)
 {
     if (const auto* integer = node.as_integer())
-        text = OIIO::Strutil::fmt::format("{}", integer->get());
+        text = format("{}", integer->get());
     else if (const auto* number = node.as_floating_point(); number && !integral)
-        text = OIIO::Strutil::fmt::format("{}", number->get());
+        text = format("{}", number->get());
     else
         return false;
     return true;
@@ -51,10 +50,9 @@ bool word_text(std::string& text, const toml::node& node, const Range& allowed, 
 {
     const auto* word = node.as_string();
     if (!allowed.word || !word)
-        return misfit(node, allowed.word ? OIIO::Strutil::fmt::format("{} or \"{}\"", wanted, allowed.word) : wanted,
-                      reason);
+        return misfit(node, allowed.word ? format("{} or \"{}\"", wanted, allowed.word) : wanted, reason);
     if (word->get() != allowed.word) {
-        reason = OIIO::Strutil::fmt::format("\"{}\" is neither {} nor \"{}\"", word->get(), wanted, allowed.word);
+        reason = format("\"{}\" is neither {} nor \"{}\"", word->get(), wanted, allowed.word);
         return false;
     }
     text = word->get();
@@ -174,8 +172,7 @@ bool node_text(std::string& text, const toml::node& node, const std::vector<doub
 {
     const toml::array* numbers = node.as_array();
     if (!numbers)
-        return string_text(text, node, OIIO::Strutil::fmt::format("an array of {} numbers", allowed.count).c_str(),
-                           reason);
+        return string_text(text, node, format("an array of {} numbers", allowed.count).c_str(), reason);
     for (const toml::node& element : *numbers) {
         std::string number;
         if (!number_text(number, element, false))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/toml.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/utf8.h>
 
 #include <OpenImageIO/strutil.h>
@@ -12,7 +13,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::string_view;
-using OIIO::Strutil::fmt::format;
 
 constexpr size_t kMostDots = 100;
 

@@ -1,0 +1,1 @@
+#include <OpenImageIO/parallel.h>
