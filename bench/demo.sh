@@ -29,8 +29,8 @@ stage() {
 echo "Stages"
 stage "visibility map, $resolution x $resolution" \
     "$bin/makevismap" "$data/$mesh.obj" -o "$out/${mesh}_vismap.exr" --resolution $resolution --quiet
-stage "cosine-filtered environment" \
-    "$bin/makecfem" "$data/$environment.hdr" --colorconfig "$config" -o "$out/studio_cfem.exr" --quiet
+stage "cosine-filtered environment, a stack" \
+    "$bin/makecfem" "$data/$environment.hdr" --stack --colorconfig "$config" -o "$out/studio_cfem.exr" --quiet
 for angle in "${angles[@]}"; do
     stage "lightmap, turned $angle degrees" \
         "$bin/makelightmap" "$out/${mesh}_vismap.exr" "$out/studio_cfem.exr" --colorconfig "$config" \
@@ -53,7 +53,7 @@ make_pictures() {
     "${tool[@]}" "$out/${mesh}_vismap.exr" --ch direction.x,direction.y,direction.z --chnames R,G,B --mulc 0.5 --addc 0.5 \
         "${tagged[@]}" -o "$out/${mesh}_direction.png"
     "${tool[@]}" "$data/$environment.hdr" --tocolorspace ACEScg --mulc "$studio_gain" "${show[@]}" -o "$out/studio.png"
-    "${tool[@]}" "$out/studio_cfem.exr" --ch R,G,B --mulc "$gain" "${show[@]}" -o "$out/studio_cfem.png"
+    "${tool[@]}" "$out/studio_cfem.exr" --subimage 0 --ch R,G,B --mulc "$gain" "${show[@]}" -o "$out/studio_cfem.png"
     for angle in "${angles[@]}"; do
         "${tool[@]}" "$out/${mesh}_lit_$angle.exr" --ch R,G,B --mulc "$gain" "${show[@]}" -o "$out/${mesh}_lit_$angle.png"
     done

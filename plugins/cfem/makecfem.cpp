@@ -9,9 +9,9 @@ int main(int argc, const char** argv)
     CfemRecipe recipe;
     StageMain stage("makecfem", "filter a lat-long environment for diffuse lighting (cosine convolution)",
                     { "ENVIRONMENT" },
-                    "  makecfem studio.exr -o studio_cfem.exr\n"
+                    "  makecfem studio.exr --stack -o studio_cfem.exr\n"
                     "  makecfem sky.hdr --colorconfig config.ocio --resolution 512 -o sky_cfem.exr\n"
-                    "  makecfem studio.exr --stack -o studio_stack.exr\n"
+                    "  makecfem studio.exr --filter sh --order 2 -o studio_sh2.exr\n"
                     "  makecfem studio.cfem -o studio_cfem.exr");
     UdimRun tiles(stage, recipe);
     stage.params("Filter:", recipe.cfem_params);

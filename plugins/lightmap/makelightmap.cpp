@@ -14,7 +14,7 @@ int main(int argc, const char** argv)
     LightmapRecipe recipe;
     Animation animation;
     StageMain stage("makelightmap", "light a visibility map with an environment", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
-                    "  makelightmap hero_vismap.exr studio_cfem.exr --rotate 0,90,0 -o hero_lit.exr\n"
+                    "  makelightmap hero_vismap.exr studio.exr --rotate 0,90,0 -o hero_lit.exr\n"
                     "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
                     "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
                     "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr");

@@ -3,7 +3,7 @@
 
 #include "compare.h"
 #include "journal.h"
-#include "min_seconds.h"
+#include "timing.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
@@ -18,7 +18,7 @@ namespace vmlight::cost {
 namespace {
 
 // Increment when the method of measurement changes: invalidates the rows of earlier journals.
-constexpr int kMethod = 1;
+constexpr int kMethod = 2;
 
 template <class Params> std::string params_text(Params params)
 {
@@ -84,7 +84,7 @@ bool Bench::measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, s
         ? trace(row, picture, setting, light, progress, error)
         : bake(setting, progress, error) && shade(row, picture, setting, environment, progress, error);
     if (made)
-        row.errors = compare(picture, light.reference);
+        row.errors = compare(picture, light.reference, m_inputs.visibility);
     return made;
 }
 
@@ -96,7 +96,7 @@ bool Bench::bake(const Setting& setting, const Progress& progress, std::string& 
         return true;
     m_baked.clear();
     const auto make = [&] { return make_vismap(m_vismap, m_inputs.scene, map, nullptr, m_options.threads, progress); };
-    if (!min_seconds(m_bake_seconds, make))
+    if (!measure_time(m_bake, make))
         return failed(m_vismap, error);
     m_baked = baked;
     return true;
@@ -120,9 +120,12 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
     OIIO::ImageBuf lightmap;
     const auto make
         = [&] { return make_lightmap(lightmap, stored, light->images, params, nullptr, m_options.threads, progress); };
-    if (!min_seconds(row.shade, make))
+    Timing shade;
+    if (!measure_time(shade, make))
         return failed(lightmap, error);
-    row.bake = m_bake_seconds;
+    row.shade = shade.seconds;
+    row.spread = shade.spread;
+    row.bake = m_bake.seconds;
     row.light = light->seconds;
     row.bytes = is_half ? variant.half_bytes() : variant.float_bytes();
     picture = resize_to_reference(lightmap, m_inputs.environments[environment].reference);
@@ -141,8 +144,11 @@ bool Bench::trace(Row& row, OIIO::ImageBuf& picture, const Setting& setting, con
         return make_reference(traced, *m_inputs.scene, environment.image, map_of(setting, m_params), {}, params,
                               m_options.threads, progress);
     };
-    if (!min_seconds(row.shade, make))
+    Timing shade;
+    if (!measure_time(shade, make))
         return failed(traced, error);
+    row.shade = shade.seconds;
+    row.spread = shade.spread;
     picture = traced;
     return true;
 }

@@ -3,6 +3,7 @@
 
 #include "lights.h"
 #include "row.h"
+#include "timing.h"
 
 namespace vmlight::cost {
 
@@ -34,7 +35,7 @@ private:
     FilteredLights m_lights;
     std::string m_baked; // parameters of m_vismap
     OIIO::ImageBuf m_vismap;
-    double m_bake_seconds = 0;
+    Timing m_bake;
 };
 
 } // namespace vmlight::cost

@@ -29,22 +29,29 @@ OIIO::ImageBuf resize_to_reference(const OIIO::ImageBuf& lightmap, const OIIO::I
                                                 : OIIO::ImageBufAlgo::resize(lightmap, "triangle", 0, roi, 1);
 }
 
-Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference)
+Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference, const OIIO::ImageBuf& visibility)
 {
-    std::array<Batch, kBatches> batches;
+    std::array<Batch, kBatches> batches, by_visibility;
     std::vector<float> distances;
     double sum = 0;
-    OIIO::ImageBuf::ConstIterator<float> model(lightmap);
+    OIIO::ImageBuf::ConstIterator<float> model(lightmap), weight(visibility);
     for_each_covered(reference, [&](const auto& truth) {
         model.pos(truth.x(), truth.y());
-        Batch& batch = batches[size_t(batch_of(truth.x(), truth.y()))];
+        weight.pos(truth.x(), truth.y());
+        const size_t batch = size_t(batch_of(truth.x(), truth.y()));
         for (int c = 0; c < 3; ++c) {
-            batch.add(model[c], truth[c], truth[kError + c]);
+            batches[batch].add(model[c], truth[c], truth[kError + c]);
+            by_visibility[batch].add(model[c], truth[c], truth[kError + c], weight[0]);
             distances.push_back(std::abs(model[c] - truth[c]));
             sum += truth[c];
         }
     });
     Errors errors = errors_of(batches);
+    // Light may come through a gap that no ray of the visibility map found.
+    const auto is_lit = [](const Batch& batch) { return batch.reference > 0; };
+    errors.rmse_by_visibility = std::count_if(by_visibility.begin(), by_visibility.end(), is_lit) < 2
+        ? errors.rmse.value
+        : errors_of(by_visibility).rmse.value;
     errors.p95 = quantile(distances, 0.95) * double(distances.size()) / sum;
     return errors;
 }

@@ -14,7 +14,8 @@ OIIO::ImageBuf resize_to_reference(const OIIO::ImageBuf& lightmap, const OIIO::I
 ///
 /// @param lightmap R, G, B of the reference's size
 /// @param reference as make_reference() makes it
-Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference);
+/// @param visibility the weights of Errors::rmse_by_visibility: the first channel of an image of the reference's size
+Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference, const OIIO::ImageBuf& visibility);
 
 /// Number of covered texels of a reference.
 int64_t covered_texels(const OIIO::ImageBuf& reference);

@@ -7,10 +7,12 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/baker.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -148,6 +150,12 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         if (!error.empty())
             return false;
     }
+    if (!make_vismap(inputs.visibility, inputs.scene, reference_map(params), nullptr, options.threads,
+                     options.progress("visibility", int64_t(params.side()) * params.side()))) {
+        error = inputs.visibility.geterror();
+        return false;
+    }
+    inputs.visibility = OIIO::ImageBufAlgo::channels(inputs.visibility, 1, {}, {}, { kVismapChannels[0] });
     return true;
 }
 

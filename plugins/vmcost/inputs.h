@@ -30,6 +30,8 @@ struct Inputs
 {
     BakeScenePointer scene;
     std::vector<Environment> environments;
+    /// The visibility of the reference's texels, one channel, by trace_references().
+    OIIO::ImageBuf visibility;
 
     /// Text that identifies the mesh and its occluders, for keys.
     std::string scene_text() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lights.h"
 
-#include "min_seconds.h"
+#include "timing.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/lightmap/model_light.h>
@@ -21,8 +21,11 @@ const FilteredLight* FilteredLights::find(size_t index, ModelLight light, int wi
     const auto make = [&] {
         return make_model_light(dst.images, environment.image, params, light, error, m_options.threads, progress);
     };
-    if (min_seconds(dst.seconds, make))
+    Timing timing;
+    if (measure_time(timing, make)) {
+        dst.seconds = timing.seconds;
         return &dst;
+    }
     dst.images.clear();
     if (error != "interrupted")
         error = format("\"{}\": {}", environment.path, error);

@@ -12,21 +12,22 @@
 namespace vmlight::cost {
 namespace {
 
-constexpr double kTargets[] = { 0.01, 0.05, 0.10 };
 constexpr int kManyPictures = 100;
-constexpr const char* kTooNoisy = "the reference is too noisy to tell";
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <style>
-body { font: 15px/1.5 sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
+body { font: 15px/1.5 sans-serif; color: #222; max-width: 72em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
-table { border-collapse: collapse; margin: .7em 0; }
-th, td { padding: .25em .8em; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; } th { font-weight: 600; }
+p { max-width: 60em; } .busy { border-left: 4px solid #d55e00; padding-left: .8em; }
+.wide { overflow-x: auto; } table { border-collapse: collapse; margin: .7em 0; }
+th, td { padding: .25em .8em; border-bottom: 1px solid #ddd; text-align: right; }
+th:first-child, td:first-child { text-align: left; } th { font-weight: 600; vertical-align: bottom; }
+.command td { text-align: left; padding-bottom: .7em; } .command code { overflow-wrap: anywhere; font-size: .85em; }
 figure { margin: 1em 0; } figcaption { color: #555; font-size: .92em; max-width: 48em; }
 figure svg { width: 100%; height: auto; max-width: 760px; }
-.heat td { text-align: center; border: 0; padding: .3em; } .heat img { width: 128px; image-rendering: pixelated; }
+.heat { display: flex; flex-wrap: wrap; gap: .6em; } .heat figure { margin: 0; text-align: center; }
+.heat img { width: 128px; image-rendering: pixelated; } h3 { font-size: 1em; margin-bottom: .3em; }
 .none { color: #777; } dl { display: grid; grid-template-columns: max-content auto; gap: .1em 1.2em; }
 dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
 @media print { body { margin: 0; font-size: 11px; max-width: none; } figure, table { break-inside: avoid; } }
@@ -39,6 +40,12 @@ std::string cells(const char* tag, const std::vector<std::string>& texts)
     for (const std::string& text : texts)
         row += format("<{0}>{1}</{0}>", tag, text);
     return row + "</tr>\n";
+}
+
+// A table that scrolls if it does not fit.
+std::string wide(const std::string& table)
+{
+    return "<div class=wide>" + table + "</div>\n";
 }
 
 std::string setting_text(const Setting& setting)
@@ -72,48 +79,45 @@ std::vector<Point> select(const std::vector<Point>& points, bool traced)
     return found;
 }
 
-std::string choice_row(const std::string& targets, const Point& point, const std::string& missed = "")
+std::string choice_rows(const std::string& goal, const Point& point, const CommandInputs& commands)
 {
-    std::vector<std::string> row { targets,
-                                   (missed.empty() ? "" : "<span class=none>" + missed + "; nearest:</span> ")
-                                       + setting_text(point.setting),
-                                   with_half(point.rmse, point.rmse_half) };
+    std::vector<std::string> row { goal, setting_text(point.setting), with_half(point.rmse, point.rmse_half),
+                                   percent_text(point.rmse_by_visibility) };
     for (const std::string& cell : cost_cells(point))
         row.push_back(cell);
     row.push_back(seconds_text(point.total(kManyPictures)));
-    return cells("td", row);
+    std::string text = cells("td", row);
+    const std::string command = command_text(point.setting, commands);
+    if (!command.empty())
+        text += format("<tr class=command><td colspan={}><code>{}</code></td></tr>\n", row.size(), escaped(command));
+    return text;
 }
 
-std::string choices(const std::vector<Point>& points)
+std::string choices(const Report& report)
 {
+    const std::vector<Point> models = select(report.points, false), traced = select(report.points, true);
+    const std::vector<double> reached = goals(models);
     std::string text = "<table>\n"
         + cells("th",
-                { "for an error of", "choose", "error", "bake (once)", "filter (per environment)",
-                  "shade (per rotation)", "bytes per texel", format("{} rotations", kManyPictures) });
-    for (const bool traced : { false, true }) {
-        const std::vector<Point> candidates = select(points, traced);
-        for (const bool uncertain : { false, true }) {
-            std::vector<std::string> missed;
-            for (const double target : kTargets)
-                if (!cheapest(candidates, target) && could_reach(candidates, target) == uncertain)
-                    missed.push_back(percent_text(target));
-            if (!missed.empty() && !traced && !candidates.empty())
-                text += choice_row(OIIO::Strutil::join(missed, ", "), *nearest(candidates),
-                                   uncertain ? kTooNoisy : "no model reaches it");
-        }
-        for (const double target : kTargets)
-            if (const Point* found = cheapest(candidates, target))
-                text += choice_row(percent_text(target), *found);
-    }
-    return text + "</table>\n";
+                { "for an error of", "choose", "error", "weighted by visibility", "bake (once)",
+                  "filter (per environment)", "shade (per rotation)", "bytes per texel",
+                  format("{} rotations", kManyPictures) });
+    for (const double goal : reached)
+        text += choice_rows(percent_text(goal), *cheapest(models, goal), report.commands);
+    if (const Point* best = nearest(models))
+        text += choice_rows(reached.empty() ? "nearest" : "the least", *best, report.commands);
+    for (const double goal : reached)
+        if (const Point* found = cheapest(traced, goal))
+            text += choice_rows(percent_text(goal), *found, report.commands);
+    return wide(text + "</table>\n");
 }
 
 std::string knees(const std::vector<Point>& points)
 {
     std::string text = "<table>\n"
         + cells("th",
-                { "model", "rays", "error", "worst environment", "95 % of texels below", "bias", "bake", "filter",
-                  "shade", "bytes" });
+                { "model", "rays", "error", "weighted by visibility", "worst environment", "95 % of texels below",
+                  "bias", "bake", "filter", "shade", "bytes" });
     for (const ModelVariant& model : model_variants()) {
         const std::vector<Point> line = curve(points, model.name);
         if (line.empty())
@@ -122,6 +126,7 @@ std::string knees(const std::vector<Point>& points)
         std::vector<std::string> row { model.name,
                                        format("{}", at.setting.samples),
                                        with_half(at.rmse, at.rmse_half),
+                                       percent_text(at.rmse_by_visibility),
                                        percent_text(at.worst),
                                        percent_text(at.p95),
                                        with_half(at.bias, at.bias_half) };
@@ -129,7 +134,7 @@ std::string knees(const std::vector<Point>& points)
             row.push_back(cell);
         text += cells("td", row);
     }
-    return text + "</table>\n";
+    return wide(text + "</table>\n");
 }
 
 std::string image(const std::string& png, const std::string& alternative)
@@ -140,31 +145,43 @@ std::string image(const std::string& png, const std::string& alternative)
 
 std::string heat_maps(const Report& report)
 {
-    std::string text = "<table class=heat>\n";
+    std::string text;
     for (const auto& [environment, pictures] : report.heat_maps) {
-        text += format("<tr><td>{}</td>", escaped(environment));
+        text += format("<h3>{}</h3>\n<div class=heat>\n", escaped(environment));
         for (const Picture& picture : pictures)
-            text += format("<td>{}<br>{}</td>", image(picture.png, environment + ", " + picture.caption),
-                           escaped(picture.caption));
-        text += "</tr>\n";
+            text += format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                           image(picture.png, environment + ", " + picture.caption), escaped(picture.caption));
+        text += "</div>\n";
     }
-    return text + "</table>\n";
+    return text;
 }
 
 } // namespace
 
-std::string choice_text(const std::vector<Point>& points, double target)
+std::vector<std::string> choice_lines(const std::vector<Point>& points, const CommandInputs& commands)
 {
     const std::vector<Point> models = select(points, false);
-    const Point* found = cheapest(models, target);
-    const Point* best = found ? found : nearest(models);
-    if (!best)
-        return "";
-    std::string missed;
-    if (!found)
-        missed = format("{}; nearest ", could_reach(models, target) ? kTooNoisy : "not reached by any model");
-    return format("{}: {}{}, {} in {}", percent_text(target), missed, setting_text(best->setting),
-                  percent_text(best->rmse), seconds_text(best->total()));
+    std::vector<std::string> lines;
+    const auto add = [&](const std::string& goal, const Point& point) {
+        lines.push_back(format("{}: {}, {} in {}", goal, setting_text(point.setting), percent_text(point.rmse),
+                               seconds_text(point.total())));
+        lines.push_back("  " + command_text(point.setting, commands));
+    };
+    for (const double goal : goals(models))
+        add(percent_text(goal), *cheapest(models, goal));
+    const Point* best = nearest(models);
+    if (best && lines.empty())
+        add("nearest", *best);
+    return lines;
+}
+
+std::string busy_note(double spread)
+{
+    return spread > kBusySpread ? format(
+               "timings are uncertain: repeated runs took {} longer than the shortest; measure again into a new folder "
+               "when the machine is idle",
+               percent_text(spread))
+                                : "";
 }
 
 std::string report_html(const Report& report)
@@ -173,9 +190,12 @@ std::string report_html(const Report& report)
     text += "<h2>What to choose</h2>\n<p>The fastest way to a first picture. Errors are RMS over the surface against "
             "ray tracing, relative to "
             "the mean light, averaged over the environments. A setting reaches an error if its whole confidence "
-            "interval is below it. "
+            "interval is below it. Weighted by visibility, creases that see little of the sky count less. "
             "<i>traced</i> bakes nothing and ray traces the light again for each picture and rotation.</p>\n"
-        + choices(report.points);
+        + choices(report);
+    const std::string busy = busy_note(report.spread);
+    if (!busy.empty())
+        text += "<p class=busy>Note: " + busy + ".</p>\n";
     text += "<h2>What accuracy costs</h2>\n";
     for (const Picture& plot : report.plots)
         text += format("<figure>{}<figcaption>{}</figcaption></figure>\n", plot.svg, escaped(plot.caption));

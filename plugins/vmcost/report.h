@@ -2,6 +2,7 @@
 /// The report: one self-contained page that recommends settings.
 #pragma once
 
+#include "commands.h"
 #include "summary.h"
 #include "tables.h"
 
@@ -21,6 +22,9 @@ struct Report
 {
     std::string title;
     std::vector<Point> points;
+    /// typical_spread() of the timings.
+    double spread = 0;
+    CommandInputs commands;
     std::vector<Picture> plots;
     /// By environment, one picture per model.
     std::vector<std::pair<std::string, std::vector<Picture>>> heat_maps;
@@ -30,7 +34,10 @@ struct Report
 /// The report as HTML with everything embedded.
 std::string report_html(const Report& report);
 
-/// One line of text: the fastest setting that reaches a target error, or the nearest one.
-std::string choice_text(const std::vector<Point>& points, double target);
+/// For each of goals(): one line with the fastest setting that reaches it, and one with its command.
+std::vector<std::string> choice_lines(const std::vector<Point>& points, const CommandInputs& commands);
+
+/// What to say of timings whose typical_spread() is this, or "".
+std::string busy_note(double spread);
 
 } // namespace vmlight::cost

@@ -20,8 +20,8 @@ double student(int freedom)
 
 double mean_square(const Batch& sum)
 {
-    const double mean = sum.reference / double(sum.values);
-    return (sum.squares - sum.noise) / double(sum.values) / (mean * mean);
+    const double mean = sum.reference / sum.weights;
+    return (sum.squares - sum.noise) / sum.weights / (mean * mean);
 }
 
 double relative_bias(const Batch& sum)
@@ -42,7 +42,7 @@ template <class Statistic> Estimate jackknife(OIIO::cspan<Batch> batches, Statis
 {
     std::vector<double> left_out;
     for (int i = 0; i < int(batches.size()); ++i)
-        if (batches[i].values > 0)
+        if (batches[i].weights > 0)
             left_out.push_back(statistic(sum_of(batches, i)));
     const double count = double(left_out.size());
     double mean = 0, squares = 0;
@@ -57,13 +57,13 @@ template <class Statistic> Estimate jackknife(OIIO::cspan<Batch> batches, Statis
 
 } // namespace
 
-void Batch::add(double model, double truth, double standard_error)
+void Batch::add(double model, double truth, double standard_error, double weight)
 {
-    squares += (model - truth) * (model - truth);
-    noise += standard_error * standard_error;
-    difference += model - truth;
-    reference += truth;
-    ++values;
+    squares += weight * (model - truth) * (model - truth);
+    noise += weight * standard_error * standard_error;
+    difference += weight * (model - truth);
+    reference += weight * truth;
+    weights += weight;
 }
 
 void Batch::add(const Batch& other)
@@ -72,7 +72,7 @@ void Batch::add(const Batch& other)
     noise += other.noise;
     difference += other.difference;
     reference += other.reference;
-    values += other.values;
+    weights += other.weights;
 }
 
 Errors errors_of(OIIO::cspan<Batch> batches)

@@ -19,9 +19,10 @@ struct Batch
     double noise = 0; ///< s^2
     double difference = 0; ///< m - r
     double reference = 0; ///< r
-    int64_t values = 0;
+    double weights = 0; ///< each of the sums is weighted
 
-    void add(double model, double truth, double standard_error);
+    /// @param weight   0 or more
+    void add(double model, double truth, double standard_error, double weight = 1);
     void add(const Batch& other);
 };
 
@@ -36,6 +37,8 @@ struct Errors
 {
     /// sqrt(max(0, mean((m - r)^2) - mean(s^2))) / mean(r)
     Estimate rmse;
+    /// The same with each texel weighted by its visibility: creases, which few rays leave, count less.
+    double rmse_by_visibility = 0;
     /// mean(m - r) / mean(r)
     Estimate bias;
     /// The 95th percentile of |m - r| / mean(r), including the reference's noise.

@@ -20,6 +20,7 @@ Point mean_point(const std::vector<const Row*>& rows)
         point.bias += share * errors.bias.value;
         point.bias_half += share * (errors.bias.high - errors.bias.low) / 2;
         point.p95 += share * errors.p95;
+        point.rmse_by_visibility += share * errors.rmse_by_visibility;
         point.bake += share * row->bake;
         point.light += share * row->light;
         point.shade += share * row->shade;
@@ -94,9 +95,28 @@ const Point* nearest(const std::vector<Point>& points)
     return least == points.end() ? nullptr : cheapest(points, least->bound() / (1 - kKneeGain));
 }
 
-bool could_reach(const std::vector<Point>& points, double target)
+std::vector<double> goals(const std::vector<Point>& points)
 {
-    return std::any_of(points.begin(), points.end(), [&](const Point& point) { return point.rmse <= target; });
+    constexpr double kRound[] = { 0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1 };
+    constexpr size_t kGoals = 3;
+    std::vector<double> found;
+    for (const double goal : kRound)
+        if (found.size() < kGoals && cheapest(points, goal))
+            found.push_back(goal);
+    return found;
+}
+
+double typical_spread(const std::vector<Row>& rows)
+{
+    std::vector<double> spreads;
+    for (const Row& row : rows)
+        if (row.spread > 0)
+            spreads.push_back(row.spread);
+    if (spreads.empty())
+        return 0;
+    const auto middle = spreads.begin() + long(spreads.size() / 2);
+    std::nth_element(spreads.begin(), middle, spreads.end());
+    return *middle;
 }
 
 } // namespace vmlight::cost

@@ -19,6 +19,7 @@ struct Point
     double rmse_half = 0, bias_half = 0;
     double bias = 0; ///< mean
     double p95 = 0; ///< mean
+    double rmse_by_visibility = 0; ///< mean
     double bake = 0, light = 0, shade = 0; ///< seconds; means
     int bytes = 0;
 
@@ -49,8 +50,14 @@ const Point* cheapest(const std::vector<Point>& points, double target);
 /// The fastest point whose bound() is within kKneeGain of the minimum, or nullptr if there are no points.
 const Point* nearest(const std::vector<Point>& points);
 
-/// Whether the estimated error of a point is at most `target`. If so and cheapest() is nullptr, the reference is too
-/// noisy.
-bool could_reach(const std::vector<Point>& points, double target);
+/// Round errors to choose a setting for, least first: the least that a point reaches, and the next two. Empty if there
+/// are no points.
+std::vector<double> goals(const std::vector<Point>& points);
+
+/// Above this typical_spread() the machine was too busy for its timings.
+constexpr double kBusySpread = 0.25;
+
+/// The median spread of the timings that were repeated, or 0 if none was.
+double typical_spread(const std::vector<Row>& rows);
 
 } // namespace vmlight::cost

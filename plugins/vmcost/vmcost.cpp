@@ -40,6 +40,7 @@ int main(int argc, const char** argv)
         Inputs inputs;
         Measured measured;
         mesh.mesh = operands[0];
+        const CommandInputs commands { mesh, operands[1], color.from, color.config, params.sanitize };
         error = params.no_plots ? "" : gnuplot_fault();
         if (!error.empty()
             || !read_inputs(inputs, mesh, { operands.begin() + 1, operands.end() }, color, options, error))
@@ -50,12 +51,15 @@ int main(int argc, const char** argv)
         }
         if (!trace_references(inputs, params, folder, options, error)
             || !measure(measured, sweep(params.quick), inputs, params, folder, options, error)
-            || !write_report(measured, inputs, params, folder, options, error))
+            || !write_report(measured, inputs, params, commands, folder, options, error))
             return false;
         options.say("measured " + count_text(measured.measured, "row", "rows") + ", reused "
                     + std::to_string(measured.reused));
-        for (const double target : { 0.01, 0.05, 0.10 })
-            options.say(choice_text(summarize(measured.rows), target));
+        for (const std::string& line : choice_lines(summarize(measured.rows), commands))
+            options.say(line);
+        const std::string busy = busy_note(typical_spread(measured.rows));
+        if (!busy.empty())
+            options.report_warning(busy);
         options.say("report: " + folder + "/report.html");
         return true;
     });

@@ -73,13 +73,16 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
 
 } // namespace
 
-bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params, const std::string& folder,
-                  const MakeOptions& options, std::string& error)
+bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params,
+                  const CommandInputs& commands, const std::string& folder, const MakeOptions& options,
+                  std::string& error)
 {
     const DeferInterrupts writing;
     Report report;
     report.title = "What accuracy costs: " + inputs.scene->mesh().name;
     report.points = summarize(measured.rows);
+    report.spread = typical_spread(measured.rows);
+    report.commands = commands;
     report.facts = facts_of(inputs, params, options);
     return (params.no_plots || draw(report.plots, report.points, folder, error))
         && read_heat_maps(report, measured, inputs, folder, error)

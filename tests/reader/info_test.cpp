@@ -5,6 +5,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
 #include <map>
 
 using namespace vmlight;
@@ -149,4 +150,25 @@ TEST_F(ReaderFaults, AMissingInputIsNamed)
     remove("spot.obj");
     expect_error("hero.lightmap\" line 1: vismap: \"hero.vismap\" line 1: mesh: \"spot.obj\": no such file",
                  "hero.lightmap");
+}
+
+// oiiotool checks whether a name is a file when it cannot be opened, and says only that.
+TEST_F(ReaderFaults, ABadQueryIsPrintedOnce)
+{
+    testing::internal::CaptureStderr();
+    for (int i = 0; i < 2; ++i)
+        EXPECT_FALSE(OIIO::ImageInput::open("hero.lightmap?rotate=xyz"));
+    OIIO::geterror();
+    const std::string printed = testing::internal::GetCapturedStderr();
+    EXPECT_THAT(printed, HasSubstr("rotate: \"xyz\""));
+    EXPECT_EQ(std::count(printed.begin(), printed.end(), '\n'), 1) << printed;
+}
+
+TEST_F(ReaderFaults, AHintNamesTheRecipesOwnKey)
+{
+    make_sky({ 1, -1, 1 }, "negative.exr");
+    write("direct.lightmap", "vismap = \"hero.vismap\"\nenvironment = \"negative.exr\"\n");
+    write("bad.cfem", "environment = \"negative.exr\"\n");
+    expect_error("; set cfem_sanitize to repair them", "direct.lightmap");
+    expect_error("; set sanitize to repair them", "bad.cfem");
 }

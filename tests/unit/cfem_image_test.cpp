@@ -83,17 +83,17 @@ TEST(Cfem, BadPixelsAreCountedAndRefused)
     map.at(1, 31)[2] = -0.25f;
     EXPECT_EQ(refusal(image(map)),
               "environment has 3 values that are NaN, infinite or negative, the first at pixel (31, 7) channel \"G\"; "
-              "--sanitize repairs them");
+              "set sanitize to repair them");
     EXPECT_EQ(refusal(image(map), harmonics(3, 4, 2)), refusal(image(map)));
     Map one(4, 2, 1);
     one.at(3, 1)[0] = -1;
     EXPECT_EQ(refusal(image(one)),
-              "environment has 1 value that is negative, at pixel (3, 1) channel \"R\"; --sanitize repairs it");
+              "environment has 1 value that is negative, at pixel (3, 1) channel \"R\"; set sanitize to repair it");
     one.at(3, 1)[0] = 1;
     one.at(0, 0)[2] = one.at(0, 1)[0] = NAN;
     EXPECT_EQ(refusal(image(one)),
               "environment has 2 values that are NaN or infinite, the first at pixel (0, 0) channel \"B\"; "
-              "--sanitize repairs them");
+              "set sanitize to repair them");
 }
 
 TEST(Cfem, WrongImagesAndParametersAreRefused)

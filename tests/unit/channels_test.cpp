@@ -38,6 +38,15 @@ TEST(Channels, AVisibilityMapIsKnownByNames)
     EXPECT_EQ(fault_of(spec), "none");
     spec.channelnames[3] = "A";
     EXPECT_NE(fault_of(spec).find("no channel \"visibility\" among"), std::string::npos);
+    EXPECT_EQ(fault_of(spec).find("maketx"), std::string::npos);
+}
+
+TEST(Channels, NamesThatATextureLostAreExplained)
+{
+    OIIO::ImageSpec spec(8, 8, 4, OIIO::TypeFloat);
+    spec.attribute("textureformat", "Plain Texture"); // as maketx writes
+    EXPECT_NE(fault_of(spec).find("--format exr"), std::string::npos) << fault_of(spec);
+    EXPECT_EQ(fault_of(OIIO::ImageSpec(8, 8, 4, OIIO::TypeFloat)).find("--format exr"), std::string::npos);
 }
 
 TEST(Channels, AMapThatWasConvertedAsColourIsNoVisibilityMapAnyMore)

@@ -105,11 +105,26 @@ TEST(CostCompare, AKnownOffsetIsItselfInPartsOfTheMeanLight)
     OIIO::ImageBuf reference = filled({ 1, 2, 3, 0, 0, 0, 1 }, 16);
     const float bare[] = { 9, 9, 9, 9, 9, 9, 0 }; // what no triangle covers does not count
     reference.setpixel(3, 3, 0, bare);
-    const Errors errors = compare(filled({ 1.2f, 2.2f, 3.2f }, 16), reference);
+    const Errors errors = compare(filled({ 1.2f, 2.2f, 3.2f }, 16), reference, filled({ 1 }, 16));
     EXPECT_NEAR(errors.rmse.value, 0.1, 1e-6);
     EXPECT_NEAR(errors.bias.value, 0.1, 1e-6);
     EXPECT_NEAR(errors.p95, 0.1, 1e-6);
     EXPECT_EQ(covered_texels(reference), 255);
+}
+
+TEST(CostCompare, AnErrorIsAlsoWeightedByVisibility)
+{
+    // Off by 1 of 2 where V is 1/4, in one half, and right where V is 3/4, in the other.
+    OIIO::ImageBuf model = filled({ 2, 2, 2 }, 16), visibility = filled({ 0.75f }, 16);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const float wrong[] = { 3, 3, 3 }, quarter = 0.25f;
+            model.setpixel(x, y, 0, wrong);
+            visibility.setpixel(x, y, 0, &quarter);
+        }
+    const Errors errors = compare(model, filled({ 2, 2, 2, 0, 0, 0, 1 }, 16), visibility);
+    EXPECT_NEAR(errors.rmse.value, std::sqrt(0.5) / 2, 1e-6);
+    EXPECT_NEAR(errors.rmse_by_visibility, std::sqrt(0.25) / 2, 1e-6);
 }
 
 TEST(CostCompare, AnErrorTakesLightOnTwoBatchesToHaveAnInterval)
@@ -122,7 +137,7 @@ TEST(CostCompare, AnErrorTakesLightOnTwoBatchesToHaveAnInterval)
     ASSERT_NE(batch_of(3, 3), batch_of(4, 3));
     reference.setpixel(4, 3, 0, lit);
     EXPECT_EQ(lit_batches(reference), 2);
-    const Errors errors = compare(filled({ 0.1f, 0.5f, 0 }, 16), reference);
+    const Errors errors = compare(filled({ 0.1f, 0.5f, 0 }, 16), reference, filled({ 0 }, 16));
     for (const Estimate& estimate : { errors.rmse, errors.bias })
         EXPECT_TRUE(std::isfinite(estimate.low) && std::isfinite(estimate.value) && std::isfinite(estimate.high));
     EXPECT_EQ(lit_batches(filled({ 1, 0, 0, 0, 0, 0, 1 }, 16)), kBatches);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What vmcost makes of its rows: means, front, knee, choice, and the tables.
+#include <vmcost/commands.h>
 #include <vmcost/models.h>
 #include <vmcost/number_text.h>
 #include <vmcost/report.h>
 #include <vmcost/summary.h>
 #include <vmcost/sweep.h>
 #include <vmcost/tables.h>
+#include <vmcost/timing.h>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +33,14 @@ std::vector<double> errors(const std::vector<Point>& points)
     for (const Point& at : points)
         found.push_back(at.rmse);
     return found;
+}
+
+CommandInputs inputs_of(const std::string& mesh, const std::string& environment)
+{
+    CommandInputs inputs;
+    inputs.mesh.mesh = mesh;
+    inputs.environment = environment;
+    return inputs;
 }
 
 Row row(const std::string& environment, const Setting& setting, double rmse, double bias)
@@ -86,16 +96,69 @@ TEST(CostSummary, AnErrorWithinTheNoiseReachesNothingYet)
     EXPECT_EQ(cheapest(points, 0.05)->rmse, 0.03);
     EXPECT_EQ(cheapest(points, 0.06)->rmse, 0);
     EXPECT_EQ(cheapest(points, 0.01), nullptr);
-    EXPECT_TRUE(could_reach(points, 0.01));
-    EXPECT_EQ(choice_text(points, 0.01),
-              "1.0 %: the reference is too noisy to tell; nearest paper, 128 rays, 3.0 % in 3.0 s");
-    points[0].rmse = 0.02;
-    EXPECT_FALSE(could_reach(points, 0.01));
-    EXPECT_EQ(choice_text(points, 0.01), "1.0 %: not reached by any model; nearest paper, 128 rays, 3.0 % in 3.0 s");
-    EXPECT_EQ(choice_text(points, 0.05), "5.0 %: paper, 128 rays, 3.0 % in 3.0 s");
-    EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("no model reaches it; nearest:"), std::string::npos);
-    points[0].rmse = 0;
-    EXPECT_NE(report_html({ "", points, {}, {}, {} }).find("too noisy to tell; nearest:"), std::string::npos);
+}
+
+TEST(CostSummary, GoalsAreTheLeastThatAPointReachesAndTheNextTwo)
+{
+    EXPECT_EQ(goals({ point(3, 0.04), point(1, 0.2) }), (std::vector<double> { 0.05, 0.07, 0.1 }));
+    EXPECT_EQ(goals({ point(3, 0.05) }), (std::vector<double> { 0.05, 0.07, 0.1 }));
+    EXPECT_EQ(goals({ point(3, 0) }), (std::vector<double> { 0.005, 0.01, 0.02 }));
+    EXPECT_EQ(goals({ point(3, 0.6) }), (std::vector<double> { 0.7, 1 }));
+    EXPECT_TRUE(goals({ point(3, 1.1) }).empty());
+    EXPECT_TRUE(goals({}).empty());
+}
+
+TEST(CostSummary, AGoalIsSaidWithItsSettingAndItsCommand)
+{
+    const CommandInputs inputs = inputs_of("hero.obj", "sky.hdr");
+    const std::vector<std::string> lines = choice_lines({ point(3, 0.08), point(1, 0.09), point(0.5, 0.12) }, inputs);
+    ASSERT_EQ(lines.size(), 6u);
+    EXPECT_EQ(lines[0], "10.0 %: paper, 128 rays, 9.0 % in 1.0 s");
+    EXPECT_EQ(lines[1], "  " + command_text(default_setting("paper"), inputs));
+    EXPECT_EQ(lines[2], "15.0 %: paper, 128 rays, 12.0 % in 500 ms");
+    EXPECT_EQ(choice_lines({ point(3, 1.2) }, inputs)[0], "nearest: paper, 128 rays, 120 % in 3.0 s");
+    EXPECT_TRUE(choice_lines({ point(3, 0.1, 128, kTraced) }, inputs).empty());
+}
+
+TEST(CostSummary, TimingsThatVaryAreSaidToBeUncertain)
+{
+    EXPECT_DOUBLE_EQ(timing_of({ 3, 1, 2 }).seconds, 1);
+    EXPECT_DOUBLE_EQ(timing_of({ 3, 1, 2 }).spread, 1);
+    EXPECT_DOUBLE_EQ(timing_of({ 2, 1 }).spread, 0) << "too few to tell";
+    std::vector<Row> rows(3);
+    EXPECT_EQ(typical_spread(rows), 0);
+    rows[0].spread = 0.5;
+    rows[2].spread = 0.3;
+    EXPECT_DOUBLE_EQ(typical_spread(rows), 0.5);
+    EXPECT_EQ(busy_note(kBusySpread), "");
+    EXPECT_NE(busy_note(0.5).find("took 50.0 % longer than the shortest"), std::string::npos) << busy_note(0.5);
+    Report report;
+    EXPECT_EQ(report_html(report).find("class=busy"), std::string::npos);
+    report.spread = 0.5;
+    EXPECT_NE(report_html(report).find("class=busy"), std::string::npos);
+}
+
+TEST(CostCommands, HoldWhatTheSettingChanges)
+{
+    CommandInputs inputs = inputs_of("a b/hero's.obj", "sky.hdr");
+    EXPECT_EQ(command_text(default_setting("paper"), inputs),
+              "makevismap 'a b/hero'\\''s.obj' -o 'hero'\\''s_vismap.exr' && makelightmap 'hero'\\''s_vismap.exr' "
+              "sky.hdr --model paper -o 'hero'\\''s_sky.exr'");
+    inputs = inputs_of("hero.obj", "sky.hdr");
+    inputs.mesh.mesh_params.normals = "flat";
+    inputs.mesh.occluder = { "ground.obj", "wall.obj" };
+    inputs.colorspace = "ACES - ACEScg";
+    inputs.sanitize = true;
+    Setting setting = default_setting("sh4");
+    setting.samples = 512;
+    setting.cfem_width = 64;
+    setting.storage = "half";
+    setting.divisor = 2;
+    EXPECT_EQ(command_text(setting, inputs),
+              "makevismap hero.obj --normals flat --resolution 512x512 --samples 512 --basis sh --order 4 --occluder "
+              "ground.obj --occluder wall.obj --format half -o hero_vismap.exr && makelightmap hero_vismap.exr sky.hdr "
+              "--model sh --cfem-resolution 64x32 --cfem-sanitize --colorspace 'ACES - ACEScg' -o hero_sky.exr");
+    EXPECT_EQ(command_text(default_setting(kTraced), inputs), "");
 }
 
 TEST(CostSummary, PointsAreMeansOverEnvironments)
@@ -148,8 +211,8 @@ TEST(CostTables, TextsThatHoldCommasOrQuotesAreQuoted)
     const std::string csv = csv_text({ row("a, \"b\"", default_setting("paper"), 0.25, 0) });
     EXPECT_EQ(csv.substr(0, csv.find('\n')),
               "environment,model,samples,cfem_width,storage,divisor,bytes,bake_seconds,light_seconds,shade_seconds,"
-              "rmse,rmse_low,rmse_high,bias,bias_low,bias_high,p95");
-    EXPECT_NE(csv.find("\n\"a, \"\"b\"\"\",paper,128,128,float,1,0,2,0.25,0.25,0.25,0.24,0.28,0,-0.1,0.1,0\n"),
+              "shade_spread,rmse,rmse_low,rmse_high,rmse_by_visibility,bias,bias_low,bias_high,p95");
+    EXPECT_NE(csv.find("\n\"a, \"\"b\"\"\",paper,128,128,float,1,0,2,0.25,0.25,0,0.25,0.24,0.28,0,0,-0.1,0.1,0\n"),
               std::string::npos)
         << csv;
 }

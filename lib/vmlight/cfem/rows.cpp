@@ -62,7 +62,7 @@ bool EnvironmentRows::read(int row, float* rgb)
         BadValues all = m_not_finite;
         all.merge(m_negative);
         m_error = printable_line(all.describe("environment", wrong, m_env.spec().channelnames))
-            + "; --sanitize repairs " + plural(all.count(), "it", "them");
+            + format("; set sanitize to repair {}", plural(all.count(), "it", "them"));
         return false;
     }
     std::copy(window(row).begin(), window(row).end(), rgb);

@@ -11,6 +11,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <map>
 
 namespace vmlight {
 namespace {
@@ -49,6 +50,17 @@ const std::vector<AnswerFlag>& answer_flags()
         { { "", "print_completion", "SHELL", "Print the completion script for bash or zsh" }, true, print_completion },
     };
     return flags;
+}
+
+// Other spellings, which people and scripts bring from other tools.
+std::string main_spelling(const std::string& flag)
+{
+    static const std::map<std::string, std::string> spellings {
+        { "-h", "--help" },          { "-help", "--help" }, { "-?", "--help" },  { "-V", "--version" },
+        { "-version", "--version" }, { "--output", "-o" },  { "-output", "-o" },
+    };
+    const auto found = spellings.find(flag);
+    return found == spellings.end() ? flag : found->second;
 }
 
 const AnswerFlag* find_answer_flag(const std::string& flag)
@@ -113,7 +125,7 @@ bool CommandLine::parse_flag(const char**& argument, const char** end, std::stri
 {
     const std::string word = *argument;
     const size_t equals = word.find('=');
-    const std::string flag = word.substr(0, equals);
+    const std::string flag = main_spelling(word.substr(0, equals));
     const AnswerFlag* answering = find_answer_flag(flag);
     const auto found
         = std::find_if(options.begin(), options.end(), [&](const Option& option) { return option.flag() == flag; });

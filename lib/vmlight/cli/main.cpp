@@ -121,9 +121,23 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         error = exception.what();
         exit = ExitCode::Failed;
     }
+    if (exit == ExitCode::Failed)
+        error = with_flags(error);
     if (exit != ExitCode::Done)
         report("ERROR", exit == ExitCode::Usage ? error + " (see " + m_command.line.name + " --help)" : error);
     return int(exit);
+}
+
+// The library says "set NAME to" of parameters, which have flags here.
+std::string StageMain::with_flags(const std::string& error) const
+{
+    static const std::string before = "; set ", after = " to ";
+    const size_t start = error.rfind(before);
+    if (start == std::string::npos)
+        return error;
+    const size_t name = start + before.size(), end = std::min(error.find(after, name), error.size());
+    const std::string parameter = error.substr(name, end - name);
+    return has_option(parameter) ? error.substr(0, name) + flag_of(parameter) + error.substr(end) : error;
 }
 
 MakeOptions StageMain::make_options()

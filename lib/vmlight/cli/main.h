@@ -9,7 +9,7 @@
 #include <vmlight/cli/stage_command.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/recipe/chain.h>
-#include <vmlight/stage/recipe/check.h>
+#include <vmlight/stage/recipe/unused_flags.h>
 #include <vmlight/stage/recipe/recipe.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -101,6 +101,7 @@ private:
     bool has_option(const std::string& name) const;
     void accept_recipe(const char* stage, RecipeAccess access);
     bool do_work(const std::function<bool(std::string& error)>& work, std::string& error);
+    std::string with_flags(const std::string& error) const;
     void report(const char* severity, const std::string& text) const;
 
     StageCommand m_command;

@@ -22,6 +22,15 @@ std::string converting_flag(const OIIO::ImageSpec& spec)
     return "";
 }
 
+// TIFF, which maketx writes to .tx unless asked for another format, has no channel names.
+std::string lost_names_hint(const OIIO::ImageSpec& spec)
+{
+    const bool is_texture = !spec.get_string_attribute("textureformat").empty();
+    return is_texture && spec.nchannels >= int(kVismapChannels.size())
+        ? "; maketx keeps channel names in OpenEXR alone: make the texture with --format exr"
+        : "";
+}
+
 } // namespace
 
 std::vector<std::string> numbered_channels(const std::string& basis, int first, int end)
@@ -42,8 +51,8 @@ bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
     for (size_t c = 0; c < kVismapChannels.size(); ++c) {
         index[c] = spec.channelindex(kVismapChannels[c]);
         if (index[c] < 0) {
-            error = format("not a visibility map: no channel \"{}\" among {}", kVismapChannels[c],
-                           OIIO::Strutil::join(spec.channelnames, ", "));
+            error = format("not a visibility map: no channel \"{}\" among {}{}", kVismapChannels[c],
+                           OIIO::Strutil::join(spec.channelnames, ", "), lost_names_hint(spec));
             return false;
         }
     }

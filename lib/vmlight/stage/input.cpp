@@ -6,14 +6,30 @@
 #include <vmlight/stage/open_source.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace vmlight {
 
 using OIIO::ImageSpec;
 using OIIO::ROI;
+
+namespace {
+
+// oiiotool says only that a name with ?query does not exist as a file, whatever the reader's reason.
+void print_once(const std::string& line)
+{
+    static std::mutex mutex;
+    static auto& printed = *new std::set<std::string>;
+    const std::lock_guard lock(mutex);
+    if (printed.insert(line).second)
+        std::fprintf(stderr, "vmlight ERROR: %s\n", line.c_str());
+}
+
+} // namespace
 
 // The only place that catches exceptions. Nothing is thrown on purpose: what arrives here is out of memory, or a bug in
 // a mesh importer.
@@ -70,6 +86,8 @@ bool StageInput::open(const std::string& name, ImageSpec& spec)
         PixelSourcePointer source = open_source(name, error);
         if (!source) {
             errorfmt("{}", printable_line(error));
+            if (name.find('?') != std::string::npos)
+                print_once(printable_line(error));
             return false;
         }
         spec = m_spec = source->spec();

@@ -16,6 +16,8 @@
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
+#include <OpenImageIO/strutil.h>
+
 #include <algorithm>
 #include <atomic>
 #include <vector>
@@ -135,8 +137,10 @@ private:
         const ImageRange range = images_of_use();
         std::vector<OIIO::ImageBuf> cfem;
         for (int image = range.first; image < range.first + range.count; ++image)
-            if (!read_all(cfem.emplace_back(), *m_inputs.cfem, error, image))
+            if (!read_all(cfem.emplace_back(), *m_inputs.cfem, error, image)) {
+                error = m_recipe.cfem.empty() ? with_own_keys(error) : error;
                 return false;
+            }
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
@@ -146,6 +150,12 @@ private:
         if (albedo)
             m_shader.use_albedo({ m_inputs.albedo, albedo });
         return error.empty();
+    }
+
+    // An error of the implicit CFEM, whose keys have a prefix here.
+    static std::string with_own_keys(const std::string& error)
+    {
+        return OIIO::Strutil::replace(error, "; set ", "; set cfem_");
     }
 
     // The images of a stack that the model reads.
@@ -173,7 +183,7 @@ private:
             MakeOptions fileless = options; // the implicit CFEM recipe has no file
             fileless.chain.clear();
             if (!m_inputs.cfem->make(dst.cfem, range, fileless, error)) {
-                error = with_location(m_recipe, "environment", options.chain, error);
+                error = with_location(m_recipe, "environment", options.chain, with_own_keys(error));
                 return false;
             }
         }

@@ -2,6 +2,8 @@
 #include <vmlight/stage/open_source.h>
 
 #include <vmlight/base/file_stamp.h>
+#include <vmlight/base/format.h>
+#include <vmlight/mesh/import/importer.h>
 #include <vmlight/stage/stored_image.h>
 
 #include <OpenImageIO/strutil.h>
@@ -42,6 +44,8 @@ PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::
     // Refuse a recipe of the wrong stage before opening its inputs; a recipe that reads itself gets its own error.
     if (stage.empty() || link_recipe(longer, name, error))
         error = stage.empty() ? "" : input_fault(name, stage, wanted);
+    if (error.empty() && is_mesh_name(name))
+        error = format("\"{}\": a mesh; bake it with makevismap first, and use its visibility map", name);
     if (error.empty())
         source = open_source(name, error, chain);
     if (source)

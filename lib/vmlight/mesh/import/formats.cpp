@@ -8,6 +8,16 @@
 #include <algorithm>
 
 namespace vmlight {
+namespace {
+
+bool has_extension(const MeshFormat& format, const std::string& path)
+{
+    const std::vector<std::string> extensions = OIIO::Strutil::splits(format.extensions);
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const std::string& e) { return OIIO::Strutil::iends_with(path, "." + e); });
+}
+
+} // namespace
 
 const std::vector<MeshFormat>& mesh_formats()
 {
@@ -26,15 +36,17 @@ const MeshFormat* find_mesh_format(const std::vector<MeshFormat>& formats, const
                                    const FileHead& head)
 {
     const auto has_content = [&](const MeshFormat& format) { return format.has_content && format.has_content(head); };
-    const auto has_extension = [&](const MeshFormat& format) {
-        const std::vector<std::string> extensions = OIIO::Strutil::splits(format.extensions);
-        return std::any_of(extensions.begin(), extensions.end(),
-                           [&](const std::string& e) { return OIIO::Strutil::iends_with(path, "." + e); });
-    };
     auto format = std::find_if(formats.begin(), formats.end(), has_content);
     if (format == formats.end())
-        format = std::find_if(formats.begin(), formats.end(), has_extension);
+        format
+            = std::find_if(formats.begin(), formats.end(), [&](const MeshFormat& f) { return has_extension(f, path); });
     return format == formats.end() ? nullptr : &*format;
+}
+
+bool is_mesh_name(const std::string& path)
+{
+    const auto& formats = mesh_formats();
+    return std::any_of(formats.begin(), formats.end(), [&](const MeshFormat& f) { return has_extension(f, path); });
 }
 
 } // namespace vmlight

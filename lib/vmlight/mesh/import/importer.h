@@ -81,6 +81,9 @@ const std::vector<MeshFormat>& mesh_formats();
 const MeshFormat* find_mesh_format(const std::vector<MeshFormat>& formats, const std::string& path,
                                    const FileHead& head);
 
+/// Whether `path` ends in an extension of mesh_formats(), in any case. Does not look at the file.
+bool is_mesh_name(const std::string& path);
+
 /// As read_mesh(), for a table of formats.
 bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                  const BeforeOpen& before_open = {}, const std::vector<MeshFormat>& formats = mesh_formats());

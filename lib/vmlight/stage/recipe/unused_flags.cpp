@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/recipe/check.h>
+#include <vmlight/stage/recipe/unused_flags.h>
 
 #include <vmlight/base/format.h>
 #include <vmlight/lightmap/model.h>

@@ -1,1 +1,0 @@
-#include <OpenImageIO/parallel.h>
