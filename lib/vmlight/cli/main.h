@@ -9,8 +9,8 @@
 #include <vmlight/cli/stage_command.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/recipe/chain.h>
-#include <vmlight/stage/recipe/unused_flags.h>
 #include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/recipe/unused_flags.h>
 
 #include <OpenImageIO/imagebuf.h>
 
