@@ -46,7 +46,9 @@ std::vector<std::string> words_of(const std::string& text, bool is_stage)
         word = word.substr(0, word.find('\0'));
         std::replace(word.begin(), word.end(), '/', '_');
         std::replace(word.begin(), word.end(), '\r', '\n'); // so that words can have several lines
-        if (is_stage || !OIIO::Strutil::starts_with(word, "-o"))
+        const bool names_output
+            = OIIO::Strutil::starts_with(word, "-o") || OIIO::Strutil::starts_with(word, "--output");
+        if (is_stage || !names_output)
             words.push_back(word);
     }
     return words;
@@ -54,10 +56,11 @@ std::vector<std::string> words_of(const std::string& text, bool is_stage)
 
 bool asks_for_help(const std::vector<std::string>& words)
 {
+    static const std::vector<std::string> flags { "--help", "-h",       "-?",          "--version",
+                                                  "-V",     "-version", "--print-man", "--print-completion" };
     return std::any_of(words.begin(), words.end(), [](const std::string& word) {
-        return OIIO::Strutil::starts_with(word, "--help") || OIIO::Strutil::starts_with(word, "--version")
-            || OIIO::Strutil::starts_with(word, "--print-man")
-            || OIIO::Strutil::starts_with(word, "--print-completion");
+        return std::any_of(flags.begin(), flags.end(),
+                           [&](const std::string& flag) { return OIIO::Strutil::starts_with(word, flag); });
     });
 }
 
