@@ -53,7 +53,7 @@ int main(int argc, const char** argv)
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& options, std::string& error) {
         if (!read_lightmap_inputs(inputs, tile, options, error))
             return false;
-        const vmlight::Stopwatch timer;
+        const Stopwatch timer;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
             const LightmapParams frame = animation.params_at(tile.lightmap_params, i, error);
             OIIO::ImageBuf lightmap;

@@ -17,8 +17,9 @@ namespace {
 
 std::string quoted(const std::string& text)
 {
-    const auto is_plain
-        = [](unsigned char c) { return std::isalnum(c) || std::string("_-+=./,:@%").find(char(c)) < 12; };
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) || std::string("_-+=./,:@%").find(char(c)) != std::string::npos;
+    };
     return !text.empty() && std::all_of(text.begin(), text.end(), is_plain)
         ? text
         : "'" + OIIO::Strutil::replace(text, "'", "'\\''", true) + "'";

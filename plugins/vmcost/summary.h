@@ -50,8 +50,8 @@ const Point* cheapest(const std::vector<Point>& points, double target);
 /// The fastest point whose bound() is within kKneeGain of the minimum, or nullptr if there are no points.
 const Point* nearest(const std::vector<Point>& points);
 
-/// Round errors to choose a setting for, least first: the least that a point reaches, and the next two. Empty if there
-/// are no points.
+/// Round errors to choose a setting for, least first: the least that a point reaches, and the next two. At most 1, so
+/// empty if no point reaches that.
 std::vector<double> goals(const std::vector<Point>& points);
 
 /// Above this typical_spread() the machine was too busy for its timings.

@@ -4,8 +4,6 @@
 #include "captured.h"
 #include "mains.h"
 
-#include <vmlight/base/format.h>
-
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 

@@ -7,7 +7,6 @@
 #include "temporary_folder.h"
 #include "watchdog.h"
 
-#include <vmlight/base/format.h>
 #include <vmlight/base/sanitizers.h>
 #include <vmlight/stage/make_stage.h>
 
@@ -19,7 +18,6 @@
 #include <limits>
 
 using namespace cfem_maps;
-using vmlight::format;
 
 namespace {
 

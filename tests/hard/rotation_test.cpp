@@ -4,7 +4,6 @@
 
 #include "lightmap_scene.h"
 
-#include <vmlight/base/format.h>
 #include <vmlight/math/rotation.h>
 
 #include <cmath>

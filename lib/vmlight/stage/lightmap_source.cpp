@@ -16,8 +16,6 @@
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <atomic>
 #include <vector>
@@ -155,7 +153,9 @@ private:
     // An error of the implicit CFEM, whose keys have a prefix here.
     static std::string with_own_keys(const std::string& error)
     {
-        return OIIO::Strutil::replace(error, "; set ", "; set cfem_");
+        const std::string hint = "; set ";
+        const size_t at = error.rfind(hint); // the last: a file's name may hold the same words
+        return at == std::string::npos ? error : std::string(error).insert(at + hint.size(), "cfem_");
     }
 
     // The images of a stack that the model reads.
