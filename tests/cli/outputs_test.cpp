@@ -2,6 +2,8 @@
 // What runs leave behind: outputs that cannot be written, failures, and the same bytes again.
 #include "command_test.h"
 
+#include <OpenImageIO/imageio.h>
+
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -31,6 +33,8 @@ protected:
 TEST_F(Outputs, ANameThatCannotBeWrittenIsRefusedBeforeTheWork)
 {
     refused(2, "\"x.png\": output must be .exr", "makevismap quad.obj -o x.png");
+    refused(2, "\"x.hdr\": output must be .exr; convert light afterwards: oiiotool x.exr --clamp:min=0 -o x.hdr",
+            "makelightmap vm.exr gone.exr -o x.hdr");
     refused(1, "no such folder: \"missing\"", "makevismap quad.obj -o missing/x.exr");
     if (std::filesystem::is_directory("/proc")) // takes no files, though root may write to it
         refused(1, "\"/proc/x.exr\": folder \"/proc\" is not writable: ", "makevismap gone.obj -o /proc/x.exr");
@@ -75,6 +79,36 @@ TEST_F(Outputs, HalfIsRefusedWhereItWouldOverflow)
     make_sky({ 1e5f, 1, 1 });
     refused(1, "the maximum of half is 65504", "makecfem sky.exr -o old.exr --format half");
     done("makecfem sky.exr -o old.exr");
+}
+
+// Babylon.js cannot open tiles or parts; three.js and it read channels of several types as garbage.
+TEST_F(Outputs, LightmapsAreWhatEveryLoaderReads)
+{
+    make_sky({ 0.25f, 0.5f, 2 });
+    done("makecfem {sky} --stack -o stack.exr"); // of several parts
+    done("makevismap quad.obj -o sh.exr --resolution 70x66 --samples 4 --basis sh --channels normal");
+    done("makelightmap sh.exr sky.exr -o lit_float.exr");
+    done("makelightmap sh.exr stack.exr -o lit_half.exr --format half");
+    done("makelightmap vm.exr sky.exr --albedo sky.exr -o lit_albedo.exr");
+    done("makelightmap vm.exr stack.exr -o lit.####.exr --frames 1-2 --rotate-y 0:90");
+    done("makelightmap vm.exr sky.exr -o lit_tile.<UDIM>.exr --udims 1001");
+    const auto lightmaps = names("lit");
+    ASSERT_EQ(lightmaps.size(), 6u);
+    for (const std::string& name : lightmaps) {
+        // The magic number, then version 2 without the bits for tiles, long names, deep data and parts.
+        EXPECT_EQ(read(name).substr(0, 8), std::string("\x76\x2f\x31\x01\x02\0\0\0", 8)) << name;
+        const auto in = OIIO::ImageInput::open(path(name));
+        ASSERT_TRUE(in) << name << ": " << OIIO::geterror();
+        const OIIO::ImageSpec& spec = in->spec();
+        EXPECT_EQ(spec.tile_width, 0) << name;
+        EXPECT_EQ(spec.channelnames, (std::vector<std::string> { "R", "G", "B" })) << name;
+        EXPECT_TRUE(spec.channelformats.empty()) << name;
+        EXPECT_EQ(spec.format, name == "lit_half.exr" ? OIIO::TypeHalf : OIIO::TypeFloat) << name;
+        EXPECT_EQ(spec.roi(), spec.roi_full()) << name;
+        EXPECT_EQ(std::pair(spec.x, spec.y), std::pair(0, 0)) << name;
+        EXPECT_EQ(spec.get_string_attribute("compression"), "zip") << name;
+        EXPECT_FALSE(in->seek_subimage(1, 0)) << name;
+    }
 }
 
 TEST_F(Outputs, SameInputsGiveTheSameBytesForAnyNumberOfThreads)

@@ -212,6 +212,10 @@ TEST(ImageFile, NamesThatCannotBeOutputsAreRefused)
     EXPECT_EQ(refusal(folder / "a.png"),
               quoted(folder / "a.png") + ": output must be .exr; convert it with oiiotool afterwards");
     EXPECT_EQ(refusal(""), "\"\": output must be .exr; convert it with oiiotool afterwards");
+    for (const char* name : { "a.hdr", "A.HDR" })
+        EXPECT_EQ(refusal(folder / name),
+                  quoted(folder / name)
+                      + ": output must be .exr; convert light afterwards: oiiotool x.exr --clamp:min=0 -o x.hdr");
     EXPECT_EQ(refusal(folder / "none/a.exr"),
               quoted(folder / "none/a.exr") + ": no such folder: " + quoted(folder / "none"));
     ASSERT_EQ(::mkdir((folder / "dir.exr").c_str(), 0755), 0);

@@ -99,8 +99,11 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
 
 std::string output_name_fault(const std::string& path)
 {
-    return OIIO::Strutil::iends_with(path, ".exr")
-        ? ""
+    if (OIIO::Strutil::iends_with(path, ".exr"))
+        return "";
+    // OIIO's Radiance writer stores a negative channel beside a positive one as a large positive value.
+    return OIIO::Strutil::iends_with(path, ".hdr")
+        ? format("\"{}\": output must be .exr; convert light afterwards: oiiotool x.exr --clamp:min=0 -o x.hdr", path)
         : format("\"{}\": output must be .exr; convert it with oiiotool afterwards", path);
 }
 

@@ -23,7 +23,7 @@ std::string header_fault(const OIIO::ImageSpec& spec);
 bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error, int subimage = 0);
 
 /// Why `path` is not a valid output name, or "": it must end in .exr (other formats lose channel names, range or the
-/// data tag).
+/// data tag). For .hdr the text gives the command that converts light without turning negative channels bright.
 std::string output_name_fault(const std::string& path);
 
 /// Why `path` cannot be written now, or "": output_name_fault() or output_file_fault().
