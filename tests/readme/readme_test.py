@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands of the documentation, as a reader would type them, from an installed tree: the chapter "Quick start" of
-README.md, and docs/pipeline.md from "Try it" on.
+README.md, docs/pipeline.md from "Try it" on, and the "Safe commands" of docs/other-programs.md.
 
 Run with VMLIGHT_SOURCE (the repository), VMLIGHT_PREFIX (where it is installed, in place of /opt/vmlight) and VMLIGHT_PRELOAD
 (what a host must load first, or nothing).
@@ -62,6 +62,46 @@ class Commands(unittest.TestCase):
             print("Python's module OpenImageIO is not installed: its command is left out")
             lines = [line for line in lines if not line.startswith("python3 ")]
         self.run_all(lines, 20)
+
+    def test_safe_commands(self):
+        setup = commands("docs/pipeline.md", "Try it")[:2]
+        # Light that is negative in Rec.709 too, and a green of one half as ACEScg.
+        light = "constant:color=1,-0.2,0.5"
+        inputs = [
+            f"oiiotool --pattern {light} 8x8 3 -d float -o hero_lit.exr",
+            "oiiotool --pattern constant:color=0.5,0.6,-0.3,0.2 8x8 4 -d float"
+            " --chnames visibility,direction.x,direction.y,direction.z -o hero_vismap.exr",
+            "oiiotool hero_lit.exr hero_vismap.exr --chappend --attrib colorInteropID lin_ap1_scene -o hero_all.exr",
+        ]
+        # Rec.709 of `light`, by the matrix from AP1 to Rec.709 with Bradford's adaptation.
+        converted = [1.70505 * 1 + 0.62179 * 0.2 - 0.08326 * 0.5, -0.13026 * 1 - 1.14080 * 0.2 - 0.01055 * 0.5,
+                     -0.02400 * 1 + 0.12897 * 0.2 + 1.15297 * 0.5]
+
+        def same(name, values, tolerance):
+            values = ",".join(f"{value:.5f}" for value in values)
+            count = values.count(",") + 1
+            return (f"oiiotool {name} --pattern constant:color={values} 8x8 {count} --fail {tolerance}"
+                    f" --hardfail {tolerance} --diff")
+
+        def positive(values):
+            return [max(0, value) for value in values]
+
+        data = [0.5, 0.6, -0.3, 0.2]
+        checks = [
+            same("hero_lit.hdr", positive([1, -0.2, 0.5]), 0.01),
+            same("hero_lit_709.exr", converted, 1e-3),
+            same("hero_lit_709.hdr", positive(converted), 0.02),
+            same("hero_all_709.exr", converted + data, 1e-3),
+            same("hero_lit_flipped.exr", [1, -0.2, 0.5], 0),
+            same("hero_v.exr", [data[0]] * 3, 0),
+            same("hero_b.exr", data[1:], 0),
+            "for name in hero_lit_709 hero_all_709; do",
+            "  oiiotool --info -v $name.exr | grep 'colorInteropID: \"lin_rec709_scene\"'",
+            "done",
+        ]
+        safe = commands("docs/other-programs.md", "Safe commands")
+        self.assertEqual(len(safe), 7)
+        self.run_all(setup + inputs + safe + checks, 18)
 
 
 if __name__ == "__main__":
