@@ -185,3 +185,48 @@ TEST(OutputFile, RemovesNoFileThatMayBeAnothers)
     EXPECT_EQ(folder.bytes("text"), "one");
     EXPECT_EQ(folder.names().size(), strangers.size() + 3);
 }
+
+TEST_P(OutputFileOf, IsWrittenInAnyOrderAndReadBack)
+{
+    const TemporaryFolder folder;
+    OutputFile file(folder / "text", GetParam());
+    EXPECT_EQ(file.write("0123456789", 10), 10u);
+    EXPECT_TRUE(file.seek(2));
+    EXPECT_EQ(file.write("ab", 2), 2u);
+    EXPECT_EQ(file.tell(), 4);
+    EXPECT_EQ(file.pwrite("z", 1, 12), 1u); // beyond the end: the gap is zeros
+    EXPECT_EQ(file.tell(), 4);
+    EXPECT_EQ(file.size(), 13u);
+    char bytes[20] = {};
+    EXPECT_EQ(file.read(bytes, 3), 3u);
+    EXPECT_STREQ(bytes, "456");
+    EXPECT_EQ(file.pread(bytes, sizeof(bytes), 0), 13u);
+    file.flush();
+    file.close();
+    ASSERT_TRUE(file.commit()) << file.reason();
+    EXPECT_EQ(folder.bytes("text"), std::string("01ab456789\0\0z", 13));
+}
+
+TEST_P(OutputFileOf, OneFailureIsRememberedWhateverComesAfter)
+{
+    const TemporaryFolder folder;
+    folder.write("text", "old");
+    for (const std::string what : { "seek", "read", "length" }) {
+        OutputFile file(folder / "text", GetParam());
+        file.write("new", 3);
+        if (what == "seek") {
+            EXPECT_TRUE(file.seek(-1)) << "no call reports a failure";
+        } else if (what == "read") {
+            EXPECT_EQ(file.pread(nullptr, 3, 0), 0u);
+        }
+        EXPECT_EQ(file.ok(), what == "length");
+        EXPECT_EQ(file.write("more", 4), 4u);
+        if (what == "length") {
+            EXPECT_EQ(::truncate(file.temporary_path().c_str(), 2), 0);
+        }
+        EXPECT_FALSE(file.commit());
+        EXPECT_NE(file.reason(), "");
+        EXPECT_EQ(folder.bytes("text"), "old") << what;
+    }
+    EXPECT_EQ(folder.names(), std::vector<std::string> { "text" });
+}

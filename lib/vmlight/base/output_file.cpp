@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -82,31 +83,86 @@ bool write_file(const std::string& path, OIIO::string_view bytes, std::string& e
 }
 
 OutputFile::OutputFile(const std::string& path, TemporaryFileKind kind)
-    : OutputFile(std::make_unique<TemporaryFile>(link_target(path), kind))
+    : IOProxy(path, Write)
+    , m_file(std::make_unique<TemporaryFile>(link_target(path), kind))
+    , m_reason(m_file->reason())
 {
     remove_stale_temporaries(link_target(path));
 }
 
-OutputFile::OutputFile(std::unique_ptr<TemporaryFile> file)
-    : IOFile(file->stream(), Write)
-    , m_file(std::move(file))
-    , m_reason(m_file->reason())
+OutputFile::~OutputFile() = default;
+
+void OutputFile::fail(const std::string& reason)
 {
+    if (ok())
+        m_reason = reason;
 }
 
-OutputFile::~OutputFile() = default;
+bool OutputFile::seek(int64_t offset)
+{
+    if (offset < 0)
+        fail(format("a position before the start of the file ({})", offset));
+    else
+        m_pos = offset;
+    return true;
+}
+
+size_t OutputFile::read(void* bytes, size_t size)
+{
+    const size_t count = pread(bytes, size, m_pos);
+    m_pos += int64_t(count);
+    return count;
+}
 
 size_t OutputFile::write(const void* bytes, size_t size)
 {
-    if (ok() && IOFile::write(bytes, size) != size)
-        m_reason = std::strerror(errno);
+    pwrite(bytes, size, m_pos);
+    m_pos += int64_t(size);
+    return size;
+}
+
+size_t OutputFile::pread(void* bytes, size_t size, int64_t offset)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    size_t done = 0;
+    while (ok() && done < size) {
+        const ssize_t count
+            = ::pread(m_file->file(), static_cast<char*>(bytes) + done, size - done, offset + int64_t(done));
+        if (count < 0 && errno != EINTR)
+            fail(std::strerror(errno));
+        if (count == 0)
+            break;
+        done += count > 0 ? size_t(count) : 0;
+    }
+    return done;
+}
+
+size_t OutputFile::pwrite(const void* bytes, size_t size, int64_t offset)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    size_t done = 0;
+    while (ok() && done < size) {
+        const ssize_t count
+            = ::pwrite(m_file->file(), static_cast<const char*>(bytes) + done, size - done, offset + int64_t(done));
+        if (count < 0 && errno != EINTR)
+            fail(std::strerror(errno));
+        else if (count == 0)
+            fail("the disk takes no more bytes");
+        done += count > 0 ? size_t(count) : 0;
+    }
+    m_size = std::max(m_size, size_t(offset) + size);
     return size;
 }
 
 bool OutputFile::commit()
 {
+    struct stat status;
+    if (ok() && ::fstat(m_file->file(), &status) != 0)
+        fail(std::strerror(errno));
+    else if (ok() && m_size > 0 && size_t(status.st_size) != m_size)
+        fail(format("{} bytes were written, but the file has {}", m_size, int64_t(status.st_size)));
     if (ok() && !m_file->commit())
-        m_reason = std::strerror(errno);
+        fail(std::strerror(errno));
     return ok();
 }
 

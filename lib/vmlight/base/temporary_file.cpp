@@ -76,12 +76,11 @@ TemporaryFile::TemporaryFile(const std::string& target, TemporaryFileKind kind)
     int file = m_folder >= 0 && kind == TemporaryFileKind::Unnamed ? open_unnamed() : -1;
     if (m_folder >= 0 && file < 0)
         file = open_hidden();
-    if (file >= 0)
-        m_stream = ::fdopen(file, "wb");
-    if (!m_stream) {
+    if (file < 0) {
         m_reason = std::strerror(errno);
         return;
     }
+    m_file = file;
     struct stat old;
     if (::fstatat(m_folder, m_name.c_str(), &old, 0) == 0)
         ::fchmod(file, old.st_mode & 0777);
@@ -91,8 +90,8 @@ TemporaryFile::~TemporaryFile()
 {
     if (!m_hidden_name.empty())
         ::unlinkat(m_folder, m_hidden_name.c_str(), 0);
-    if (m_stream)
-        std::fclose(m_stream);
+    if (m_file >= 0)
+        ::close(m_file);
     if (m_folder >= 0)
         ::close(m_folder);
 }
@@ -135,8 +134,7 @@ bool TemporaryFile::give_hidden_name()
     int result;
     do {
         m_hidden_name = hidden_name(m_name);
-        result = ::linkat(AT_FDCWD, link_of(::fileno(m_stream)).c_str(), m_folder, m_hidden_name.c_str(),
-                          AT_SYMLINK_FOLLOW);
+        result = ::linkat(AT_FDCWD, link_of(m_file).c_str(), m_folder, m_hidden_name.c_str(), AT_SYMLINK_FOLLOW);
     } while (result != 0 && errno == EEXIST);
     if (result != 0)
         m_hidden_name.clear();
@@ -145,9 +143,9 @@ bool TemporaryFile::give_hidden_name()
 
 std::string TemporaryFile::path() const
 {
-    if (!m_stream)
+    if (m_file < 0)
         return m_target;
-    const std::string link = link_of(::fileno(m_stream));
+    const std::string link = link_of(m_file);
     return m_hidden_name.empty() || ::access(link.c_str(), F_OK) == 0 ? link
                                                                       : parent_folder(m_target) + "/" + m_hidden_name;
 }
@@ -155,10 +153,10 @@ std::string TemporaryFile::path() const
 bool TemporaryFile::commit()
 {
     // The bytes must reach the disk before the name, or a crash could leave an empty file.
-    if (std::fflush(m_stream) != 0 || ::fsync(::fileno(m_stream)) != 0)
+    if (::fsync(m_file) != 0)
         return false;
     // linkat() does not replace an existing file: link to a hidden name, then rename.
-    const std::string link = link_of(::fileno(m_stream));
+    const std::string link = link_of(m_file);
     const bool first
         = m_hidden_name.empty() && ::linkat(AT_FDCWD, link.c_str(), m_folder, m_name.c_str(), AT_SYMLINK_FOLLOW) == 0;
     if (!first) {
@@ -169,11 +167,13 @@ bool TemporaryFile::commit()
         m_hidden_name.clear();
     }
     const int folder = ::openat(m_folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0) { // fails where the folder is writable but not readable
-        ::fsync(folder);
-        ::close(folder);
-    }
-    return true;
+    if (folder < 0)
+        return true; // writable but not readable
+    // Some file systems cannot flush a folder (EINVAL); that is no fault of the disk.
+    const int fault = ::fsync(folder) == 0 ? 0 : errno;
+    ::close(folder);
+    errno = fault;
+    return fault != EIO && fault != ENOSPC && fault != EDQUOT;
 }
 
 void remove_stale_temporaries(const std::string& target)

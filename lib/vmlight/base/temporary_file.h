@@ -4,7 +4,6 @@
 
 #include <vmlight/base/interrupt.h>
 
-#include <cstdio>
 #include <string>
 
 namespace vmlight {
@@ -34,15 +33,15 @@ public:
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-    /// nullptr if it could not be opened; see reason().
-    std::FILE* stream() const { return m_stream; }
-    /// A path by which it can be opened, for writers that take no stream.
+    /// Its descriptor, for reading and writing; negative if it could not be opened, see reason().
+    int file() const { return m_file; }
+    /// A path by which it can be opened again.
     std::string path() const;
     /// Flush to disk, rename to the target, and flush the folder. The old target stays until then. Returns false, with
-    /// the system's error in `errno`.
+    /// the system's error in `errno`; if the folder could not be flushed, the target is already the new file.
     bool commit();
 
-    /// Why there is no stream, or "".
+    /// Why there is no file, or "".
     const std::string& reason() const { return m_reason; }
 
 private:
@@ -53,8 +52,7 @@ private:
     const DeferInterrupts m_defer_interrupts; // until the file is committed or removed
     const std::string m_target, m_name;
     std::string m_hidden_name, m_reason;
-    int m_folder = -1;
-    std::FILE* m_stream = nullptr;
+    int m_folder = -1, m_file = -1;
 };
 
 /// Remove the temporary files of `target` that killed processes left: those with a Hidden name that no process has
