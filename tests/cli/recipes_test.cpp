@@ -52,7 +52,8 @@ TEST_F(Recipes, ARecipeMakesWhatItsFlagsMake)
     // A recipe can replace an image on the command line too.
     done("makelightmap recipes/hero.vismap recipes/studio.cfem " + turn + "-o d.exr");
     EXPECT_TRUE(read("d.exr") == read("lit.exr"));
-    // A query alone says as much as a file.
+    // A query may say all that the file does not.
+    write("x.lightmap", "# whose paths start at the current folder\n");
     done("makelightmap x.lightmap?vismap=vm.exr&cfem=cfem.exr&rotate=0,90,0.1&exposure=-0.3 -o e.exr");
     EXPECT_TRUE(read("e.exr") == read("lit.exr"));
 }
@@ -97,6 +98,81 @@ TEST_F(Recipes, APrintedRecipeMakesTheSameImage)
     refused_words(1, "\"a\\x0ab.obj\": no such file", { "makevismap", "a\nb.obj", "-o", "x.exr" });
 }
 
+TEST_F(Recipes, ARecipeMakesTheSameImageWhereverItIsSaved)
+{
+    make_all();
+    namespace fs = std::filesystem;
+    fs::create_directories("sub/deeper");
+    fs::create_directory("elsewhere");
+    fs::create_directory_symlink("sub/deeper", "link");
+    for (const auto& [line, extension, image] : { std::tuple("makevismap " + bake, ".vismap", "vm.exr"),
+                                                  { "makecfem " + filter, ".cfem", "cfem.exr" },
+                                                  { "makelightmap " + light, ".lightmap", "lit.exr" } })
+        for (const std::string folder : { "", "./", "sub/", "sub/deeper/", "sub/../elsewhere/", "link/" }) {
+            const std::string recipe = folder + "saved" + extension;
+            EXPECT_EQ(done(line + "-o " + recipe), "");
+            EXPECT_TRUE(!folder.empty() || read(recipe) == run(line + "--print-recipe").out);
+            const std::string make = line.substr(0, line.find(' ') + 1);
+            done(make + recipe + " -o again.exr");
+            EXPECT_TRUE(read("again.exr") == read(image)) << recipe << "\n" << read(recipe);
+            // From a folder in which nothing is.
+            fs::current_path("elsewhere");
+            done(make + "../" + recipe + " -o ../again.exr");
+            fs::current_path("..");
+            EXPECT_TRUE(read("again.exr") == read(image)) << recipe << "\n" << read(recipe);
+            // Saved from where it is.
+            done(make + recipe + " -o sub/twice" + extension);
+            done(make + "sub/twice" + extension + " -o again.exr");
+            EXPECT_TRUE(read("again.exr") == read(image)) << read("sub/twice" + std::string(extension));
+        }
+    EXPECT_EQ(read("sub/saved.lightmap"),
+              "vismap = \"../vm.exr\"\ncfem = \"../cfem.exr\"\nrotate = [0, 90, 0.1]\nexposure = -0.3\n");
+    EXPECT_EQ(done("makelightmap " + light + "--print-recipe -o sub/saved.lightmap"), "") << "is written, not printed";
+}
+
+TEST_F(Recipes, PathsInASavedRecipeLeadWhereTheyDid)
+{
+    namespace fs = std::filesystem;
+    fs::create_directory("sub");
+    const auto saved = [&](const std::string& line, const std::string& recipe) {
+        done(line + " -o " + recipe);
+        return read(recipe);
+    };
+    const std::string here = fs::current_path().string();
+    EXPECT_EQ(saved("makevismap /a.obj --occluder b.obj --occluder sub/c.obj", "sub/x.vismap"),
+              "mesh = \"/a.obj\"\noccluder = [\n    \"../b.obj\",\n    \"c.obj\",\n]\n");
+    EXPECT_EQ(saved("makevismap <UDIM>/a.<UDIM>.obj", "sub/x.vismap"), "mesh = \"../<UDIM>/a.<UDIM>.obj\"\n");
+    EXPECT_EQ(saved("makecfem a.hdr --colorconfig ocio://default", "sub/x.cfem"),
+              "environment = \"../a.hdr\"\ncolorconfig = \"ocio://default\"\n");
+    // A query's paths start at the current folder, wherever the recipe is.
+    write("a.vismap", "# a recipe\n");
+    EXPECT_EQ(saved("makelightmap a.vismap?mesh=a.obj&samples=4 b.cfem?environment=c.hdr", "sub/x.lightmap"),
+              format("vismap = \"../a.vismap?mesh={}/a.obj&samples=4\"\n"
+                     "cfem = \"../b.cfem?environment={}/c.hdr\"\n",
+                     here, here));
+    // The name of a tile is one of its recipe's keys.
+    EXPECT_EQ(saved("makevismap a.obj", "a.1011.vismap"), "mesh = \"a.obj\"\nudim = 1001\n");
+}
+
+TEST_F(Recipes, WhatCannotBeSavedIsRefused)
+{
+    make_all();
+    const std::string lit = "makelightmap vm.exr cfem.exr ";
+    refused(2, "\"x.cfem\": output must be .exr, or .lightmap for a recipe", lit + "-o x.cfem");
+    refused(2, "\"x.lightmap?exposure=1\": output must be .exr, or .lightmap", lit + "-o x.lightmap?exposure=1");
+    refused(2, "\"x.<UDIM>.lightmap\": use <UDIM> in the paths of the recipe", lit + "-o x.<UDIM>.lightmap");
+    refused(2, "--frames and --rotate-y cannot be saved in a recipe", lit + "--frames 1-4 -o x.lightmap");
+    refused(2, "exposure: 99 is not in", lit + "--exposure 99 -o x.lightmap");
+    refused(1, "\"none/x.lightmap\": no such folder: \"none\"", lit + "-o none/x.lightmap");
+    write("empty.lightmap", "exposure = 1\n");
+    refused(2, "vismap is missing", "makelightmap empty.lightmap -o x.lightmap");
+    std::filesystem::create_directories("caf\xe9/sub");
+    std::filesystem::current_path("caf\xe9/sub");
+    std::filesystem::create_directory("../../to");
+    std::filesystem::create_directory_symlink("../../to", "link");
+    refused(2, "not valid UTF-8, which recipes require", "makecfem a.hdr -o link/x.cfem");
+}
+
 TEST_F(Recipes, AFaultyRecipeIsRefusedWithItsLine)
 {
     write("bad.lightmap", "vismap = \"vm.exr\"\nrotat = [0, 90, 0]\n");
@@ -112,8 +188,8 @@ TEST_F(Recipes, AFaultyRecipeIsRefusedWithItsLine)
     std::filesystem::create_directory("folder.cfem");
     for (const std::string name : { "noise.cfem", "empty.cfem", "folder.cfem" })
         refused(1, "\"" + name + "\"", "makecfem " + name + " -o x.exr");
-    refused(1, "rotate: \"abc\" in \"abc\" is not a number", "makelightmap x.lightmap?rotate=abc -o x.exr");
     write("good.lightmap", "exposure = 1\n");
+    refused(1, "rotate: \"abc\" in \"abc\" is not a number", "makelightmap good.lightmap?rotate=abc -o x.exr");
     refused(2, "exposure: 99 is not in", "makelightmap good.lightmap --exposure 99 -o x.exr");
     refused(2, "-o OUTPUT.exr is missing", "makelightmap good.lightmap");
 }

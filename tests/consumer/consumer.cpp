@@ -50,8 +50,10 @@ int main()
     if (vmlight::find_vismap_channels(environment.spec(), index, error))
         return failed("find_vismap_channels", "takes an environment for a visibility map");
     vmlight::LightmapRecipe recipe;
-    if (vmlight::read_recipe(recipe, "x.lightmap?rotat=1,2,3", error))
-        return failed("read_recipe", "takes a key that is none");
+    if (vmlight::read_recipe_text(recipe, "rotat = [1, 2, 3]", "x.lightmap", error))
+        return failed("read_recipe_text", "takes a key that is none");
+    if (vmlight::read_recipe(recipe, "x.lightmap?rotate=1,2,3", error))
+        return failed("read_recipe", "takes a file that is none");
     if (vmlight::make_image(cfem, recipe))
         return failed("make_image", "makes a lightmap of nothing");
     std::printf("consumer: %s; %s\n", note.c_str(), error.c_str());

@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <limits>
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -38,6 +40,29 @@ OIIO::ImageBuf vismap_like(int width, int height, float factor = 1)
             p[c] = factor * (0.125f * float(c) - 0.001f * float(p.x()) + 0.5f * float(p.y()));
     return image;
 }
+
+// While it exists, no file can grow beyond `bytes`.
+class FileLimit
+{
+public:
+    explicit FileLimit(size_t bytes)
+        : m_handler(std::signal(SIGXFSZ, SIG_IGN))
+    {
+        EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &m_before), 0);
+        const rlimit limit { bytes, m_before.rlim_max };
+        EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+    }
+    FileLimit(const FileLimit&) = delete;
+    ~FileLimit()
+    {
+        EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &m_before), 0);
+        std::signal(SIGXFSZ, m_handler);
+    }
+
+private:
+    void (*const m_handler)(int);
+    rlimit m_before;
+};
 
 bool write(const OIIO::ImageBuf& image, const std::string& path, std::string& error, const char* format = "float")
 {
@@ -134,6 +159,33 @@ TEST(ImageFile, SeveralImagesStandInOneFileOrNone)
     ASSERT_TRUE(write_images(images, folder / "b.exr", "float", {}, error)) << error;
     ASSERT_TRUE(write_images(images, folder / "c.exr", "float", {}, error)) << error;
     EXPECT_TRUE(folder.bytes("b.exr") == folder.bytes("c.exr"));
+}
+
+TEST(ImageFile, WhereverTheDiskIsFullTheOldFileStaysOrTheNewOneIsWhole)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    for (const size_t count : { 1, 3 }) {
+        std::vector<OIIO::ImageBuf> images(count, vismap_like(9, 7));
+        for (size_t i = 0; i < count; ++i)
+            images[i].specmod().attribute("oiio:subimagename", "image" + std::to_string(i));
+        ASSERT_TRUE(write_images(images, folder / "new.exr", "float", {}, error)) << error;
+        const std::string whole = folder.bytes("new.exr");
+        folder.write("a.exr", "old");
+        for (size_t limit = 0; limit < whole.size(); ++limit) {
+            {
+                const FileLimit full(limit);
+                ASSERT_FALSE(write_images(images, folder / "a.exr", "float", {}, error)) << limit;
+            }
+            // OpenEXR writes several parts itself, and does not always say what failed.
+            ASSERT_EQ(error.find(quoted(folder / "a.exr") + ": " + (count == 1 ? "File too large" : "")), 0u) << error;
+            ASSERT_EQ(folder.bytes("a.exr"), "old") << limit;
+        }
+        const FileLimit enough(whole.size());
+        EXPECT_TRUE(write_images(images, folder / "a.exr", "float", {}, error)) << error;
+        EXPECT_TRUE(folder.bytes("a.exr") == whole);
+        EXPECT_EQ(folder.names(), (std::vector<std::string> { "a.exr", "new.exr" })) << "debris";
+    }
 }
 
 TEST(ImageFile, AFileThatWasReplacedIsReadAsItIsNow)

@@ -131,6 +131,9 @@ TEST(Recipe, RefusesWhatIsNoReadableFile)
     const TemporaryFolder folder;
     EXPECT_EQ(name_refusal("gone.lightmap"), "\"gone.lightmap\": no such file");
     EXPECT_EQ(name_refusal("gone.lightmap?"), "\"gone.lightmap\": no such file");
+    // Mostly misspelt: the query alone would be another picture.
+    EXPECT_EQ(name_refusal("gone.lightmap?vismap=a.exr&cfem=b.exr"), "\"gone.lightmap\": no such file");
+    EXPECT_EQ(name_refusal("gone?/hero.lightmap?exposure=1"), "\"gone?/hero.lightmap\": no such file");
     const std::string path = folder / ".";
     EXPECT_EQ(name_refusal(path), "\"" + path + "\": not a file");
     const std::string empty = folder.write("empty.lightmap", "");

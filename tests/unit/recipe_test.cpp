@@ -77,7 +77,7 @@ TEST(Recipe, AQueryOverridesTheFile)
     ASSERT_TRUE(read_recipe(recipe, path + "?rotate=0,45,0&cfem=b.cfem?order=2&colorspace=a%20b", error)) << error;
     EXPECT_EQ(recipe.lightmap_params.rotate, (std::vector<double> { 0, 45, 0 }));
     EXPECT_EQ(recipe.lightmap_params.exposure, 2);
-    EXPECT_EQ(recipe.cfem, "b.cfem?order=2"); // the first '?' parts, as in OIIO
+    EXPECT_EQ(recipe.cfem, "b.cfem?order=2"); // the first '?' behind an extension parts
     EXPECT_EQ(recipe.colorspace, "a%20b");
     EXPECT_EQ(name_refusal(path + "?rotate=abc"),
               "\"" + path + "?rotate=abc\": rotate: \"abc\" in \"abc\" is not a number");
@@ -94,16 +94,19 @@ TEST(Recipe, AQueryOverridesTheFile)
 
 TEST(Recipe, AQueryMaySayEverything)
 {
+    const TemporaryFolder folder;
     LightmapRecipe light;
     std::string error;
-    ASSERT_TRUE(read_recipe(light, "x.lightmap?vismap=a.exr&cfem=b.exr", error)) << error;
+    const std::string none = folder.write("x.lightmap", "# none\n");
+    ASSERT_TRUE(read_recipe(light, none + "?vismap=a.exr&cfem=b.exr", error)) << error;
     EXPECT_EQ(light.vismap, "a.exr");
     EXPECT_EQ(light.cfem, "b.exr");
     VismapRecipe bake;
-    ASSERT_TRUE(read_recipe(bake, "x.vismap?occluder=a, b.obj&mesh=m.obj&occluder=c.obj", error)) << error;
+    const std::string bare = folder.write("x.vismap", "# none\n");
+    ASSERT_TRUE(read_recipe(bake, bare + "?occluder=a, b.obj&mesh=m.obj&occluder=c.obj", error)) << error;
     EXPECT_EQ(bake.mesh, "m.obj");
     EXPECT_EQ(bake.occluder, (std::vector<std::string> { "a, b.obj", "c.obj" }));
-    ASSERT_TRUE(read_recipe(bake, "x.vismap?occluder=", error)) << error;
+    ASSERT_TRUE(read_recipe(bake, bare + "?occluder=", error)) << error;
     EXPECT_TRUE(bake.occluder.empty());
 }
 
@@ -129,6 +132,8 @@ TEST(Recipe, PathsOfAFileStartAtItsFolderThoseOfAQueryWhereTheUserStands)
     EXPECT_EQ(light.vismap, "");
     EXPECT_EQ(light.colorspace, "a"); // no path
     EXPECT_EQ(light.colorconfig, "sub/c");
+    // Built into OpenColorIO: no file.
+    EXPECT_EQ(parsed("colorconfig = \"ocio://default\"", "sub/hero.lightmap").colorconfig, "ocio://default");
 }
 
 TEST(Recipe, ItsNameSaysItsStage)
@@ -140,6 +145,19 @@ TEST(Recipe, ItsNameSaysItsStage)
         EXPECT_FALSE(is_recipe_name(name)) << name;
     EXPECT_TRUE(is_recipe_name("hero.cfem"));
     EXPECT_EQ(recipe_path("hero.cfem?a=b?c"), "hero.cfem");
+    EXPECT_EQ(recipe_path("hero.cfem?environment=a.cfem?b=c"), "hero.cfem");
+    EXPECT_EQ(recipe_path("what?/hero.cfem"), "what?/hero.cfem");
+    EXPECT_EQ(recipe_path("what?/he?ro.cfem?a=b"), "what?/he?ro.cfem");
+    EXPECT_EQ(recipe_stage("what?/hero.cfem?a=b.lightmap"), "cfem");
+    // Where names alone leave it open, the file that exists decides.
+    const TemporaryFolder folder;
+    const std::string odd = folder.write("a.cfem?b=c.lightmap", "x = 1\n"), inner = folder / "a.vismap?samples=2";
+    EXPECT_EQ(recipe_path(odd), odd);
+    EXPECT_EQ(recipe_stage(odd + "?d=e"), "lightmap");
+    std::filesystem::create_directory(inner);
+    EXPECT_EQ(recipe_path(inner + "/a.cfem?d=e"), folder / "a.vismap");
+    folder.write("a.vismap?samples=2/a.cfem", "x = 1\n");
+    EXPECT_EQ(recipe_path(inner + "/a.cfem?d=e"), inner + "/a.cfem");
 }
 
 TEST(Recipe, APlaceIsALineOrTheQuery)

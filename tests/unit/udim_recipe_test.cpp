@@ -72,6 +72,7 @@ TEST(UdimRecipe, AFilesOwnNameSaysTheTileUnlessTheRecipeDoes)
     EXPECT_EQ(udim("said.1013.vismap?udim=1003"), 1003);
     EXPECT_EQ(udim("link.1014.vismap"), 1014);
     EXPECT_EQ(udim("plain.vismap"), 1001);
+    folder.write("none.1015.vismap", "# none\n");
     EXPECT_EQ(udim("none.1015.vismap?mesh=a.obj"), 1015);
     EXPECT_TRUE(recipe_of<VismapRecipe>(folder / "hero.vismap?udim=1001").udim_given);
     folder.write("hero.1016.cfem", "environment = \"a.exr\"\n");
@@ -88,6 +89,8 @@ TEST(UdimRecipe, WhatIsNoTileIsRefused)
     EXPECT_EQ(error, "\"hero.vismap\" line 1: udim: 1000 is not in [1001, 9999]");
     EXPECT_FALSE(read_recipe_text(recipe, "udim = \"1002\"", "hero.vismap", error));
     EXPECT_EQ(error, "\"hero.vismap\" line 1: udim: a string where an integer is needed");
-    EXPECT_FALSE(read_recipe(recipe, "hero.vismap?udim=<UDIM>", error));
-    EXPECT_EQ(error, "\"hero.vismap?udim=<UDIM>\": udim: \"<UDIM>\" is not a whole number");
+    const TemporaryFolder folder;
+    const std::string path = folder.write("hero.vismap", "# none\n");
+    EXPECT_FALSE(read_recipe(recipe, path + "?udim=<UDIM>", error));
+    EXPECT_EQ(error, "\"" + path + "?udim=<UDIM>\": udim: \"<UDIM>\" is not a whole number");
 }

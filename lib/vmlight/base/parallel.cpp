@@ -13,6 +13,9 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <vector>
+
+#include <pthread.h>
 
 namespace vmlight {
 namespace {
@@ -68,6 +71,34 @@ InlineLoops::~InlineLoops()
 int worker_count(int nthreads)
 {
     return nthreads > 0 ? nthreads : std::max(1, OIIO::get_int_attribute("threads"));
+}
+
+bool can_start_threads(int count)
+{
+    constexpr size_t kStack = size_t(64) << 10; // enough to wait
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, kStack);
+    std::mutex all_started;
+    std::vector<pthread_t> threads;
+    bool good = true;
+    {
+        const std::lock_guard<std::mutex> lock(all_started);
+        const auto wait = [](void* mutex) -> void* {
+            const std::lock_guard<std::mutex> lock(*static_cast<std::mutex*>(mutex));
+            return nullptr;
+        };
+        while (good && int(threads.size()) < count) {
+            pthread_t thread;
+            good = pthread_create(&thread, &attributes, wait, &all_started) == 0;
+            if (good)
+                threads.push_back(thread);
+        }
+    }
+    for (const pthread_t thread : threads)
+        pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+    return good;
 }
 
 bool parallel_items(int64_t items, int nthreads, const std::function<void(int64_t, int)>& work,

@@ -36,6 +36,10 @@ private:
     bool m_registered;
 };
 
+/// Whether `count` more threads can run at once now. Libraries do not stand it if one of theirs does not start: OpenEXR
+/// waits for it for ever. To be asked before they are used.
+bool can_start_threads(int count);
+
 /// Number of workers that parallel_items() uses for this `nthreads`.
 int worker_count(int nthreads);
 

@@ -31,7 +31,9 @@ OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& para
 
 void record_environment(OIIO::ImageSpec& cfem, const std::string& image)
 {
-    cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(image.substr(0, image.find('?'))));
+    // A '?' starts a plugin's query, or is part of a file's name.
+    const std::string path = OIIO::Filesystem::exists(image) ? image : image.substr(0, image.find('?'));
+    cfem.attribute("vmlight:environment", OIIO::Filesystem::filename(path));
 }
 
 bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params, int nthreads,

@@ -3,6 +3,8 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
+#include <vmlight/base/output_file.h>
+#include <vmlight/base/parallel.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cli/progress_line.h>
 #include <vmlight/image/image_file.h>
@@ -16,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 
 namespace vmlight {
 
@@ -47,6 +50,8 @@ void StageMain::accept_recipe(const char* stage, RecipeAccess access)
 {
     m_command.line.stage = stage;
     m_command.recipe = std::move(access);
+    m_command.line.options[0].help
+        = format("EXR image to write; or a .{}, to save this command line as a recipe and make no image", stage);
     const auto take = [this](OIIO::string_view, std::string&) { return m_command.prints_recipe = true; };
     m_command.line.options.insert(
         m_command.line.options.begin() + 1,
@@ -76,10 +81,23 @@ void StageMain::check(std::function<std::string()> fault)
     m_command.checks.push_back(std::move(fault));
 }
 
+void StageMain::settle_threads()
+{
+    int& threads = m_command.common.threads;
+    if (threads > 0)
+        OIIO::attribute("threads", threads);
+    // OpenImageIO, OpenEXR and Embree each have a pool; OpenImageIO's begins with one thread per core.
+    if (can_start_threads(3 * worker_count(threads) + int(std::thread::hardware_concurrency())))
+        return;
+    warn("too few threads can be started here (ulimit -u): one is used");
+    threads = 1;
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1); // none but the caller's
+}
+
 bool StageMain::do_work(const std::function<bool(std::string& error)>& work, std::string& error)
 {
-    if (m_command.common.threads > 0)
-        OIIO::attribute("threads", m_command.common.threads);
+    settle_threads();
     catch_interrupts(m_command.line.name, int(ExitCode::Failed));
     if (!has_udim_pattern(m_command.output)) // otherwise each tile's file is checked
         error = m_command.output_fault();
@@ -105,10 +123,8 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         const bool only_prints = !answer.empty() || m_command.prints_recipe; // a recipe of defaults is empty
         if (exit == ExitCode::Done && !only_prints)
             exit = do_work(work, error) ? ExitCode::Done : ExitCode::Failed;
-        else if (exit == ExitCode::Done && (std::fputs(answer.c_str(), stdout) < 0 || std::fflush(stdout) != 0)) {
-            error = "cannot write to stdout";
-            exit = ExitCode::Failed;
-        }
+        else if (exit == ExitCode::Done)
+            exit = put(answer, error) ? ExitCode::Done : ExitCode::Failed;
     } catch (const std::system_error& exception) {
         // A thread could not be started. OIIO's thread pool is half constructed, and its destructor would crash.
         report("ERROR", exception.what());
@@ -138,6 +154,17 @@ std::string StageMain::with_flags(const std::string& error) const
     const size_t name = start + before.size(), end = std::min(error.find(after, name), error.size());
     const std::string parameter = error.substr(name, end - name);
     return has_option(parameter) ? error.substr(0, name) + flag_of(parameter) + error.substr(end) : error;
+}
+
+// Saves the recipe, or prints what is asked for instead of work.
+bool StageMain::put(const std::string& answer, std::string& error) const
+{
+    if (m_command.saves_recipe())
+        return write_file(output(), answer, error);
+    if (std::fputs(answer.c_str(), stdout) >= 0 && std::fflush(stdout) == 0)
+        return true;
+    error = "cannot write to stdout";
+    return false;
 }
 
 MakeOptions StageMain::make_options()

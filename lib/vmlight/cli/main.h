@@ -55,7 +55,8 @@ public:
             Recipe::kStage,
             { std::move(set_operands), std::move(unsavable),
               [&recipe](const std::string& name, std::string& error) { return read_recipe(recipe, name, error); },
-              [&recipe] { return recipe_fault(recipe, {}); }, [&recipe] { return recipe_text(recipe); },
+              [&recipe] { return recipe_fault(recipe, {}); },
+              [&recipe](const std::string& path) { return recipe_text(recipe, path); },
               [&recipe](const std::string& name) { return unused_reason(recipe, name); } });
     }
 
@@ -69,7 +70,7 @@ public:
     /// Add a flag that stores its text in `dst`, which must outlive run().
     void option(const std::string& name, const std::string& metavar, const Help& help, std::string& dst);
     /// Add a check of the whole command line. `fault` returns what is wrong (exit code 2), or "". Skipped if only a
-    /// recipe is printed.
+    /// recipe is printed or saved.
     void check(std::function<std::string()> fault);
 
     /// Parse the command line, check that the output can be written, then call `work`, which returns false and sets
@@ -102,6 +103,8 @@ private:
     void accept_recipe(const char* stage, RecipeAccess access);
     bool do_work(const std::function<bool(std::string& error)>& work, std::string& error);
     std::string with_flags(const std::string& error) const;
+    void settle_threads();
+    bool put(const std::string& answer, std::string& error) const;
     void report(const char* severity, const std::string& text) const;
 
     StageCommand m_command;

@@ -15,6 +15,18 @@ std::string StageCommand::output_fault() const
     return output_kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
 }
 
+bool StageCommand::saves_recipe() const
+{
+    return !line.stage.empty() && recipe_stage(output) == line.stage && recipe_path(output) == output;
+}
+
+std::string StageCommand::image_name_fault() const
+{
+    const bool is_recipe = !line.stage.empty() && is_recipe_name(output);
+    return is_recipe ? format("\"{}\": output must be .exr, or .{} for a recipe", output, line.stage)
+                     : output_name_fault(output);
+}
+
 // What cannot be saved in a recipe.
 std::string StageCommand::unsavable() const
 {
@@ -24,6 +36,9 @@ std::string StageCommand::unsavable() const
     for (const std::string& text : texts)
         if (!is_utf8(text))
             return format("\"{}\": not valid UTF-8, which recipes require", text);
+    if (saves_recipe() && has_udim_pattern(output))
+        return format("\"{}\": use <UDIM> in the paths of the recipe instead of its name: one recipe makes all tiles",
+                      output);
     return recipe.unsavable();
 }
 
@@ -51,19 +66,20 @@ ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
 std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
 {
     std::string fault;
-    if (prints_recipe)
+    const bool only_recipe = prints_recipe || saves_recipe();
+    if (only_recipe)
         fault = unsavable();
     else if (output.empty())
         fault = format("-o {} is missing", line.output_metavar);
     else if (output_kind == OutputKind::Image)
-        fault = output_name_fault(output);
-    if (fault.empty() && recipe.fault() != fault_of_recipe)
+        fault = image_name_fault();
+    if (fault.empty() && (saves_recipe() || recipe.fault() != fault_of_recipe))
         fault = recipe.fault();
     for (const auto& [option, text] : line.given)
         if (const std::string reason = recipe.unused_reason(option->name); fault.empty() && !reason.empty())
             fault = format("{}{}: {}", option->flag(), option->metavar.empty() ? "" : " " + text, reason);
     for (const auto& check : checks)
-        if (fault.empty() && !prints_recipe)
+        if (fault.empty() && !only_recipe)
             fault = check();
     return fault;
 }
@@ -79,8 +95,10 @@ ExitCode StageCommand::parse(int argc, const char** argv, std::string& answer, s
     if (applied != ExitCode::Done)
         return applied;
     error = usage_fault(fault_of_recipe);
-    if (error.empty() && prints_recipe)
-        answer = recipe.text();
+    if (error.empty() && (prints_recipe || saves_recipe()))
+        answer = recipe.text(saves_recipe() ? output : "");
+    if (!is_utf8(answer)) // folders between the recipe and its inputs
+        error = format("\"{}\": a path in it is not valid UTF-8, which recipes require", output);
     return error.empty() ? ExitCode::Done : ExitCode::Usage;
 }
 

@@ -54,8 +54,8 @@ struct RecipeAccess
     std::function<bool(const std::string& name, std::string& error)> read;
     /// What is wrong with the recipe as a whole, or "".
     std::function<std::string()> fault = [] { return std::string(); };
-    /// The recipe as TOML.
-    std::function<std::string()> text;
+    /// The recipe as TOML, as the file `path` ("": none) must have it.
+    std::function<std::string(const std::string& path)> text;
     /// Why the parameter has no effect with the others as they are, or "".
     std::function<std::string(const std::string& name)> unused_reason = [](const auto&) { return std::string(); };
 };
@@ -65,19 +65,24 @@ struct StageCommand
     CommandLine line;
     RecipeAccess recipe;
     OutputKind output_kind = OutputKind::Image;
-    /// Further checks, which return what is wrong, or "". Skipped if only a recipe is printed.
+    /// Further checks, which return what is wrong, or "". Skipped if only a recipe is printed or saved.
     std::vector<std::function<std::string()>> checks;
 
     std::string output;
+    /// --print-recipe; see saves_recipe().
     bool prints_recipe = false;
     FileParams file;
     RunParams common;
 
     /// Parse the command line: the operands or the recipe first, then the flags, which override it.
     ///
-    /// @param answer   set to the text to print instead of working: help and the like, or the recipe
+    /// @param answer   set to the text to print instead of working, help and the like, or to the recipe to print or
+    /// save
     /// @returns Done, or the exit code with the reason in `error`
     ExitCode parse(int argc, const char** argv, std::string& answer, std::string& error);
+
+    /// Whether -o names a recipe of this stage: the command line is saved as that, and no image is made.
+    bool saves_recipe() const;
 
     /// Why the output cannot be written now, or "".
     std::string output_fault() const;
@@ -85,6 +90,7 @@ struct StageCommand
 private:
     ExitCode apply(std::string& fault_of_recipe, std::string& error);
     std::string usage_fault(const std::string& fault_of_recipe) const;
+    std::string image_name_fault() const;
     std::string unsavable() const;
 };
 

@@ -84,7 +84,7 @@ template <class Recipe> std::string UdimRun<Recipe>::fault()
     if constexpr (std::is_same_v<Recipe, LightmapRecipe>)
         if (m_tiles.size() != 1 && is_vismap_recipe(m_recipe.vismap) && !has_udim_pattern(m_recipe.vismap))
             return format("vismap: \"{}\" is a single tile; did you mean \"{}{}udim=<UDIM>\"?", m_recipe.vismap,
-                          m_recipe.vismap, m_recipe.vismap.find('?') == std::string::npos ? "?" : "&");
+                          m_recipe.vismap, recipe_path(m_recipe.vismap) == m_recipe.vismap ? "?" : "&");
     if (!std::is_same_v<Recipe, VismapRecipe> && m_tiles.size() > 1 && patterns.empty())
         return "udims: no input contains <UDIM>: all tiles would be identical";
     return m_tiles.empty() ? find_tiles_by_files() : "";

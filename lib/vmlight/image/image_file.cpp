@@ -5,6 +5,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
+#include <vmlight/image/file_claims.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -52,12 +54,62 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
     return true;
 }
 
+// What keeps the file `path`, which holds `images`, from being read, or "". Reads of each image the last row or tile.
+std::string unreadable(const std::string& path, OIIO::cspan<OIIO::ImageBuf> images)
+{
+    const auto in = OIIO::ImageInput::create("openexr");
+    OIIO::ImageSpec spec;
+    if (!in || !in->open(path, spec))
+        return in ? oiio::error_line(*in) : OIIO::geterror();
+    for (int i = 0; i < int(images.size()); ++i) {
+        if (!in->seek_subimage(i, 0) || OIIO::get_roi(in->spec()) != OIIO::get_roi(images[i].spec()))
+            return format("image {} of {} is not what was written", i + 1, images.size());
+        spec = in->spec();
+        const int x = spec.tile_width ? spec.x + (spec.width - 1) / spec.tile_width * spec.tile_width : spec.x;
+        const int y
+            = spec.y + (spec.tile_width ? (spec.height - 1) / spec.tile_height * spec.tile_height : spec.height - 1);
+        const int xend = spec.x + spec.width, yend = spec.y + spec.height;
+        std::vector<float> last(size_t(xend - x) * size_t(yend - y) * size_t(spec.nchannels));
+        if (!(spec.tile_width
+                  ? in->read_tiles(i, 0, x, xend, y, yend, spec.z, spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat,
+                                   last.data())
+                  : in->read_scanlines(i, 0, y, yend, spec.z, 0, spec.nchannels, OIIO::TypeFloat, last.data())))
+            return oiio::error_line(*in);
+    }
+    return "";
+}
+
 } // namespace
 
 bool may_be_image(const std::string& name)
 {
-    return OIIO::Filesystem::is_regular(name)
-        || (name.find('?') != std::string::npos && !OIIO::Filesystem::exists(name));
+    if (OIIO::Filesystem::exists(name))
+        return OIIO::Filesystem::is_regular(name);
+    std::string path;
+    std::map<std::string, std::string> query;
+    return OIIO::Strutil::get_rest_arguments(name, path, query) && !query.empty();
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::string& error)
+{
+    const std::string fault = claims_fault(name);
+    if (!fault.empty()) {
+        error = format("\"{}\": {}", name, fault);
+        return nullptr;
+    }
+    // OIIO takes what follows a '?' for a query, even in the name of a folder.
+    if (name.find('?') != std::string::npos && OIIO::Filesystem::is_regular(name)) {
+        auto file = OIIO::ImageInput::create(OIIO::Filesystem::extension(name, false));
+        OIIO::ImageSpec ignored;
+        if (file && file->open(name, ignored))
+            return file;
+        error = oiio::with_path(name, file ? oiio::error_line(*file) : OIIO::geterror());
+        return nullptr;
+    }
+    auto file = OIIO::ImageInput::open(name);
+    if (!file)
+        error = oiio::with_path(name, OIIO::geterror());
+    return file;
 }
 
 std::string header_fault(const OIIO::ImageSpec& spec)
@@ -75,13 +127,18 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
+    std::string fault = claims_fault(path);
+    if (!fault.empty()) {
+        error = format("\"{}\": {}", path, fault);
+        return false;
+    }
     // ImageBuf takes the header from OIIO's image cache, which may be stale if the file was replaced, and would then
     // read the new pixels into too small a buffer.
     const auto cache = OIIO::ImageCache::create(true);
     cache->invalidate(OIIO::ustring(path));
     dst.reset(path, subimage);
     // If the file cannot be opened the spec is empty, and read() fails.
-    std::string fault = header_fault(dst.spec());
+    fault = header_fault(dst.spec());
     if (fault.empty())
         fault = memory_shortage(dst.spec());
     if (!fault.empty()) {
@@ -168,6 +225,11 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
         return failed("interrupted");
     if (file.ok() && (!written || !closed))
         return failed(oiio::error_line(*out));
+    // OpenEXR writes its table of offsets last, from a destructor, which reports no failure; and a file of several
+    // parts by its name, of which the last buffer may be lost unseen.
+    const std::string fault = file.ok() ? unreadable(file.temporary_path(), images) : "";
+    if (!fault.empty())
+        return failed("what was written cannot be read: " + fault);
     return file.commit() || failed(file.reason());
 }
 

@@ -5,14 +5,20 @@
 #include <vmlight/base/progress.h>
 
 #include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imageio.h>
 
+#include <memory>
 #include <string>
 
 namespace vmlight {
 
-/// Whether OIIO may be asked to open `name`: it is a regular file (a pipe would block), or contains a '?', so that a
-/// plugin may generate it without a file.
+/// Whether OIIO may be asked to open `name`: it is a regular file (a pipe would block), or no file but ends in a query
+/// ("?KEY=VALUE&..."), so that a plugin may generate it.
 bool may_be_image(const std::string& name);
+
+/// Open an image file, or a name that a plugin generates, through OIIO; nullptr with the reason and the path in
+/// `error`. A header that claims more than its file can hold is refused first (image/file_claims.h).
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::string& error);
 
 /// Why a header is implausible, or "": a side of the data or display window is longer than 2^20. Protects loops over
 /// pixels from damaged headers.

@@ -61,7 +61,7 @@ const char* StageInput::format_name() const
 
 int StageInput::supports(OIIO::string_view feature) const
 {
-    // Names with ?query need not be files. Earlier versions crash when such a reader fails to open.
+    // Names with ?query are those of no file. Earlier versions crash when such a reader fails to open.
     return feature == "procedural" && OIIO_VERSION >= 30118;
 }
 

@@ -60,9 +60,8 @@ std::string image_stage(const std::string& name)
         return stage;
     if (!may_be_image(name))
         return "";
-    const auto in = OIIO::ImageInput::open(name);
-    if (!in)
-        OIIO::geterror(); // whoever reads the pixels reports it
+    std::string ignored; // whoever reads the pixels reports it
+    const auto in = open_image(name, ignored);
     return in ? in->spec().get_string_attribute("vmlight:stage") : "";
 }
 

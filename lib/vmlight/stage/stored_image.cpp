@@ -7,7 +7,6 @@
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/once_cache.h>
 #include <vmlight/image/image_file.h>
-#include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/stage/source_cache.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -50,8 +49,8 @@ uint64_t next_id()
 // A name with ?query need not be a file: another plugin may generate the image.
 bool stamp_image(std::string& stamp, const std::string& path, std::string& error)
 {
-    if (path.find('?') != std::string::npos && !OIIO::Filesystem::exists(path)
-        && !OIIO::Filesystem::exists(recipe_path(path))) {
+    if (!OIIO::Filesystem::exists(path) && may_be_image(path)
+        && !OIIO::Filesystem::exists(path.substr(0, path.find('?')))) {
         stamp = path + "\n";
         return true;
     }
@@ -91,11 +90,9 @@ public:
 
     bool open(std::string& error)
     {
-        const auto file = OIIO::ImageInput::open(m_path);
-        if (!file) {
-            error = oiio::with_path(m_path, OIIO::geterror());
+        const auto file = open_image(m_path, error);
+        if (!file)
             return false;
-        }
         m_spec = file->spec();
         const std::string fault = header_fault(m_spec);
         if (!fault.empty())
@@ -115,10 +112,8 @@ public:
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
     {
         const auto open_file = [&](std::string& reason) {
-            m_file = OIIO::ImageInput::open(m_path);
-            if (!m_file)
-                reason = oiio::with_path(m_path, OIIO::geterror());
-            else if (is_unchanged(key(), m_path, reason) && OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec))
+            m_file = open_image(m_path, reason);
+            if (m_file && is_unchanged(key(), m_path, reason) && OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec))
                 reason = format("\"{}\": changed since it was opened", m_path);
             return reason.empty();
         };
@@ -167,9 +162,11 @@ public:
 private:
     bool read_file(int subimage, float* dst, int threads, std::string& error) const
     {
-        const auto file = OIIO::ImageInput::open(m_path);
-        if (!file || !file->seek_subimage(subimage, 0)) {
-            error = oiio::with_path(m_path, file ? file->geterror() : OIIO::geterror());
+        const auto file = open_image(m_path, error);
+        if (!file)
+            return false;
+        if (!file->seek_subimage(subimage, 0)) {
+            error = oiio::with_path(m_path, file->geterror());
             return false;
         }
         const OIIO::ImageSpec& spec = spec_of(subimage);

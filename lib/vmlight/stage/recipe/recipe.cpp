@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/stage/recipe/paths.h>
 #include <vmlight/stage/recipe/toml.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -18,13 +19,6 @@ namespace {
 using OIIO::string_view;
 
 constexpr uint64_t kLargestFile = 1 << 20;
-
-std::string in_folder(const std::string& folder, const std::string& path)
-{
-    return folder.empty() || path.empty() || path[0] == '/' ? path
-        : folder.back() == '/'                              ? folder + path
-                                                            : folder + "/" + path;
-}
 
 void resolve(std::string& path, const Path&, const std::string& folder)
 {
@@ -84,9 +78,9 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 bool split_name(std::string& path, Overrides& overrides, const std::string& name, std::string& error)
 {
-    const size_t mark = name.find('?');
+    const size_t mark = std::min(query_mark(name), name.size());
     path = name.substr(0, mark);
-    if (mark == std::string::npos || mark + 1 == name.size())
+    if (mark + 1 >= name.size())
         return true;
     for (const std::string& word : OIIO::Strutil::splits(name.substr(mark + 1), "&")) {
         const size_t equals = word.find('=');
@@ -175,9 +169,8 @@ template <class Recipe> bool read_recipe(Recipe& dst, const std::string& name, s
     Overrides overrides;
     if (!split_name(path, overrides, name, error))
         return false;
-    Recipe recipe = named_recipe<Recipe>(path);
-    const bool alone = !overrides.empty() && !OIIO::Filesystem::exists(path);
-    if (!alone && (!read_bytes(bytes, path, error) || !read_recipe_text(recipe, bytes, path, error)))
+    Recipe recipe;
+    if (!read_bytes(bytes, path, error) || !read_recipe_text(recipe, bytes, path, error))
         return false;
     if (!apply(recipe, overrides, reason)) {
         error = printable_line(format("\"{}\": ", name)) + shortened_line(reason);
@@ -197,19 +190,12 @@ VMLIGHT_RECIPES(VMLIGHT_DEFINE)
 
 std::string recipe_path(const std::string& name)
 {
-    return name.substr(0, name.find('?'));
+    return name.substr(0, query_mark(name));
 }
 
 std::string recipe_stage(const std::string& name)
 {
-    // OIIO too ignores case when it chooses a reader by extension.
-    const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(recipe_path(name), false));
-#define VMLIGHT_COMPARE(Recipe)                                                                                        \
-    if (extension == Recipe::kStage)                                                                                   \
-        return Recipe::kStage;
-    VMLIGHT_RECIPES(VMLIGHT_COMPARE)
-#undef VMLIGHT_COMPARE
-    return "";
+    return stage_of_extension(recipe_path(name));
 }
 
 bool is_recipe_name(const std::string& name)

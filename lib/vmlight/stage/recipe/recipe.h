@@ -123,8 +123,8 @@ template <class Recipe> int& udim_of(Recipe& recipe)
 }
 
 /// Read a recipe: the file before '?', then the overrides after it ("hero.lightmap?rotate=0,45,0&exposure=1").
-/// As in OIIO the first '?' starts the overrides, '&' separates them, and nothing is %-decoded: a value with '&' must
-/// be in the file. Only a key that takes several paths may repeat. With overrides the file need not exist.
+/// The first '?' behind the recipe's extension starts the overrides, '&' separates them, and nothing is %-decoded: a
+/// value with '&' must be in the file. Only a key that takes several paths may repeat. The file must exist.
 ///
 /// @param error    set to one line that names file, key and line number, if the result is false
 /// @returns false if the file cannot be read, is empty, larger than 1 MiB or not TOML, a key is unknown (the error
@@ -137,9 +137,9 @@ template <class Recipe>
 bool read_recipe_text(Recipe& dst, OIIO::string_view text, const std::string& path, std::string& error);
 
 /// The TOML text that read_recipe_text() reads back as the same recipe: values that differ from the defaults, and
-/// `udim` if it was given. Paths are written as they are in `recipe`, in which read_recipe() has resolved all but
-/// <UDIM>.
-template <class Recipe> std::string recipe_text(const Recipe& recipe);
+/// `udim` if it was given or the name of the file gives one. The text is for the file `path`: relative paths, which in
+/// `recipe` start at the current folder, start at its folder. Of paths, only <UDIM> is kept as it is.
+template <class Recipe> std::string recipe_text(const Recipe& recipe, const std::string& path = "");
 
 /// The stage of the recipe `name` (a path, with or without ?query), from its extension: "vismap", "cfem" or "lightmap".
 /// "" for any other extension.
@@ -148,7 +148,7 @@ VMLIGHT_API std::string recipe_stage(const std::string& name);
 /// Whether `name` (a path, with or without ?query) has the extension of a recipe.
 VMLIGHT_API bool is_recipe_name(const std::string& name);
 
-/// The path in a recipe's name: everything before the first '?'.
+/// The path in a recipe's name: everything before its ?query. Folders and files may have a '?' in their names.
 VMLIGHT_API std::string recipe_path(const std::string& name);
 
 /// Where a recipe sets a key, as the start of a message: `"hero.lightmap" line 3: albedo`; without a line if the key is
@@ -158,7 +158,7 @@ VMLIGHT_API std::string recipe_place(const std::string& name, const std::string&
 #define VMLIGHT_DECLARE(Recipe)                                                                                        \
     extern template VMLIGHT_API bool read_recipe(Recipe&, const std::string&, std::string&);                           \
     extern template VMLIGHT_API bool read_recipe_text(Recipe&, OIIO::string_view, const std::string&, std::string&);   \
-    extern template VMLIGHT_API std::string recipe_text(const Recipe&);
+    extern template VMLIGHT_API std::string recipe_text(const Recipe&, const std::string&);
 VMLIGHT_RECIPES(VMLIGHT_DECLARE)
 #undef VMLIGHT_DECLARE
 

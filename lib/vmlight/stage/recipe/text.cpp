@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes recipes as TOML.
 #include <vmlight/base/format.h>
+#include <vmlight/stage/recipe/paths.h>
 #include <vmlight/stage/recipe/recipe.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 namespace vmlight {
@@ -66,11 +68,26 @@ template <class Value, class Allowed> std::string toml_text(const Value& value, 
     return quoted(value_text(value, allowed));
 }
 
+void relocate(std::string& path, const Path&, const std::string& folder)
+{
+    path = seen_from(folder, path);
+}
+
+void relocate(std::vector<std::string>& paths, const Paths&, const std::string& folder)
+{
+    for (std::string& path : paths)
+        path = seen_from(folder, path);
+}
+
+template <class Value, class Allowed> void relocate(Value&, const Allowed&, const std::string&) { }
+
 } // namespace
 
-template <class Recipe> std::string recipe_text(const Recipe& recipe)
+template <class Recipe> std::string recipe_text(const Recipe& recipe, const std::string& path)
 {
     Recipe copy = recipe;
+    const bool has_udim = copy.udim_given || udim_from_name(path) != 0;
+    const std::string folder = OIIO::Filesystem::parent_path(path);
     Recipe defaults;
     std::vector<std::string> usual;
     defaults.visit([&](const char*, auto& value, const auto& allowed, const char*) {
@@ -79,14 +96,15 @@ template <class Recipe> std::string recipe_text(const Recipe& recipe)
     std::string text;
     size_t index = 0;
     copy.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        const bool given = copy.udim_given && std::string("udim") == name;
+        const bool given = has_udim && std::string("udim") == name;
+        relocate(value, allowed, folder);
         if (value_text(value, allowed) != usual[index++] || given)
             text += format("{} = {}\n", name, toml_text(value, allowed));
     });
     return text;
 }
 
-#define VMLIGHT_DEFINE(Recipe) template std::string recipe_text(const Recipe&);
+#define VMLIGHT_DEFINE(Recipe) template std::string recipe_text(const Recipe&, const std::string&);
 VMLIGHT_RECIPES(VMLIGHT_DEFINE)
 #undef VMLIGHT_DEFINE
 
