@@ -12,9 +12,13 @@ namespace vmlight::cost {
 class Journal
 {
 public:
-    /// Read an existing journal: one JSON object per line. Ignores an incomplete last line and lines of another
-    /// version. Returns false, with the reason in `error`, if the file exists and cannot be read.
+    /// Read an existing journal: one JSON object per line, whose last member is a checksum of the rest. Removes lines
+    /// that are damaged, incomplete or of another version. Returns false, with the reason in `error`, if the file
+    /// exists and cannot be read, or cannot be mended.
     bool open(const std::string& path, std::string& error);
+
+    /// How many lines open() removed.
+    int damaged() const { return m_damaged; }
 
     /// The row with this key, or nullptr.
     const Row* find(const std::string& key) const;
@@ -24,7 +28,7 @@ public:
 
 private:
     std::string m_path;
-    bool m_incomplete_line = false;
+    int m_damaged = 0;
     std::map<std::string, Row> m_rows;
 };
 

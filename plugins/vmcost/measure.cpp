@@ -4,6 +4,9 @@
 #include "bench.h"
 #include "heat_map_file.h"
 
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+
 #include <algorithm>
 
 namespace vmlight::cost {
@@ -28,8 +31,12 @@ bool measure(Measured& dst, const std::vector<Setting>& settings, const Inputs& 
              const std::string& folder, const MakeOptions& options, std::string& error)
 {
     Journal journal;
-    if (!journal.open(folder + "/journal.jsonl", error))
+    const std::string name_of_journal = folder + "/journal.jsonl";
+    if (!journal.open(name_of_journal, error))
         return false;
+    if (journal.damaged() > 0)
+        options.report_warning(format("\"{}\": {} damaged or of another version: measured again", name_of_journal,
+                                      count_text(journal.damaged(), "row is", "rows are")));
     Bench bench(inputs, params, options);
     double total = 0, done = 0, part = 0;
     for (const Setting& setting : settings)
