@@ -2,6 +2,7 @@
 /// Damaged copies of a file.
 #pragma once
 
+#include "peak_memory.h"
 #include "watchdog.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +37,9 @@ inline std::vector<Damage> damages_of(const std::string& whole)
     return all;
 }
 
-/// Call `attempt` for each damage: what `attempt` says went wrong is a failure that names the damage. A crash, or a
-/// damage that takes as long as a whole test may, ends the process, and the watchdog names test and damage.
+/// Call `attempt` for each damage: what `attempt` says went wrong is a failure that names the damage, and so is one
+/// that takes 50 MB. A crash, or a damage that takes as long as a whole test may, ends the process, and the watchdog
+/// names test and damage.
 ///
 /// @param attempt  returns "" if all is well
 inline void survive(const std::vector<Damage>& damages, const std::function<std::string(const Damage&)>& attempt)
@@ -45,8 +47,10 @@ inline void survive(const std::vector<Damage>& damages, const std::function<std:
     for (const Damage& damage : damages) {
         set_current_case(damage.what);
         restart_watchdog();
+        const PeakMemory memory;
         const std::string fault = attempt(damage);
         EXPECT_EQ(fault, "") << damage.what;
+        EXPECT_LT(memory.bytes(), 50 << 20) << damage.what;
     }
     set_current_case("");
 }

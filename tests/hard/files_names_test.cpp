@@ -53,6 +53,49 @@ TEST_F(Files, Names)
     row.ours("the same image");
 }
 
+TEST_F(Files, QuestionMarks)
+{
+    HardCase row("A `?` in the name of a folder or a file, before a recipe's ?query, and in the query");
+    for (const std::string folder : { "what?", "what?=why&", "old.vismap?samples=2" })
+        for (const std::string name : { "a", "a?b", "a.vismap?samples=3" }) {
+            const std::string place = folder + "/" + name;
+            SCOPED_TRACE(place);
+            fs::create_directory(folder);
+            write(place + ".obj", kQuad);
+            fs::copy_file("sky.exr", place + ".sky.exr");
+            const auto quoted = [](const std::string& path) { return "'" + path + "'"; };
+            done("makevismap " + quoted(place + ".obj") + small + " -o " + quoted(place + ".vm.exr"));
+            EXPECT_TRUE(read(place + ".vm.exr") == read("vm.exr"));
+            done("makevismap " + quoted(place + ".obj") + small + " -o " + quoted(place + ".vismap"));
+            done("makelightmap " + quoted(place + ".vismap?samples=5") + " " + quoted(place + ".sky.exr") + " -o "
+                 + quoted(place + ".lightmap"));
+            done("makelightmap " + quoted(place + ".lightmap?exposure=1") + " --quiet -o lit.exr");
+            done("makevismap " + quoted(place + ".obj") + " --resolution 16 --samples 5 --quiet -o again.exr");
+            done("makelightmap again.exr sky.exr --exposure 1 --quiet -o again_lit.exr");
+            expect_same_pixels("lit.exr", "again_lit.exr", 0);
+            EXPECT_EQ(attribute("lit.exr", "vmlight:environment"), name + ".sky.exr");
+            fs::remove_all(folder);
+        }
+    expect_one_error(run("makevismap 'no?where/a.vismap?samples=3' -o x.exr"), 1,
+                     "\"no?where/a.vismap\": no such file");
+    expect_one_error(run("makecfem 'no?where/a.exr' -o x.exr"), 1, "\"no?where/a.exr\": no such file");
+    row.naive("everything behind the first `?` is taken for a query: the file is not found, or another one is read");
+    row.ours("a query starts at the first `?` behind the extension of a recipe that exists");
+}
+
+TEST_F(Files, RecipesThatAreNotThere)
+{
+    HardCase row("A misspelt recipe with a ?query that would do without it");
+    const std::string keys = "mesh=quad.obj&resolution=16&samples=4";
+    for (const std::string name : { "hreo.vismap", "none/hero.vismap", "hero.vismap?x.vismap" }) {
+        const std::string path = name.substr(0, name.find('?'));
+        expect_one_error(run("makevismap '" + name + "?" + keys + "' -o x.exr"), 1, "\"" + path + "\": no such file");
+        EXPECT_THAT(read_by_plugin(name + "?" + keys), testing::HasSubstr("\"" + path + "\": no such file"));
+    }
+    row.naive("the query alone is the recipe: exit code 0 with another picture");
+    row.ours("exit code 1: no such file, in executables and readers");
+}
+
 TEST_F(Files, LongPaths)
 {
     HardCase row("A path of 4090 bytes; a file name of 256");

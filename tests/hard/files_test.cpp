@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged files: each ends in an image of finite pixels, or in one line that says why not.
+// Damaged files: each ends in an image of finite pixels, or in one line that says why not, and in little memory.
 #include "files.h"
 #include "hard_case.h"
 #include "quad_files.h"
@@ -12,7 +12,9 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <cctype>
 #include <cmath>
+#include <tuple>
 
 using namespace vmlight;
 
@@ -106,6 +108,66 @@ TEST_F(Files, DamagedImagesOneByOne)
     }
     row.naive("a flipped bit in a header asks for gigabytes, or keeps a filter busy for a minute");
     row.ours("280 times finite pixels or a one-line error, in executables and readers");
+}
+
+TEST_F(Files, HeadersThatClaimTooMuch)
+{
+    HardCase row("EXR and HDR with one high bit of any byte of the header flipped: tiles, scanlines, several parts");
+    done("makecfem sky.exr -o stack.exr --stack --resolution 8 --quiet");
+    for (const std::string name : { "sky.exr", "vm.exr", "stack.exr", "sky.hdr" }) {
+        const std::string whole = read(name);
+        // Headers end where the pixels begin; that they are small is what makes the claims large.
+        std::vector<Damage> damages;
+        for (size_t byte = 0; byte < std::min(whole.size(), size_t(name == "stack.exr" ? 2000 : 1200)); ++byte)
+            for (const int bit : { 5, 7 }) {
+                std::string flipped = whole;
+                flipped[byte] = char(flipped[byte] ^ (1 << bit));
+                damages.push_back({ format("bit {} of byte {} of {}", bit, byte, name), flipped });
+            }
+        survive(damages, [&](const Damage& damage) { return try_to_read(write(name, damage.bytes)); });
+        write(name, whole);
+    }
+    row.naive("OpenEXR 3.1 makes room for a string of 512 MiB in a file of 677 bytes, and reads it byte by byte: 9 s");
+    row.ours("less than 50 MB each: a size beyond the file is refused before OpenEXR reads it");
+}
+
+TEST_F(Files, NumbersBeyondTheFile)
+{
+    HardCase row("Each number in the header of an OBJ, PLY, glTF, HDR or recipe is a thousand million");
+    const auto damages_of_numbers = [](const std::string& whole, size_t end) {
+        std::vector<Damage> damages;
+        for (size_t at = 0; at < end; ++at) {
+            const bool begins = std::isdigit(whole[at]) && (at == 0 || !std::isdigit(whole[at - 1]));
+            const size_t rest = std::min(whole.find_first_not_of("0123456789", at), whole.size());
+            if (begins)
+                damages.push_back(
+                    { format("number at {}", at), whole.substr(0, at) + "999999999" + whole.substr(rest) });
+        }
+        return damages;
+    };
+    const std::string json = quad_gltf("m.bin");
+    write("m.bin", quad_buffer());
+    for (const auto& [name, whole, end] : { std::tuple<std::string, std::string, size_t>("m.obj", kQuad, kQuad.size()),
+                                            { "m.ply", quad_ply(), quad_ply_header("binary_little_endian").size() },
+                                            { "text.ply", quad_ply_text(), quad_ply_text().size() },
+                                            { "m.gltf", json, json.size() },
+                                            { "m.glb", quad_glb(), 20 + quad_gltf().size() } })
+        survive(damages_of_numbers(whole, end),
+                [&, name = name](const Damage& damage) { return try_to_make(small_bake(write(name, damage.bytes))); });
+    CfemRecipe recipe;
+    recipe.environment = "sky.hdr";
+    recipe.cfem_params.resolution = { 8, 4 };
+    const std::string sky = read("sky.hdr");
+    survive(damages_of_numbers(sky, sky.find("+X") + 8), [&](const Damage& damage) {
+        write("sky.hdr", damage.bytes);
+        return try_to_make(recipe);
+    });
+    write("sky.hdr", sky);
+    const std::string bake = "mesh = \"quad.obj\"\nsamples = 4\nresolution = [16, 16]\nmargin = 2\nudim = 1001\n";
+    survive(damages_of_numbers(bake, bake.size()),
+            [&](const Damage& damage) { return try_to_read(write("n.vismap", damage.bytes)); });
+    row.naive("room for a thousand million of what is not there");
+    row.ours("less than 50 MB each");
 }
 
 TEST_F(Files, DamagedRecipesOneByOne)

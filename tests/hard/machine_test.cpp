@@ -4,10 +4,12 @@
 // in this process itself, since a fork has none of the threads that were started before it. (What takes another kind of
 // process is in machine_test.py.)
 #include "command_test.h"
+#include "failing_calls.h"
 #include "hard_case.h"
 #include "mains.h"
 
 #include <chrono>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -27,15 +29,30 @@ protected:
     /// Starts makevismap of spot.obj, quietly.
     static pid_t start(const std::string& resolution, const std::string& samples, const std::string& output)
     {
+        return start(
+            makevismap_main,
+            { "makevismap", kSpot, "--resolution", resolution, "--samples", samples, "--quiet", "-o", output });
+    }
+    /// Starts a main with these words; what it says goes to the file `said`. No more than `threads` threads run at once
+    /// besides the first; negative: as many as it likes.
+    static pid_t start(Main main, const std::vector<std::string>& words, const char* said = "/dev/null",
+                       int threads = -1)
+    {
         const pid_t child = ::fork();
         if (child != 0)
             return child;
-        const int nowhere = ::open("/dev/null", O_WRONLY);
-        ::dup2(nowhere, STDOUT_FILENO);
-        ::dup2(nowhere, STDERR_FILENO);
-        const char* words[] = { "makevismap",    kSpot.c_str(), "--resolution", resolution.c_str(), "--samples",
-                                samples.c_str(), "--quiet",     "-o",           output.c_str(),     nullptr };
-        ::_exit(makevismap_main(9, words));
+        const int file = ::open(said, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        ::dup2(file, STDOUT_FILENO);
+        ::dup2(file, STDERR_FILENO);
+        std::vector<const char*> pointers;
+        for (const std::string& word : words)
+            pointers.push_back(word.c_str());
+        pointers.push_back(nullptr);
+        ::alarm(100); // ends one that waits for a thread that did not start
+        std::optional<FailingCalls> failing;
+        if (threads >= 0)
+            failing.emplace(FailingCalls::Threads, threads + 1, true);
+        ::_exit(main(int(words.size()), pointers.data()));
     }
     /// Returns the exit code, or the negative number of the signal that ended it.
     static int wait(pid_t child)
@@ -101,4 +118,47 @@ TEST_F(Machine, TwoWriters)
     }
     row.naive("interleaved bytes");
     row.ours("the whole file of one of them");
+}
+
+TEST_F(Machine, ThreadsThatDoNotStart)
+{
+    HardCase row("No more threads can be started (`ulimit -u`), from the first or any later one on");
+    struct Run
+    {
+        Main main;
+        std::vector<std::string> words;
+    };
+    const std::vector<Run> runs {
+        { makevismap_main, { "makevismap", kSpot, "--resolution", "16", "--samples", "4", "-o" } },
+        { makecfem_main, { "makecfem", kSky, "--resolution", "16", "--stack", "-o" } },
+        { makelightmap_main, { "makelightmap", "vm.exr", "cfem.exr", "-o" } },
+    };
+    for (const Run& run : runs)
+        for (const std::string number : { "2", "5" }) {
+            const auto run_with = [&](const std::string& output, int threads) {
+                std::vector<std::string> words = run.words;
+                words.insert(words.end(), { output, "--threads", number });
+                return wait(start(run.main, words, "said", threads));
+            };
+            ASSERT_EQ(run_with("new.exr", -1), 0);
+            const std::string fresh = read("new.exr");
+            for (const int threads : { 0, 1, 2, 3, 5, 8, 11, 14, 17, 40 }) {
+                write("x.exr", "the old picture");
+                const int code = run_with("x.exr", threads);
+                const std::string said = read("said"), seen = read("x.exr");
+                EXPECT_THAT(code, testing::AnyOf(0, 1)) << run.words[0] << ", " << threads << " threads: " << said;
+                EXPECT_TRUE(seen == (code == 0 ? fresh : "the old picture")) << threads;
+                EXPECT_TRUE(code == 0 || said.find(run.words[0] + " ERROR: ") == 0) << said;
+                remove("x.exr");
+            }
+            if (run.main == makevismap_main)
+                write("vm.exr", fresh);
+            else
+                write("cfem.exr", fresh);
+            remove("new.exr");
+            remove("said");
+        }
+    EXPECT_THAT(names(), testing::ElementsAre("cfem.exr", "vm.exr")) << "debris";
+    row.naive("std::system_error, or an abort inside a library");
+    row.ours("the same image, or exit code 1 with the reason; never half a file");
 }
