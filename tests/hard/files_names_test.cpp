@@ -65,7 +65,8 @@ TEST_F(Files, QuestionMarks)
             fs::copy_file("sky.exr", place + ".sky.exr");
             const auto quoted = [](const std::string& path) { return "'" + path + "'"; };
             done("makevismap " + quoted(place + ".obj") + small + " -o " + quoted(place + ".vm.exr"));
-            EXPECT_TRUE(read(place + ".vm.exr") == read("vm.exr"));
+            write("plain.exr", read(place + ".vm.exr")); // a name that OIIO can open
+            expect_same_pixels("plain.exr", "vm.exr", 0);
             done("makevismap " + quoted(place + ".obj") + small + " -o " + quoted(place + ".vismap"));
             done("makelightmap " + quoted(place + ".vismap?samples=5") + " " + quoted(place + ".sky.exr") + " -o "
                  + quoted(place + ".lightmap"));

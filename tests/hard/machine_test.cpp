@@ -122,6 +122,9 @@ TEST_F(Machine, TwoWriters)
 
 TEST_F(Machine, ThreadsThatDoNotStart)
 {
+#ifdef VMLIGHT_SANITIZED
+    GTEST_SKIP() << "sanitizers start threads themselves";
+#endif
     HardCase row("No more threads can be started (`ulimit -u`), from the first or any later one on");
     struct Run
     {
@@ -148,13 +151,11 @@ TEST_F(Machine, ThreadsThatDoNotStart)
                 const std::string said = read("said"), seen = read("x.exr");
                 EXPECT_THAT(code, testing::AnyOf(0, 1)) << run.words[0] << ", " << threads << " threads: " << said;
                 EXPECT_TRUE(seen == (code == 0 ? fresh : "the old picture")) << threads;
-                EXPECT_TRUE(code == 0 || said.find(run.words[0] + " ERROR: ") == 0) << said;
+                EXPECT_TRUE(code == 0 || said.find(run.words[0] + " ERROR: ") != std::string::npos) << said;
                 remove("x.exr");
             }
-            if (run.main == makevismap_main)
-                write("vm.exr", fresh);
-            else
-                write("cfem.exr", fresh);
+            if (run.main != makelightmap_main)
+                write(run.main == makevismap_main ? "vm.exr" : "cfem.exr", fresh);
             remove("new.exr");
             remove("said");
         }

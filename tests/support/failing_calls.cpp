@@ -128,6 +128,7 @@ extern "C"
         return is_new && file_fails() ? -1 : int(::syscall(SYS_openat, folder, name, flags, mode));
     }
 
+#ifndef VMLIGHT_SANITIZED // which must see all threads
     int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* data)
     {
         using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
@@ -146,4 +147,5 @@ extern "C"
         }
         return fault;
     }
+#endif
 }

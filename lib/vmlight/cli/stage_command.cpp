@@ -5,6 +5,7 @@
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/utf8.h>
 #include <vmlight/image/image_file.h>
+#include <vmlight/stage/recipe/paths.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/uv/udim.h>
 
@@ -17,14 +18,15 @@ std::string StageCommand::output_fault() const
 
 bool StageCommand::saves_recipe() const
 {
-    return !line.stage.empty() && recipe_stage(output) == line.stage && recipe_path(output) == output;
+    return !line.stage.empty() && stage_of_extension(output) == line.stage;
 }
 
 std::string StageCommand::image_name_fault() const
 {
-    const bool is_recipe = !line.stage.empty() && is_recipe_name(output);
-    return is_recipe ? format("\"{}\": output must be .exr, or .{} for a recipe", output, line.stage)
-                     : output_name_fault(output);
+    const std::string fault = output_name_fault(output);
+    return fault.empty() || line.stage.empty() || !is_recipe_name(output)
+        ? fault
+        : format("\"{}\": output must be .exr, or .{} for a recipe", output, line.stage);
 }
 
 // What cannot be saved in a recipe.

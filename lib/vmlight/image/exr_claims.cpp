@@ -3,6 +3,7 @@
 #include <vmlight/image/file_claims.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,8 +117,8 @@ std::string value_fault(const Attribute& attribute)
         for (size_t at = 0; value.size() - at >= 4;) {
             const size_t length = number_at(&value[at]);
             if (length > value.size() - at - 4)
-                return format("its header says that a string in \"{}\" has {} bytes, of {}", attribute.name, length,
-                              value.size() - at - 4);
+                return format("its header says that a string in \"{}\" has {} bytes, of {}",
+                              shortened_line(attribute.name), length, value.size() - at - 4);
             at += 4 + length;
         }
     return "";
@@ -138,8 +139,8 @@ bool read_part(ClaimReader& file, Part& part, std::string& fault)
             return false;
         const int64_t size = number_at(raw);
         if (size > file.left()) {
-            fault = format("its header says that \"{}\" has {} bytes; the file has {} more", attribute.name, size,
-                           file.left());
+            fault = format("its header says that \"{}\" has {} bytes; the file has {} more",
+                           shortened_line(attribute.name), size, file.left());
             return false;
         }
         attribute.value.resize(size <= kLongestList ? size_t(size) : 0);

@@ -4,10 +4,10 @@
 #include <vmlight/base/format.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace vmlight {
 
@@ -50,15 +50,42 @@ bool ClaimReader::read_until(char end, std::string& text, size_t most)
     return false;
 }
 
+namespace {
+
+/// A format, by the bytes that its files begin with.
+struct Format
+{
+    OIIO::string_view magic;
+    const char* reader;
+    std::string (*fault)(ClaimReader& file);
+};
+constexpr Format kFormats[]
+    = { { "\x76\x2f\x31\x01", "openexr", exr_claims_fault }, { "#?R", "hdr", radiance_claims_fault } };
+
+const Format* format_of(ClaimReader& file)
+{
+    char magic[4];
+    if (file.read(magic, 4))
+        for (const Format& format : kFormats)
+            if (OIIO::Strutil::starts_with(OIIO::string_view(magic, 4), format.magic))
+                return &format;
+    return nullptr;
+}
+
+} // namespace
+
 std::string claims_fault(const std::string& path)
 {
     ClaimReader file(path);
-    char magic[4];
-    if (!file.read(magic, 4))
-        return "";
-    if (std::memcmp(magic, "\x76\x2f\x31\x01", 4) == 0)
-        return exr_claims_fault(file);
-    return std::memcmp(magic, "#?", 2) == 0 ? radiance_claims_fault(file) : "";
+    const Format* format = format_of(file);
+    return format ? format->fault(file) : "";
+}
+
+std::string reader_of(const std::string& path)
+{
+    ClaimReader file(path);
+    const Format* format = format_of(file);
+    return format ? format->reader : "";
 }
 
 std::string radiance_claims_fault(ClaimReader& file)

@@ -14,6 +14,10 @@ namespace vmlight {
 /// files, and of headers that are invalid in other ways, which OpenImageIO refuses.
 std::string claims_fault(const std::string& path);
 
+/// The name of OpenImageIO's reader of the file `path` by its first bytes, of OpenEXR and Radiance files; else "".
+/// Asked for a damaged file, OpenImageIO tries all its readers, some of which take 64 MiB to see that it is not theirs.
+std::string reader_of(const std::string& path);
+
 /// Reads a file's first bytes in order, and knows how many are left.
 class ClaimReader
 {

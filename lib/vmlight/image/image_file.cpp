@@ -97,9 +97,12 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::strin
         error = format("\"{}\": {}", name, fault);
         return nullptr;
     }
+    std::string reader = reader_of(name);
     // OIIO takes what follows a '?' for a query, even in the name of a folder.
-    if (name.find('?') != std::string::npos && OIIO::Filesystem::is_regular(name)) {
-        auto file = OIIO::ImageInput::create(OIIO::Filesystem::extension(name, false));
+    if (reader.empty() && name.find('?') != std::string::npos && OIIO::Filesystem::is_regular(name))
+        reader = OIIO::Filesystem::extension(name, false);
+    if (!reader.empty()) {
+        auto file = OIIO::ImageInput::create(reader);
         OIIO::ImageSpec ignored;
         if (file && file->open(name, ignored))
             return file;
