@@ -140,15 +140,29 @@ TEST(FileClaims, LevelsPartsAndDeepPixelsAreWhatTheySay)
 TEST(FileClaims, AFileMayBeExactlyAsLongAsItsHeaderSays)
 {
     Header header;
+    header.window = box(4096, 2049); // of half floats: just over 16 MiB
+    header.rest = 2049 * (8 + 8 + 8192);
     EXPECT_EQ(fault_of(header.bytes()), "");
     --header.rest;
-    EXPECT_EQ(fault_of(header.bytes()), "its header says 4x3 pixels, which take 72 bytes or more; the file has 71");
-    header.rest = 3 * 8 + 3 * 8 + 1; // runs of 64
-    header.compression = std::string(1, 1);
+    EXPECT_EQ(fault_of(header.bytes()),
+              "its header says 4096x2049 pixels, which take 16818192 bytes or more; the file has 16818191");
+    header.compression = std::string(1, 1); // runs of 128 bytes in 2
+    header.rest = 2049 * (8 + 8 + 128);
     EXPECT_EQ(fault_of(header.bytes()), "");
+    --header.rest;
+    EXPECT_THAT(fault_of(header.bytes()), HasSubstr("which take 295056 bytes or more; the file has 295055"));
     header.compression = std::string(1, 100); // of a future version
     header.rest = 0;
     EXPECT_EQ(fault_of(header.bytes()), "");
+}
+
+TEST(FileClaims, ASmallFileThatWasCutIsLeftToItsReaderButForItsTable)
+{
+    Header header;
+    header.rest = 3 * 8;
+    EXPECT_EQ(fault_of(header.bytes()), "");
+    --header.rest;
+    EXPECT_EQ(fault_of(header.bytes()), "its header says 4x3 pixels, which take 72 bytes or more; the file has 23");
 }
 
 TEST(FileClaims, AnySizeBeyondTheFileIsRefused)
@@ -178,10 +192,10 @@ TEST(FileClaims, AnySizeBeyondTheFileIsRefused)
 TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
 {
     Header wide;
-    wide.window = box(1 << 20, 3);
-    EXPECT_THAT(fault_of(wide.bytes()), HasSubstr("its header says 1048576x3 pixels, which take "));
+    wide.window = box(1 << 20, 30);
+    EXPECT_THAT(fault_of(wide.bytes()), HasSubstr("its header says 1048576x30 pixels, which take "));
     wide.compression = std::string(1, 3); // ZIP
-    EXPECT_THAT(fault_of(wide.bytes()), HasSubstr("its header says 1048576x3 pixels"));
+    EXPECT_THAT(fault_of(wide.bytes()), HasSubstr("its header says 1048576x30 pixels"));
     Header high; // of which the table of offsets alone is too long
     high.window = box(1, 0x7fffffff);
     high.compression = std::string(1, 9);
@@ -191,7 +205,7 @@ TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
     tiled.version = 2 | 0x200;
     tiled.window = box(64, 64);
     tiled.compression = std::string(1, 3);
-    tiled.rest = 16 * (8 + 20) + 8;
+    tiled.rest = 16 * 8;
     const auto tiles = [&](uint32_t width, uint32_t height, int mode) {
         tiled.more = attribute("tiles", "tiledesc", number(width) + number(height) + char(mode));
         return fault_of(tiled.bytes());
@@ -206,7 +220,7 @@ TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
 
     Header deep;
     deep.version = 2 | 0x800;
-    deep.rest = 3 * 8 + 3 * 28;
+    deep.rest = 3 * 8;
     EXPECT_EQ(fault_of(deep.bytes()), "");
     --deep.rest;
     EXPECT_THAT(fault_of(deep.bytes()), HasSubstr("its header says 4x3 pixels"));
@@ -234,14 +248,15 @@ TEST(FileClaims, RadianceScanlinesAreHeldAgainstTheFile)
     const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
     const auto fault
         = [&](const std::string& size, size_t rest) { return fault_of(head + size + "\n" + std::string(rest, 'x')); };
-    EXPECT_EQ(fault("-Y 2 +X 7", 2 * 7 * 4), ""); // too short for runs
-    EXPECT_EQ(fault("-Y 2 +X 7", 2 * 7 * 4 - 1),
-              "its header says 2 scanlines of 7 pixels, which take 56 bytes or more; the file has 55");
-    EXPECT_EQ(fault("-Y 2 +X 127", 2 * 12), "");
-    EXPECT_EQ(fault("-Y 2 +X 127", 2 * 12 - 1),
-              "its header says 2 scanlines of 127 pixels, which take 24 bytes or more; the file has 23");
-    EXPECT_EQ(fault("-Y 2 +X 128", 2 * 20), "");
-    EXPECT_THAT(fault("+X 128 -Y 2", 100), HasSubstr("128 scanlines of 2 pixels"));
+    EXPECT_EQ(fault("-Y 999999 +X 7", 999999 * 7 * 4), ""); // too short for runs
+    EXPECT_EQ(fault("-Y 999999 +X 7", 999999 * 7 * 4 - 1),
+              "its header says 999999 scanlines of 7 pixels, which take 27999972 bytes or more; the file has 27999971");
+    EXPECT_EQ(fault("-Y 40000 +X 127", 40000 * 12), "");
+    EXPECT_EQ(fault("-Y 40000 +X 127", 40000 * 12 - 1),
+              "its header says 40000 scanlines of 127 pixels, which take 480000 bytes or more; the file has 479999");
+    EXPECT_EQ(fault("-Y 40000 +X 128", 40000 * 20), "");
+    EXPECT_THAT(fault("+X 40000 -Y 128", 40000 * 20 - 1), HasSubstr("40000 scanlines of 128 pixels"));
+    EXPECT_EQ(fault("-Y 2 +X 128", 0), ""); // small: left to its reader
     EXPECT_THAT(fault("-Y 1048576 +X 1048576", 1000), HasSubstr("which take 4398046511104 bytes or more"));
     EXPECT_EQ(fault("nothing", 0), "");
     const TemporaryFolder folder;

@@ -177,20 +177,27 @@ double tiles_of(const Part& part)
     return tiles;
 }
 
-// Bytes that the part takes at least behind the headers: for each chunk a place in the table and what precedes its
-// pixels, then the pixels as well compressed as can be.
-double least_bytes(const Part& part, bool has_parts)
+/// Sizes behind the headers.
+struct Sizes
+{
+    /// Of the tables of chunks, which are read when the file is opened.
+    double tables = 0;
+    /// Of tables and chunks, whose pixels are as well compressed as can be, and of the pixels decoded.
+    double least = 0, decoded = 0;
+};
+
+void add(Sizes& sizes, const Part& part, bool has_parts)
 {
     const bool is_valid = part.is_known && part.compression && part.width > 0 && part.height > 0
         && (!part.is_tiled || (part.tile_width > 0 && part.tile_height > 0 && part.level_mode <= 2));
     if (!is_valid)
-        return 0;
+        return;
     const double chunks = part.is_tiled ? tiles_of(part) : std::ceil(part.height / part.compression->rows);
-    const double place = 8 + (has_parts ? 4 : 0);
-    if (part.is_deep)
-        return chunks * (place + (part.is_tiled ? 16 : 4) + 24);
-    const double pixels = part.width * part.height * part.pixel_bytes / part.compression->most_bytes;
-    return chunks * (place + (part.is_tiled ? 20 : 8)) + pixels;
+    const double head = (has_parts ? 4 : 0) + (part.is_deep ? 24 + (part.is_tiled ? 16 : 4) : part.is_tiled ? 20 : 8);
+    const double decoded = part.is_deep ? 0 : part.width * part.height * part.pixel_bytes;
+    sizes.tables += chunks * 8;
+    sizes.decoded += decoded;
+    sizes.least += chunks * (8 + head) + decoded / part.compression->most_bytes;
 }
 
 // Tiles may be larger than their picture, but a decoder makes room for whole ones.
@@ -223,16 +230,17 @@ std::string exr_claims_fault(ClaimReader& file)
             break;
         parts.push_back(part);
     } while (has_parts);
-    double least = 0;
+    Sizes sizes;
     for (const Part& part : parts) {
-        least += least_bytes(part, has_parts);
+        add(sizes, part, has_parts);
         if (fault.empty())
             fault = tile_fault(part);
     }
-    if (fault.empty() && least > double(file.left()))
+    const auto left = double(file.left());
+    if (fault.empty() && (sizes.tables > left || (sizes.least > left && sizes.decoded > kSmallImage)))
         fault = format("its header says {:.0f}x{:.0f} pixels{}, which take {:.0f} bytes or more; the file has {}",
-                       parts[0].width, parts[0].height, has_parts ? format(" in {} parts", parts.size()) : "", least,
-                       file.left());
+                       parts[0].width, parts[0].height, has_parts ? format(" in {} parts", parts.size()) : "",
+                       sizes.least, file.left());
     return fault;
 }
 

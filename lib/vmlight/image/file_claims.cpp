@@ -103,7 +103,7 @@ std::string radiance_claims_fault(ClaimReader& file)
         const bool has_runs = pixels >= 8 && pixels <= 32767;
         const double shortest = has_runs ? 4 + 4 * 2 * std::ceil(pixels / 127.0) : 4.0 * pixels;
         const double least = shortest * scanlines;
-        if (scanlines > 0 && pixels > 0 && least > double(file.left()))
+        if (scanlines > 0 && pixels > 0 && least > double(file.left()) && 4.0 * pixels * scanlines > kSmallImage)
             return format("its header says {} scanlines of {} pixels, which take {:.0f} bytes or more; the file has {}",
                           scanlines, pixels, least, file.left());
         break;

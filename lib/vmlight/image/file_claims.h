@@ -40,6 +40,9 @@ private:
     int64_t m_size = 0, m_at = 0;
 };
 
+/// Bytes of decoded pixels that may be missing: a file that was cut short is opened, and fails where it is read.
+constexpr double kSmallImage = 16 << 20;
+
 // The same for one format, from behind its first four bytes.
 std::string exr_claims_fault(ClaimReader& file);
 std::string radiance_claims_fault(ClaimReader& file);
