@@ -140,7 +140,7 @@ TEST(FileClaims, LevelsPartsAndDeepPixelsAreWhatTheySay)
 TEST(FileClaims, AFileMayBeExactlyAsLongAsItsHeaderSays)
 {
     Header header;
-    header.window = box(4096, 2049); // of half floats: just over 16 MiB
+    header.window = box(4096, 2049); // of half floats
     header.rest = 2049 * (8 + 8 + 8192);
     EXPECT_EQ(fault_of(header.bytes()), "");
     --header.rest;
