@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stack_maps.h"
 
+#include <vmlight/math/longest_direction.h>
+
 #include <OpenImageIO/imagebufalgo.h>
 
 using namespace vmlight;
@@ -78,8 +80,8 @@ TEST(LightmapModel, ALinearEnvironmentIsExactForEveryVisibility)
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> unit;
     const ImageBuf vm = vismap(64, 48, [&](int, int) {
-        const float v = unit(random), r = unit(random) * kLargestLobe;
-        return Texel { v, V3f(normal(random), normal(random), normal(random)).normalized() * (v * r) };
+        const float v = unit(random), length = unit(random) * std::min(v * kLargestLobe, float(longest_direction(v)));
+        return Texel { v, V3f(normal(random), normal(random), normal(random)).normalized() * length };
     });
     const ImageBuf image = lit(vm, stack, params);
     for (int y = 0; y < 48; ++y)

@@ -2,6 +2,7 @@
 #include <vmlight/lightmap/cell_light.h>
 
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/lightmap/brightest_light.h>
 #include <vmlight/lightmap/cfem_lookup.h>
 #include <vmlight/math/latlong.h>
 
@@ -114,6 +115,7 @@ bool build_cell_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rota
         || !prepare_cfem(map, large ? reduced : radiance, error))
         return false;
     measure(dst, map);
+    find_brightest_light(dst.brightest, large ? reduced : radiance);
 
     Grid grid(size_t(kColumns) * kSlices, Moments {});
     const Parts parts = parts_of(map);

@@ -24,6 +24,8 @@ struct CellLight
     std::vector<float> triples;
     /// Mean of the environment over the sphere, and its smallest and largest values.
     float mean[3] = { 0, 0, 0 }, least[3] = { 0, 0, 0 }, most[3] = { 0, 0, 0 };
+    /// From find_brightest_light().
+    float brightest[3] = { 0, 0, 0 };
 };
 
 /// The visibility of three cells in thirds, in six bits; the first cell is the highest.

@@ -5,12 +5,13 @@
 /// is visible. As a ratio, so that V, the most accurate number of a texel, sets how much light there is, and the rest
 /// only where it comes from. Cells reach across the horizon, where n.w < 0: where the mean of n.w over the visible part
 /// is below 0.2, the weight blends into n.w + 1, so that it never vanishes. The result stays between V times the least
-/// and V times the most of the environment. 0 where V <= 0.
+/// and V times the most of the environment, and below the brightest point of the CFEM. 0 where V <= 0.
 ///
 /// A texel is V, B, n and the packed numbers, in this order; one that is not whole, or not in [0, 2^24), counts as 0
 /// and makes the result false.
 #pragma once
 
+#include <vmlight/lightmap/brightest_light.h>
 #include <vmlight/lightmap/cell_light.h>
 #include <vmlight/lightmap/model_shader.h>
 #include <vmlight/math/float4.h>
@@ -76,7 +77,7 @@ inline bool light_of(const CellLight& light, const ShadeSetup& setup, const Cell
         const float within = mean < light.least[c] ? light.least[c] : mean > light.most[c] ? light.most[c] : mean;
         const float color = gain * within;
         sound &= std::isfinite(color);
-        rgb[c] = gain > 0 || !(gain == gain) ? color : 0.0f;
+        rgb[c] = gain > 0 || !(gain == gain) ? held_to(light.brightest[c], setup.gain, color) : 0.0f;
     }
     return sound;
 }

@@ -33,6 +33,7 @@ bool read_rows(CfemLookup& dst, const OIIO::ImageBuf& cfem, const std::array<int
             for (int c = 0; c < 3; ++c) {
                 texel[c] = row[size_t(x) * channels + index[c] - *first];
                 // A gray map is three channels here, but one to the user.
+                dst.brightest[c] = std::max(dst.brightest[c], texel[c]);
                 if (!std::isfinite(texel[c]) && (c == 0 || index[c] != index[0]))
                     faults.add(spec.x + x, spec.y + y, index[c]);
             }

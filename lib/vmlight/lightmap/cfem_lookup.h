@@ -26,6 +26,8 @@ struct CfemLookup
     std::vector<float> texels;
     /// Largest absolute value in `texels`.
     float largest = 0;
+    /// Largest R, G, B of the map, at least 0, and a 0: no surface is lit brighter.
+    float brightest[4] = { 0, 0, 0, 0 };
 
     /// R, G, B of a texel of the map.
     const float* at(int x, int y) const { return &texels[4 * (size_t(y + 1) * size_t(pitch) + size_t(x + 1))]; }

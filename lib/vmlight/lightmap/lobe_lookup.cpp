@@ -67,6 +67,8 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
             return false;
         }
         dst.largest = std::max(dst.largest, map.largest);
+        if (level == 0)
+            std::copy_n(map.brightest, 4, dst.brightest);
         for (int64_t i = 0; i < texels; ++i) {
             const float* texel = &map.texels[4 * size_t(i)];
             set_knot(dst, knot_of(level), i, texel);

@@ -51,6 +51,8 @@ struct LobeLookup
     std::vector<float> texels;
     /// Largest absolute value in `texels`.
     float largest = 0;
+    /// CfemLookup::brightest of level 0.
+    float brightest[4] = { 0, 0, 0, 0 };
 };
 
 /// Prepare the levels of a stack.

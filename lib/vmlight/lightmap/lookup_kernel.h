@@ -19,6 +19,13 @@ template <class Lookup> float largest_light(const Lookup& map, float gain)
     return in_range < kLargestVisibility * gain ? in_range : kLargestVisibility * gain;
 }
 
+/// The largest value that a surface can have under this light, in channel `c`: a narrow lobe may see only a sun, but no
+/// surface receives more of it than one that faces it. Rounding is left alone.
+template <class Lookup> float brightest_light(const Lookup& map, float gain, int c)
+{
+    return map.brightest[c] * gain * kAboveRounding;
+}
+
 /// atan(a) / (2 pi) = a (c0 + c1 a^2 + ...) for a in [0, 1]: minimax, off by at most 6e-9.
 constexpr float kAtanTurns[8] = { 0.159154832f,  -0.0530461222f,  0.0317459442f,  -0.022136271f,
                                   0.0153460335f, -0.00889872294f, 0.00347959786f, -0.000645304448f };

@@ -58,11 +58,13 @@ struct Light
         , limit(largest_light(lookup, setup.gain))
     {
         std::copy_n(setup.rotation, 9, rotation);
+        for (int c = 0; c < 4; ++c)
+            brightest[c] = brightest_light(lookup, setup.gain, c);
     }
 
     const float* texels;
     int width, height, pitch;
-    float rotation[9], gain, limit;
+    float rotation[9], gain, limit, brightest[4];
 };
 
 // Where the texels of a block look, and with what weights: filled by vectors of texels, then used texel by texel. Two

@@ -56,7 +56,8 @@ struct LobeModel
 #else
         const auto wide = Bilinear(d, lookups, i, p, q), narrow = Bilinear(d, lookups, i, p + 3, q + 3);
 #endif
-        hn::StoreU(hn::Add(wide, hn::Mul(hn::Set(d, lookups.share[i]), hn::Sub(narrow, wide))), d, rgbx);
+        const auto light = hn::Add(wide, hn::Mul(hn::Set(d, lookups.share[i]), hn::Sub(narrow, wide)));
+        hn::StoreU(hn::Min(light, hn::LoadU(d, sky.brightest)), d, rgbx);
     }
 };
 
@@ -89,6 +90,9 @@ bool shade_lobe_scalar(const LobeLookup& lobes, const ShadeSetup& setup, TexelLa
     const float* r = setup.rotation;
     const float w = float(lobes.width), h = float(lobes.height);
     const float limit = largest_light(lobes, setup.gain);
+    float brightest[3];
+    for (int c = 0; c < 3; ++c)
+        brightest[c] = brightest_light(lobes, setup.gain, c);
     bool sound = true;
     for (size_t i = 0; i < texels; ++i, vismap += 4, rgb += 3) {
         const bool first = layout == TexelLayout::visibility_first;
@@ -126,7 +130,8 @@ bool shade_lobe_scalar(const LobeLookup& lobes, const ShadeSetup& setup, TexelLa
             = [&](int k) { return (w00 * p[k] + w01 * p[k + kLobeFloats]) + (w10 * q[k] + w11 * q[k + kLobeFloats]); };
         for (int c = 0; c < 3; ++c) {
             const float wide = bilinear(c), narrow = bilinear(c + 3);
-            rgb[c] = wide + share * (narrow - wide);
+            const float seen = wide + share * (narrow - wide);
+            rgb[c] = seen < brightest[c] ? seen : brightest[c];
         }
     }
     return sound;

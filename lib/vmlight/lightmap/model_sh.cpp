@@ -4,6 +4,7 @@
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/lightmap/brightest_light.h>
 #include <vmlight/math/float4.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/latlong.h>
@@ -47,7 +48,9 @@ bool shade_harmonics(const HarmonicLight& harmonics, const ShadeSetup& setup, co
             sound &= std::isfinite(sum[c]);
             // A texel that sees nothing has no light, whatever rounding left of its harmonics. A value that is not
             // finite stays, to be reported.
-            rgb[c] = !(vismap[0] > 0) || (sum[c] < 0 && std::isfinite(sum[c])) ? 0.0f : sum[c];
+            rgb[c] = !(vismap[0] > 0) || (sum[c] < 0 && std::isfinite(sum[c]))
+                ? 0.0f
+                : held_to(harmonics.brightest[c], setup.gain, sum[c]);
         }
     }
     return sound;
@@ -79,6 +82,7 @@ bool build_harmonic_light(HarmonicLight& dst, const OIIO::ImageBuf& radiance, in
         return false;
     }
     const std::vector<double> turned = rotate_harmonics(projected, bands, to_environment);
+    find_brightest_light(dst.brightest, radiance);
     const int count = bands * bands;
     dst.count = count;
     dst.coefficients.assign(size_t(4 * count), 0.0f);

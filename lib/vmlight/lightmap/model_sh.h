@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The model `sh`: gain max(0, sum_i T_i c_i), where T are the numbers of a texel (V, B and the harmonics from band 2
-/// on of (1/pi) vis(w) max(0, n.w)) and c the light's. Linear in the texel but for the clamp, which the missing bands
-/// call for. 0 where V <= 0. Source: P.-P. Sloan, J. Kautz, J. Snyder, "Precomputed Radiance Transfer for Real-Time
-/// Rendering in Dynamic, Low-Frequency Lighting Environments", 2002, section 4.
+/// The model `sh`: gain max(0, sum_i T_i c_i), no brighter than the brightest point of the CFEM, where T are the
+/// numbers of a texel (V, B and the harmonics from band 2 on of (1/pi) vis(w) max(0, n.w)) and c the light's. Linear in
+/// the texel but for the clamps, which the missing bands call for. 0 where V <= 0. Source: P.-P. Sloan, J. Kautz, J.
+/// Snyder, "Precomputed Radiance Transfer for Real-Time Rendering in Dynamic, Low-Frequency Lighting Environments",
+/// 2002, section 4.
 #pragma once
 
 #include <vmlight/lightmap/model_shader.h>
@@ -17,6 +18,8 @@ struct HarmonicLight
     /// R, G, B and a 0 for each number of a texel. V and B are the first two bands up to constants, which are
     /// multiplied in here.
     std::vector<float> coefficients;
+    /// From find_brightest_light().
+    float brightest[3] = { 0, 0, 0 };
 };
 
 /// Project `radiance` onto the first `bands` bands, then rotate them.

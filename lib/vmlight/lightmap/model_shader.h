@@ -34,6 +34,10 @@ struct ShadeSetup
     float gain;
 };
 
+/// Models that look up narrower light than a cosine's are held to this many times the brightest point of the CFEM. Just
+/// above 1, so that rounding is not.
+constexpr float kAboveRounding = 1.00001f;
+
 /// The largest |V| that is accepted. Filters that ring exceed [0, 1] a little; beyond this the map was graded, or it is
 /// another picture.
 constexpr float kLargestVisibility = 2;

@@ -29,6 +29,8 @@ struct TexelRays
     Imath::V3f normal, geometric_normal;
     /// V: the share of the traced rays that nothing blocks.
     double visibility;
+    /// The factor by which B was shortened to what a surface of that V can see, 1 for most texels.
+    double narrowed = 1;
 };
 
 /// Turns the rays of a texel into the numbers of a basis. One per thread.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace vmlight {
 namespace {
@@ -72,15 +73,19 @@ void HarmonicAccumulator::project(const TexelRays& rays, float* dst)
     std::array<float, kLanes> x, y, z;
     x.fill(rays.normal.x), y.fill(rays.normal.y), z.fill(rays.normal.z);
     m_harmonics.evaluate(x.data(), y.data(), z.data(), m_values.data());
-    for (int l = 2; l < m_harmonics.order(); ++l)
+    // Where B was too long the bands above are too large as well. They shrink as by a blur of the sphere, which scales
+    // band l by the power l (l + 1) / 2 of what it scales B by, and makes nothing negative.
+    for (int l = 2; l < m_harmonics.order(); ++l) {
+        const double blur = std::pow(rays.narrowed, 0.5 * l * (l + 1));
         for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
             double value = m_seen[size_t(k)] / double(traced);
             if (rays.complete)
                 value
                     += (cosine_eigenvalue(l) * double(m_values[size_t(k * kLanes)]) - m_all[size_t(k)] / double(traced))
                     * rays.visibility;
-            dst[k - 4] = rays.visibility > 0 ? float(value) : 0.0f;
+            dst[k - 4] = rays.visibility > 0 ? float(value * blur) : 0.0f;
         }
+    }
 }
 
 } // namespace

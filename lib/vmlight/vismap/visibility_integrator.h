@@ -15,7 +15,7 @@
 
 namespace vmlight {
 
-/// V and B, in double.
+/// V and B, in double; |B| is at most longest_direction(V).
 struct Visibility
 {
     double visibility = 0;
@@ -61,6 +61,9 @@ public:
     int64_t rays() const { return m_rays; }
 
 private:
+    // B of the rays, however long.
+    Imath::V3d mean_direction(const DirectionSums& seen, const DirectionSums& all, const Imath::V3f& normal) const;
+
     const Occluder& m_occluder;
     const SamplePattern& m_pattern;
     const VismapParams& m_params;

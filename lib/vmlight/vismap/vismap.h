@@ -133,7 +133,8 @@ struct VismapReport
 ///
 /// @param dst      set to a float image of params.size() with channels `visibility`, `direction.x`, `direction.y`,
 ///                 `direction.z` (and those of `params.channels` and `params.basis`): V = (1/pi) Int vis(w) max(0, n.w)
-///                 dw in [0, 1], and B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <= V.
+///                 dw in [0, 1], and B = (1/pi) Int vis(w) max(0, n.w) w dw in object space, not normalised, |B| <=
+///                 (2/3) (1 - (1 - V)^(3/2)) <= V, the most that a surface can have (longest_direction.h).
 ///                 An unoccluded texel has V = 1 exactly and B = (2/3) n, a closed one 0 and 0. n is the interpolated
 ///                 normal; directions below the geometric surface count neither as visible nor as blocked. Texels
 ///                 outside triangles and margin are 0. Row 0 is the top of the UDIM tile, v = 1. Tagged as data
