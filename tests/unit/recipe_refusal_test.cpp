@@ -47,6 +47,11 @@ TEST(Recipe, RefusesAWrongType)
               "\"hero.lightmap\" line 1: max_distance: a boolean where a number or \"infinite\" is needed");
     EXPECT_EQ(refusal<VismapRecipe>("max_distance = \"far\""),
               "\"hero.lightmap\" line 1: max_distance: \"far\" is neither a number nor \"infinite\"");
+    EXPECT_EQ(refusal<VismapRecipe>("max_distance = 0"),
+              "\"hero.lightmap\" line 1: max_distance: 0 is not in [1e-30, 1e+30] or \"infinite\"; did you mean "
+              "\"infinite\"?");
+    EXPECT_EQ(refusal<VismapRecipe>("target_error = 0"),
+              "\"hero.lightmap\" line 1: target_error: 0 is not in [1e-09, 1] or \"none\"; did you mean \"none\"?");
     EXPECT_EQ(refusal<VismapRecipe>("occluder = [\"a\", 1]"),
               "\"hero.lightmap\" line 1: occluder: an integer where a path in quotes is needed");
     EXPECT_EQ(refusal<VismapRecipe>("occluder = 1"),

@@ -138,3 +138,20 @@ TEST(Recipe, ItsTextIsWhatAUserWouldWrite)
               "occluder = [\n    \"a.obj\",\n    \"b.obj\",\n]\nmargin = \"infinite\"\nchannels = [\"normal\", "
               "\"coverage\"]\n");
 }
+
+// 0 for "infinite" beside 1e-30 for "next to nothing" is a trap.
+TEST(RecipeText, ANumberNeverStandsForAWord)
+{
+    int words = 0;
+    const auto check = [&](const char* name, auto&, const auto& allowed, const char*) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(allowed)>, Range>) {
+            words += allowed.word != nullptr;
+            EXPECT_FALSE(allowed.word && allowed.word_value >= allowed.min && allowed.word_value <= allowed.max)
+                << name;
+        }
+    };
+#define VMLIGHT_CHECK(Recipe) Recipe {}.visit(check);
+    VMLIGHT_RECIPES(VMLIGHT_CHECK)
+#undef VMLIGHT_CHECK
+    EXPECT_GE(words, 3);
+}

@@ -85,7 +85,7 @@ TEST(VismapError, AnErrorOutOfReachIsRefusedWithWhatIsReached)
     EXPECT_EQ(error.find("target_error: 1e-09 is out of reach: 1048576 rays per texel give "), 0u) << error;
     params.target_error = -0.1;
     EXPECT_FALSE(make_vismap(image, scene.mesh, scene.occluders, params));
-    EXPECT_EQ(image.geterror(), "target_error: -0.1 is not in [0, 1] or \"none\"");
+    EXPECT_EQ(image.geterror(), "target_error: -0.1 is not in [1e-09, 1] or \"none\"");
 }
 
 TEST(VismapError, AndTheRaysChosenAreTheSameForAnyNumberOfThreads)

@@ -234,7 +234,7 @@ TEST(Vismap, RefusesParametersOutOfRange)
     EXPECT_EQ(refusal(mesh, params), "seed: -1 is not in [0, 2147483647]");
     params = {};
     params.max_distance = -1;
-    EXPECT_EQ(refusal(mesh, params), "max_distance: -1 is not in [0, 1e+30] or \"infinite\"");
+    EXPECT_EQ(refusal(mesh, params), "max_distance: -1 is not in [1e-30, 1e+30] or \"infinite\"");
     params = {};
     params.max_distance = NAN;
     EXPECT_EQ(refusal(mesh, params), "max_distance: \"nan\" is not a number or \"infinite\"");

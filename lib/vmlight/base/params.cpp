@@ -53,6 +53,8 @@ bool parse_number(double& dst, string_view text, const Range& allowed, bool inte
     }
     if (!(value >= allowed.min && value <= allowed.max)) {
         error = format("{} is not in {}", OIIO::Strutil::strip(text), range_text(allowed));
+        if (allowed.word && value == 0) // what other programs take for "none"
+            error += format("; did you mean \"{}\"?", allowed.word);
         return false;
     }
     dst = value;

@@ -13,7 +13,8 @@
 
 namespace vmlight {
 
-/// A number in [min, max]. `word`, if set, is a name for `word_value`.
+/// A number in [min, max]. `word`, if set, is a name for `word_value`, which is out of that range: only the word means
+/// "none" or the like, so that no number next to others means the opposite of them.
 struct Range
 {
     double min, max;

@@ -173,8 +173,7 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
     const int width = dst.spec().width, height = dst.spec().height;
     if (!pixels)
         return fail_with(dst, format("out of memory for {}x{} texels", width, height));
-    const float length
-        = map.max_distance > 0 ? float(map.max_distance * scene.frame().scale) : std::numeric_limits<float>::infinity();
+    const float length = float(map.max_distance * scene.frame().scale);
     const double gain = std::exp2(light.exposure);
     const UvRaster raster(scene.mesh(), width, height, map.udim);
     struct Worker

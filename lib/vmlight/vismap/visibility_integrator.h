@@ -9,7 +9,6 @@
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -43,8 +42,7 @@ public:
         : m_occluder(occluder)
         , m_pattern(pattern)
         , m_params(params)
-        , m_length(params.max_distance > 0 ? float(params.max_distance * scale)
-                                           : std::numeric_limits<float>::infinity())
+        , m_length(float(params.max_distance * scale))
         , m_wants_error(params.has("error"))
         , m_fan(pattern.count())
         , m_basis(make_accumulator(params))

@@ -12,6 +12,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct VismapParams
     /// has with 4096, a model that also uses |B| is within 2 % with 128.
     int samples = 128;
     /// The largest VismapReport::error, 0 to 1: the bake then chooses the rays per texel from some texels that it bakes
-    /// twice, and ignores `samples`. 0 is off.
+    /// twice, and ignores `samples`. 0 is off; as text, only the word "none" is.
     double target_error = 0;
     /// Sample pattern. `fibonacci` has the least error at a fixed number of rays (docs/accuracy.md); `halton` is the
     /// paper's.
@@ -42,8 +43,8 @@ struct VismapParams
     /// `cosine`: V and B as in make_vismap(). `uniform`: V is the visible share of the hemisphere's solid angle, B has
     /// the direction of the cosine-weighted mean: the paper, read literally.
     std::string measure = "cosine";
-    /// Maximum occluder distance, in mesh units; 0 is unlimited.
-    double max_distance = 0;
+    /// Maximum occluder distance, in mesh units.
+    double max_distance = std::numeric_limits<double>::infinity();
     /// Texels to fill around the texels that the mesh covers; -1 fills the whole map.
     int margin = 16;
     /// Channels to add. `normal`: `normal.x`, `normal.y`, `normal.z`, the interpolated normal in object space, of unit
@@ -74,7 +75,7 @@ struct VismapParams
         field("height", height, Range { 0, 32768 }, advanced("Height in texels; 0: the height of resolution"));
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile to bake; replaces <UDIM> in file names");
         field("samples", samples, Range { 1, 1 << 20 }, "Rays per texel");
-        field("target_error", target_error, Range { 0, 1, "none", 0 },
+        field("target_error", target_error, Range { 1e-9, 1, "none", 0 },
               "Instead of a fixed count, choose one for this RMS error of visibility, such as 0.01");
         field("sampler", sampler,
               Choices { { { "fibonacci", "Fibonacci lattice: lowest error at a fixed ray count" },
@@ -87,7 +88,7 @@ struct VismapParams
               Choices { { { "cosine", "weight directions by the cosine: what a diffuse surface receives" },
                           { "uniform", "weight all directions equally: the paper, read literally" } } },
               advanced("Weighting of directions"));
-        field("max_distance", max_distance, Range { 0, 1e30, "infinite", 0 },
+        field("max_distance", max_distance, Range { 1e-30, 1e30, "infinite", std::numeric_limits<double>::infinity() },
               "Maximum occluder distance, in mesh units");
         field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Dilation around UV islands, in texels");
         field("channels", channels,
