@@ -107,7 +107,14 @@ TEST(Light, MapsStoredFlippedOrTurned)
     albedo.specmod().attribute("Orientation", 6);
     EXPECT_FALSE(make_lightmap(lit, scene::random_vismap(8, 8), scene::random_cfem(8, 4), {}, &albedo));
     EXPECT_NE(lit.geterror().find("oiiotool --reorient"), std::string::npos);
-    row.ours("refused, naming the command that reorients it; an albedo too");
+    OIIO::ImageBuf map = scene::random_vismap(8, 8), cfem_turned = scene::random_cfem(8, 4);
+    map.specmod().attribute("Orientation", 3);
+    EXPECT_FALSE(make_lightmap(lit, map, scene::random_cfem(8, 4)));
+    EXPECT_NE(lit.geterror().find("(Orientation 3); fix it with oiiotool --reorient"), std::string::npos);
+    cfem_turned.specmod().attribute("Orientation", 4);
+    EXPECT_FALSE(make_lightmap(lit, scene::random_vismap(8, 8), cfem_turned));
+    EXPECT_NE(lit.geterror().find("(Orientation 4); fix it with oiiotool --reorient"), std::string::npos);
+    row.ours("refused, naming the command that reorients it; an albedo, a visibility map and a CFEM too");
 }
 
 TEST(Light, AFewPixelsInALargeWindow)

@@ -61,6 +61,9 @@ bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index
         error = format("no longer a visibility map: tagged as colour, \"{}\"", space);
         return false;
     }
+    error = orientation_fault(spec);
+    if (!error.empty())
+        return false;
     const std::string flag = converting_flag(spec);
     if (!flag.empty())
         error = format("no longer a visibility map: its Software attribute shows a colour conversion ({}); bake it "
@@ -88,6 +91,14 @@ bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index,
     return false;
 }
 
+std::string orientation_fault(const OIIO::ImageSpec& spec)
+{
+    const int orientation = spec.get_int_attribute("Orientation", 1);
+    return orientation == 1
+        ? ""
+        : format("pixels are stored flipped or rotated (Orientation {}); fix it with oiiotool --reorient", orientation);
+}
+
 bool check_window(const OIIO::ImageSpec& spec, std::string& error)
 {
     constexpr int kLongestSide = 1 << 16;
@@ -102,8 +113,7 @@ bool check_window(const OIIO::ImageSpec& spec, std::string& error)
         error = format("display window of {}x{} pixels is almost empty: only {}x{} are stored", spec.full_width,
                        spec.full_height, spec.width, spec.height);
     else if (orientation != 1)
-        error = format("pixels are stored flipped or rotated (Orientation {}); fix it with oiiotool --reorient",
-                       orientation);
+        error = orientation_fault(spec);
     else
         return true;
     return false;

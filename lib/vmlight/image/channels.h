@@ -37,10 +37,10 @@ VMLIGHT_API std::vector<std::string> numbered_channels(const std::string& basis,
 ///
 /// @param index    set to the channel indices, in the order of kVismapChannels
 /// @param error    set to what is missing and what was found, on failure
-/// @returns false if a channel is missing, `vmlight:stage` names another stage, or a colour conversion may have damaged
-///          the map: its `colorInteropID` is a colour space, or its `Software` attribute shows a colour conversion
-///          (OIIO 2.4 converts data channels too, and the pixels do not show it). An image without `vmlight:stage`
-///          needs only the channels.
+/// @returns false if a channel is missing, `vmlight:stage` names another stage, orientation_fault() gives one, or a
+///          colour conversion may have damaged the map: its `colorInteropID` is a colour space, or its `Software`
+///          attribute shows a colour conversion (OIIO 2.4 converts data channels too, and the pixels do not show it).
+///          An image without `vmlight:stage` needs only the channels.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
 /// Find the colour channels R, G, B. A channel Y, or a single channel other than A or Z, is used for all three.
@@ -49,6 +49,9 @@ VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<in
 /// @param error    set to what is missing and what was found, on failure
 /// @returns false if the image has no colour channels or is a visibility map.
 VMLIGHT_API bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error);
+
+/// Why pixels are not where they seem to be, or "": the Orientation is not 1.
+VMLIGHT_API std::string orientation_fault(const OIIO::ImageSpec& spec);
 
 /// Check that the display window, which is the whole sphere or texture whatever part of it is stored, can be processed.
 /// Returns false, with the reason in `error`, if it is empty, a side is longer than 65536, fewer than 1 in 256 of more

@@ -98,6 +98,9 @@ bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& erro
     std::array<int, 3> index;
     if (!find_color_channels(spec, index, error))
         return false;
+    error = orientation_fault(spec);
+    if (!error.empty())
+        return false;
     if (OIIO::get_roi(spec) != OIIO::get_roi_full(spec)) {
         error = format("cosine-filtered environment is cropped: it stores {}x{} pixels of {}x{}", spec.width,
                        spec.height, spec.full_width, spec.full_height);

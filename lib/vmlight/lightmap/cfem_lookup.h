@@ -39,7 +39,8 @@ struct CfemLookup
 /// @param cfem     a lat-long map of R, G, B, or of one channel, of any size from 1x1 to 2^28 texels, frame included.
 ///                 Negative values are allowed: filters that ring make them
 /// @returns false, with the reason in `error`, if `vmlight:stage` names another stage, the image has no colour, is a
-///          crop, cannot be read, or has values that are not finite or too large to interpolate.
+///          crop, stored flipped or rotated, cannot be read, or has values that are not finite or too large to
+///          interpolate.
 bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& error);
 
 } // namespace vmlight
