@@ -275,7 +275,7 @@ void CommandTest::make_sky(const std::vector<float>& color, const std::string& n
 void CommandTest::shrink(const std::string& src, const std::string& dst) const
 {
     const OIIO::ImageBuf whole(path(src));
-    const OIIO::ImageBuf small = OIIO::ImageBufAlgo::resize(whole, "", 0, OIIO::ROI(0, 32, 0, 32));
+    const OIIO::ImageBuf small = OIIO::ImageBufAlgo::resize(whole, "box", 0, OIIO::ROI(0, 32, 0, 32));
     EXPECT_TRUE(small.write(path(dst))) << small.geterror();
 }
 

@@ -25,6 +25,9 @@ public:
 
     bool any() const { return m_count > 0; }
     int64_t count() const { return m_count; }
+    /// Where the first is.
+    int x() const { return m_x; }
+    int y() const { return m_y; }
 
     /// "visibility map has 3 values that are not finite, the first at pixel (4, 2) channel "direction.x"".
     /// @param problem  what is wrong with the values: "not finite"

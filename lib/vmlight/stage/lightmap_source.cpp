@@ -9,6 +9,7 @@
 #include <vmlight/image/color.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
+#include <vmlight/lightmap/vismap_check.h>
 #include <vmlight/stage/albedo_source.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
@@ -17,6 +18,7 @@
 #include <vmlight/stage/stored_image.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <vector>
 
@@ -46,7 +48,8 @@ public:
         // A stack, or its last image stored on its own.
         const bool has_all
             = m_inputs.cfem->subimages() > 1 || m_inputs.cfem->spec().get_float_attribute("vmlight:lobe") == 1;
-        if (!choose_model(m_model, m_recipe.lightmap_params, vismap, has_all, error))
+        if (!choose_model(m_model, m_recipe.lightmap_params, vismap, has_all, error)
+            || !find_vismap_channels(vismap, m_vismap_channels, error))
             error = with_location(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
         Rotation rotation;
         if (!error.empty())
@@ -72,6 +75,12 @@ public:
         std::vector<float> read(texels * channels), vismap(m_index.size() * texels), scratch;
         if (!m_inputs.vismap->read(roi, read.data(), error))
             return false;
+        VismapDoubts doubts;
+        count_doubts(doubts, roi, read.data(), int(channels), m_vismap_channels);
+        if (const std::string fault = impossible_fault(doubts, m_inputs.vismap->spec()); !fault.empty()) {
+            error = format("\"{}\": {}", m_recipe.vismap, fault);
+            return false;
+        }
         for (size_t i = 0; i < texels; ++i)
             for (size_t c = 0; c < m_index.size(); ++c)
                 vismap[m_index.size() * i + c] = read[i * channels + size_t(m_index[c])];
@@ -101,21 +110,30 @@ public:
         return true;
     }
 
-    // All inputs, whole, for make_lightmap(). Keeps the light that `dst` already has if it is the same.
+    // All inputs, whole, for make_lightmap(). Keeps what `dst` already has if it is the same.
     bool make_inputs(LightmapInputs& dst, const MakeOptions& options, std::string& error)
     {
         std::vector<OIIO::ImageBuf> images;
+        const std::string map = m_inputs.vismap->key(), texture = m_inputs.albedo ? m_inputs.albedo->key() : "";
         // Hold the images of one UDIM tile at a time.
-        dst.vismap.reset();
-        dst.albedo.reset();
+        if (dst.map != map)
+            dst.vismap.reset();
+        if (dst.texture != texture)
+            dst.albedo.reset();
         // The visibility map first: if it fails, no environment is filtered for nothing.
-        if (!make_input(images, *m_inputs.vismap, {}, m_recipe, "vismap", m_recipe.vismap, options, error))
-            return false;
-        dst.vismap = std::move(images[0]);
+        if (!dst.vismap.initialized()) {
+            dst.map.clear();
+            if (!make_input(images, *m_inputs.vismap, {}, m_recipe, "vismap", m_recipe.vismap, options, error)
+                || !check(images[0], options, error))
+                return false;
+            dst.vismap = std::move(images[0]);
+            dst.map = map;
+        }
         if (!make_light(dst, options, error))
             return false;
-        if (!m_inputs.albedo)
+        if (!m_inputs.albedo || dst.albedo.initialized())
             return true;
+        dst.texture = texture;
         if (!make_input(images, *m_inputs.albedo, {}, m_recipe, "albedo", m_recipe.albedo, options, error))
             return false;
         dst.albedo = std::move(images[0]);
@@ -156,6 +174,19 @@ private:
         const std::string hint = "; set ";
         const size_t at = error.rfind(hint); // the last: a file's name may hold the same words
         return at == std::string::npos ? error : std::string(error).insert(at + hint.size(), "cfem_");
+}
+
+    // Here and not where a map is lit: once for all frames.
+    bool check(const OIIO::ImageBuf& vismap, const MakeOptions& options, std::string& error) const
+    {
+        std::vector<std::string> warnings;
+        if (!check_vismap(vismap, m_inputs.vismap->spec(), options.threads, warnings, error)) {
+            error = with_location(m_recipe, "vismap", options.chain, format("\"{}\": {}", m_recipe.vismap, error));
+            return false;
+        }
+        for (const std::string& line : warnings)
+            options.report_warning(format("\"{}\": {}", m_recipe.vismap, line));
+        return true;
     }
 
     // The images of a stack that the model reads.
@@ -199,6 +230,7 @@ private:
     const Inputs m_inputs;
     ShadingModel m_model;
     std::vector<int> m_index;
+    std::array<int, 4> m_vismap_channels {};
     RunOnce m_prepare;
     LightmapShader m_shader;
     std::atomic<size_t> m_bytes { 0 };

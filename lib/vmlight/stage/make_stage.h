@@ -39,14 +39,14 @@ struct LightmapInputs
     OIIO::ImageBuf vismap, albedo;
     /// The images that the model reads: a CFEM, the lobes of a stack, or the environment itself.
     std::vector<OIIO::ImageBuf> cfem;
-    /// Identifies the file or recipe of `cfem`, and which of its images these are.
-    std::string light;
+    /// Identify the files or recipes of `vismap`, `albedo` and `cfem`; of the last also which of its images these are.
+    std::string map, texture, light;
 
     /// The albedo, or nullptr if the recipe has none.
     const OIIO::ImageBuf* albedo_or_none() const { return albedo.initialized() ? &albedo : nullptr; }
 };
 
-/// Read or make the inputs of `recipe`, keeping the light that `dst` has if it is the same. False, with the reason in
+/// Read or make the inputs of `recipe`, keeping what `dst` has if it is the same. False, with the reason in
 /// `error`, as for make_image().
 VMLIGHT_API bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
                                       std::string& error);
