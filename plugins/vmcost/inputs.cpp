@@ -4,6 +4,7 @@
 #include "compare.h"
 #include "journal.h"
 #include "named_channels.h"
+#include "sweep.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
@@ -70,13 +71,11 @@ ReferenceParams reference_params(const CostParams& params)
 }
 
 bool trace(Environment& environment, const Inputs& inputs, const CostParams& params, const std::string& path,
-           const MakeOptions& options, std::string& error)
+           int nthreads, const Progress& progress, std::string& error)
 {
     const VismapParams map = reference_map(params);
-    const Progress progress
-        = options.progress("reference " + environment.name, int64_t(map.size().width) * map.size().height);
     if (!make_reference(environment.reference, *inputs.scene, environment.image, map, {}, reference_params(params),
-                        options.threads, progress)) {
+                        nthreads, progress)) {
         const std::string reason = environment.reference.geterror();
         error = reason == "interrupted" ? reason : format("\"{}\": {}", environment.path, reason);
         return false;
@@ -119,7 +118,7 @@ VismapParams reference_map(const CostParams& params)
 }
 
 bool trace_references(Inputs& inputs, const CostParams& params, const std::string& folder, const MakeOptions& options,
-                      std::string& error)
+                      WholeProgress& progress, std::string& error)
 {
     for (Environment& environment : inputs.environments) {
         ReferenceParams reference = reference_params(params);
@@ -133,12 +132,16 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         std::string ignored;
         const bool kept
             = OIIO::Filesystem::exists(path) && read_channels(environment.reference, path, kReferenceChannels, ignored);
-        if (kept
+        const bool reused = kept
             && environment.reference.roi()
-                == OIIO::ROI(0, params.side(), 0, params.side(), 0, 1, 0, int(kReferenceChannels.size())))
+                == OIIO::ROI(0, params.side(), 0, params.side(), 0, 1, 0, int(kReferenceChannels.size()));
+        const double weight = reference_weight(params.pairs());
+        if (reused) {
             options.say(format("{}: reused the reference", environment.name));
-        else if (!trace(environment, inputs, params, path, options, error))
+            progress.skip(weight);
+        } else if (!trace(environment, inputs, params, path, options.threads, progress.part(weight), error)) {
             return false;
+        }
         const int64_t covered = covered_texels(environment.reference);
         if (covered < kMinTexels)
             error = format("the mesh covers {} of {}x{} texels; at least {} are needed: raise --resolution", covered,

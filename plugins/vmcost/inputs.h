@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cost_params.h"
+#include "whole_progress.h"
 
 #include <vmlight/image/color.h>
 #include <vmlight/stage/make_stage.h>
@@ -51,7 +52,7 @@ bool read_inputs(Inputs& dst, const VismapRecipe& mesh, const std::vector<std::s
 /// reaches
 ///          too few texels, a file cannot be written, or the work was interrupted
 bool trace_references(Inputs& inputs, const CostParams& params, const std::string& folder, const MakeOptions& options,
-                      std::string& error);
+                      WholeProgress& progress, std::string& error);
 
 /// Bake parameters that give the texels of the reference.
 VismapParams reference_map(const CostParams& params);

@@ -4,6 +4,8 @@
 
 #include "inputs.h"
 #include "journal.h"
+#include "sweep.h"
+#include "whole_progress.h"
 
 #include <vector>
 
@@ -25,6 +27,6 @@ struct Measured
 /// @param inputs   with their references
 /// @returns false, with the reason in `error`, if memory runs out, a file cannot be written or the work was interrupted
 bool measure(Measured& dst, const std::vector<Setting>& settings, const Inputs& inputs, const CostParams& params,
-             const std::string& folder, const MakeOptions& options, std::string& error);
+             const std::string& folder, const MakeOptions& options, WholeProgress& progress, std::string& error);
 
 } // namespace vmlight::cost

@@ -73,6 +73,18 @@ bool varies_samples_alone(const Setting& setting)
     return setting == other;
 }
 
+double weight_of(const Setting& setting, size_t environments)
+{
+    const bool traced = setting.model == kTraced;
+    const double rays = double(setting.samples) / (setting.divisor * setting.divisor);
+    return 100 + (traced ? 2 * double(environments) : 1) * rays;
+}
+
+double reference_weight(int pairs)
+{
+    return 2 * pairs;
+}
+
 std::vector<Setting> sweep(bool quick)
 {
     const Axes values = axes(quick);

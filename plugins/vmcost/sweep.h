@@ -2,6 +2,7 @@
 /// The settings to measure.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,11 @@ Setting default_setting(const std::string& model);
 
 /// Whether only the number of samples differs from the default.
 bool varies_samples_alone(const Setting& setting);
+
+/// Roughly proportional to the time that a setting takes under so many environments; and a reference of so many pairs
+/// of rays under one, on the same scale.
+double weight_of(const Setting& setting, size_t environments);
+double reference_weight(int pairs);
 
 /// All models at all sample counts, and each of the other axes around the default where the model supports it. Settings
 /// are unique; those that share a visibility map are adjacent.

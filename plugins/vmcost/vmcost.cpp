@@ -49,9 +49,18 @@ int main(int argc, const char** argv)
             error = "\"" + folder + "\": " + error;
             return false;
         }
-        if (!trace_references(inputs, params, folder, options, error)
-            || !measure(measured, sweep(params.quick), inputs, params, folder, options, error)
-            || !write_report(measured, inputs, params, commands, folder, options, error))
+        const std::vector<Setting> settings = sweep(params.quick);
+        const size_t environments = inputs.environments.size();
+        double total = double(environments) * reference_weight(params.pairs());
+        for (const Setting& setting : settings)
+            total += weight_of(setting, environments);
+        const int64_t pictures = int64_t(settings.size() * environments + environments);
+        WholeProgress progress(options.progress("measure", pictures * params.side() * params.side()), total);
+        if (!trace_references(inputs, params, folder, options, progress, error)
+            || !measure(measured, settings, inputs, params, folder, options, progress, error))
+            return false;
+        progress.finish();
+        if (!write_report(measured, inputs, params, commands, folder, options, error))
             return false;
         options.say("measured " + count_text(measured.measured, "row", "rows") + ", reused "
                     + std::to_string(measured.reused));

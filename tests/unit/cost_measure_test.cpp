@@ -65,8 +65,9 @@ public:
         Measured measured;
         params.seed = seed;
         params.reference_samples = pairs;
-        EXPECT_TRUE(trace_references(inputs, params, path, options, error)) << error;
-        EXPECT_TRUE(measure(measured, settings, inputs, params, path, options, error)) << error;
+        WholeProgress progress({}, 1);
+        EXPECT_TRUE(trace_references(inputs, params, path, options, progress, error)) << error;
+        EXPECT_TRUE(measure(measured, settings, inputs, params, path, options, progress, error)) << error;
         reused = measured.reused;
         return measured.rows;
     }

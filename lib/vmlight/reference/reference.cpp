@@ -10,6 +10,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
+#include <vmlight/uv/tile_progress.h>
 
 #include <algorithm>
 #include <cmath>
@@ -185,6 +186,9 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
     std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
     for (auto& worker : workers)
         worker.reset(new Worker { { scene.occluder(), sky, rotation, length }, { scene.mesh(), scene.frame() }, {} });
+    TileProgress done(raster, nthreads, progress);
+    if (done.stopped())
+        return fail_with(dst, "interrupted");
     const auto trace = [&](int64_t tile, int index) {
         Worker& worker = *workers[size_t(index)];
         raster.cover(int(tile), worker.cover);
@@ -206,9 +210,10 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
             }
             texel[6] = 1;
         }
+        done.add(worker.cover.covered);
     };
     const int64_t tiles = int64_t(raster.tiles_across()) * raster.tiles_down();
-    return parallel_items(tiles, nthreads, trace, progress) || fail_with(dst, "interrupted");
+    return parallel_items(tiles, nthreads, trace, done.listener()) || fail_with(dst, "interrupted");
 }
 
 } // namespace vmlight

@@ -7,6 +7,7 @@
 #include <vmlight/math/sampling.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/islands.h>
+#include <vmlight/uv/tile_progress.h>
 #include <vmlight/version.h>
 #include <vmlight/vismap/visibility_integrator.h>
 
@@ -267,16 +268,21 @@ bool VismapBaker::bake_all(float* texels, Coverage& covered, BakeCounts& counts,
     for (Worker& worker : workers)
         worker.scratch = scratch();
     const size_t pitch = size_t(width()) * channels();
+    TileProgress done(m_setup->raster, nthreads, progress);
+    if (done.stopped())
+        return false;
     const auto bake = [&](int64_t tile, int index) {
         Worker& worker = workers[size_t(index)];
         const int x = int(tile % tiles_across()) * kTileSize, y = int(tile / tiles_across()) * kTileSize;
         TileBits bits;
         float* first = texels + size_t(y) * pitch + size_t(x) * channels();
-        worker.counts.add(bake_tile(int(tile), *worker.scratch, first, pitch, bits));
+        const BakeCounts baked = bake_tile(int(tile), *worker.scratch, first, pitch, bits);
+        done.add(baked.covered);
+        worker.counts.add(baked);
         for (int row = 0; row < std::min(kTileSize, height() - y); ++row)
             covered.set_word(x, y + row, bits[size_t(row)]);
     };
-    if (!parallel_items(int64_t(tiles_across()) * tiles_down(), nthreads, bake, progress))
+    if (!parallel_items(int64_t(tiles_across()) * tiles_down(), nthreads, bake, done.listener()))
         return false;
     for (const Worker& worker : workers)
         counts.add(worker.counts);
