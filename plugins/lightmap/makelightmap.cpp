@@ -1,30 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/cli/animation.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/lightmap/light_level.h>
 #include <vmlight/stage/recipe/udim.h>
 
 using namespace vmlight;
+
+namespace {
+
+constexpr const char* kExamples
+    = "  makelightmap hero_vismap.exr studio.exr --rotate 0,90,0 -o hero_lit.exr\n"
+      "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
+      "  makelightmap hero_vismap.exr sky.####.exr --frames 1-48 -o hero_lit.####.exr\n"
+      "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
+      "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr";
+
+// One exposure for all frames and tiles, from the first that is made.
+struct AutoExposure
+{
+    bool wanted = false, known = false;
+    double stops = 0;
+};
+
+std::string level_text(const LightLevel& level, double exposure)
+{
+    if (level.texels == 0)
+        return "light: no texel is lit";
+    return format(
+        "light: luminance of {}: mean {:.3g}, 95th percentile {:.3g}; --exposure {:.2f} brings the mean to {}",
+        count_text(level.texels, "lit texel", "lit texels"), level.mean, level.percentile95,
+        exposure + level.stops_to_gray(), kMiddleGray);
+}
+
+bool light(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const LightmapParams& params, const MakeOptions& options,
+           std::string& error)
+{
+    if (make_lightmap(dst, inputs.vismap, inputs.cfem, params, inputs.albedo_or_none(), options.threads,
+                      options.step("light", inputs.vismap.spec().width, inputs.vismap.spec().height)))
+        return true;
+    error = dst.geterror();
+    return false;
+}
+
+} // namespace
 
 int main(int argc, const char** argv)
 {
     LightmapRecipe recipe;
     Animation animation;
+    AutoExposure exposure;
     StageMain stage("makelightmap", "light a visibility map with an environment", { "VISMAP", "ENVIRONMENT_OR_CFEM" },
-                    "  makelightmap hero_vismap.exr studio.exr --rotate 0,90,0 -o hero_lit.exr\n"
-                    "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
-                    "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
-                    "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr");
+                    kExamples);
     UdimRun tiles(stage, recipe);
+    stage.group("Light:");
+    stage.option(
+        "exposure", "-64..64|auto",
+        "Exposure in stops; auto: brings the mean luminance of the first frame (and tile) to 0.18, and is used "
+        "for all [0]",
+        [&](OIIO::string_view text, std::string& error) {
+            exposure.wanted = text == "auto";
+            recipe.lightmap_params.exposure = exposure.wanted ? 0 : recipe.lightmap_params.exposure;
+            return exposure.wanted || set_param(recipe, "exposure", text, error);
+        });
     stage.params("Light:", recipe.lightmap_params);
     stage.group("Frames:");
-    stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o", [&](auto text, auto& error) {
-        animation.has_frames = true;
-        return parse_frames(animation.frames, std::string(text), error);
-    });
+    stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o, and in inputs that are sequences",
+                 [&](auto text, auto& error) {
+                     animation.has_frames = true;
+                     return parse_frames(animation.frames, std::string(text), error);
+                 });
     stage.option("rotate_y", "FIRST:LAST",
                  "Turntable: degrees about y at the first and last frame, after the other rotations",
                  [&](auto text, auto& error) { return parse_ramp(animation.rotate_y, std::string(text), error); });
@@ -42,32 +91,61 @@ int main(int argc, const char** argv)
             recipe.vismap = operands[0];
             (image_stage(operands[1]) == kCfemStage ? recipe.cfem : recipe.environment) = operands[1];
         },
-        [&] {
-            return animation.has_frames || animation.rotates() ? "--frames and --rotate-y cannot be saved in a recipe"
-                                                               : tiles.unsavable();
+        [&]() -> std::string {
+            if (animation.has_frames || animation.rotates())
+                return "--frames and --rotate-y cannot be saved in a recipe";
+            return exposure.wanted ? "--exposure auto cannot be saved in a recipe: give the stops that it prints"
+                                   : tiles.unsavable();
         });
 
     stage.check([&] { return animation.fault(stage.output()); });
+    stage.check([&] { return animation.input_fault(recipe); });
+    stage.check([&] {
+        // Until there were frames, nobody could look into the first file of a sequence.
+        const std::string first = animation.inputs_at(recipe, 0).environment;
+        if (!first.empty() && first != recipe.environment && image_stage(first) == kCfemStage)
+            recipe.cfem.swap(recipe.environment);
+        return std::string();
+    });
 
-    LightmapInputs inputs; // tiles share the light
-    const auto make = [&](const auto& tile, const auto& output, const MakeOptions& options, std::string& error) {
-        if (!read_lightmap_inputs(inputs, tile, options, error))
-            return false;
-        const Stopwatch timer;
+    LightmapInputs inputs; // frames and tiles share what they can
+    const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
+        MakeOptions options = given;
+        double seconds = 0;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
-            const LightmapParams frame = animation.params_at(tile.lightmap_params, i, error);
-            OIIO::ImageBuf lightmap;
-            if (error.empty()
-                && !make_lightmap(lightmap, inputs.vismap, inputs.cfem, frame, inputs.albedo_or_none(), options.threads,
-                                  options.progress("light", int64_t(inputs.vismap.spec().image_pixels()))))
-                error = lightmap.geterror();
-            tag_udim(lightmap.specmod(), tile.udim);
-            if (!error.empty() || !stage.write(lightmap, animation.path(output, i), error))
+            const LightmapRecipe frame = animation.inputs_at(tile, i);
+            if (!read_lightmap_inputs(inputs, frame, options, error))
                 return false;
+            LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
+            if (exposure.known)
+                params.exposure = exposure.stops;
+            OIIO::ImageBuf lightmap;
+            const Stopwatch timer;
+            if (!error.empty() || !light(lightmap, inputs, params, options, error))
+                return false;
+            seconds += timer();
+            if (i == 0) {
+                const LightLevel level = measure_light(lightmap, inputs.vismap);
+                options.report(level_text(level, params.exposure));
+                if (exposure.wanted && !exposure.known) {
+                    exposure.known = true;
+                    params.exposure = exposure.stops = level.stops_to_gray();
+                    options.report(format("exposure: {:.2f} stops, for all frames and tiles", exposure.stops));
+                    if (level.texels == 0)
+                        options.report_warning(
+                            "--exposure auto: no texel is lit in the first frame, so 0 stops for all");
+                    if (!light(lightmap, inputs, params, options, error))
+                        return false;
+                }
+            }
+            tag_udim(lightmap.specmod(), tile.udim);
+            if (!stage.write(lightmap, animation.path(output, i), error))
+                return false;
+            options.say = [](const std::string&) {}; // the rest of the frames have nothing new to say
         }
-        options.say(format("light: {} of {}x{} in {:.3f} s",
-                           animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
-                           inputs.vismap.spec().width, inputs.vismap.spec().height, timer()));
+        given.say(format("light: {} of {}x{} in {:.3f} s",
+                         animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
+                         inputs.vismap.spec().width, inputs.vismap.spec().height, seconds));
         return true;
     };
     return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });

@@ -4,7 +4,27 @@
 #include <vmlight/base/format.h>
 #include <vmlight/math/rotation.h>
 
+#include <OpenImageIO/filesystem.h>
+
 namespace vmlight {
+namespace {
+
+bool is_sequence(const std::string& name)
+{
+    const std::string path = recipe_path(name);
+    return path.find('#') != std::string::npos && !OIIO::Filesystem::exists(path);
+}
+
+// visit(key, name) for each input that may be a sequence.
+template <class Visit> void each_input(LightmapRecipe& recipe, const Visit& visit)
+{
+    visit("vismap", recipe.vismap);
+    visit("environment", recipe.environment);
+    visit("cfem", recipe.cfem);
+    visit("albedo", recipe.albedo);
+}
+
+} // namespace
 
 std::string Animation::fault(const std::string& output) const
 {
@@ -13,6 +33,28 @@ std::string Animation::fault(const std::string& output) const
     return has_frames || rotate_y.first == rotate_y.last
         ? ""
         : format("rotate_y: {} to {} degrees needs --frames", rotate_y.first, rotate_y.last);
+}
+
+std::string Animation::input_fault(const LightmapRecipe& recipe) const
+{
+    std::string fault;
+    LightmapRecipe copy = recipe;
+    each_input(copy, [&](const char* key, const std::string& name) {
+        if (fault.empty() && !has_frames && is_sequence(name))
+            fault
+                = format("{}: \"{}\": no such file, and no frames: a sequence needs --frames, such as 1-48", key, name);
+    });
+    return fault;
+}
+
+LightmapRecipe Animation::inputs_at(const LightmapRecipe& recipe, size_t index) const
+{
+    LightmapRecipe frame = recipe;
+    each_input(frame, [&](const char*, std::string& name) {
+        if (has_frames && is_sequence(name))
+            name = frame_path(name, frames[index]);
+    });
+    return frame;
 }
 
 std::string Animation::path(const std::string& output, size_t index) const

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Animated lightmaps: a turntable of frames.
+/// Animated lightmaps: a turntable of frames, inputs with a file for each.
 #pragma once
 
 #include <vmlight/base/frames.h>
 #include <vmlight/lightmap/lightmap.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <string>
 #include <vector>
@@ -22,6 +23,13 @@ struct Animation
 
     /// Why the frames cannot be written to `output`, or "".
     std::string fault(const std::string& output) const;
+
+    /// Why the inputs of `recipe` cannot be found, or "": one is a sequence, but there are no frames.
+    std::string input_fault(const LightmapRecipe& recipe) const;
+
+    /// `recipe` with the files of frame number frames[index] for inputs that are sequences: "sky.####.exr" becomes
+    /// "sky.0001.exr". A file whose name really has that # is none.
+    LightmapRecipe inputs_at(const LightmapRecipe& recipe, size_t index) const;
 
     /// The file of frame number frames[index].
     std::string path(const std::string& output, size_t index) const;

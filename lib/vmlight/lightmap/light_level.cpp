@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/lightmap/light_level.h>
+
+#include <vmlight/image/channels.h>
+#include <vmlight/image/color_space.h>
+
+#include <Imath/ImathMatrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace vmlight {
+
+std::array<double, 3> luminance_weights(const OIIO::ImageSpec& spec)
+{
+    const OIIO::ParamValue* own = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
+    const float* xy = own ? static_cast<const float*>(own->data())
+                          : chromaticities_of(spec.get_string_attribute("colorInteropID", kLinearRec709));
+    if (!xy)
+        xy = chromaticities_of(kLinearRec709);
+    // Amounts of the primaries, each of Y = 1, that make white of Y = 1.
+    const auto xyz = [&](int i) {
+        const double x = xy[2 * i], y = xy[2 * i + 1];
+        return Imath::V3d(x / y, 1, (1 - x - y) / y);
+    };
+    const Imath::V3d r = xyz(0), g = xyz(1), b = xyz(2);
+    const Imath::M33d primaries(r.x, r.y, r.z, g.x, g.y, g.z, b.x, b.y, b.z);
+    const Imath::V3d weights = xyz(3) * primaries.inverse();
+    return { weights.x, weights.y, weights.z };
+}
+
+LightLevel measure_light(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& vismap)
+{
+    const OIIO::ImageSpec& map = vismap.spec();
+    const int covered = map.channelindex(kCoverageChannel);
+    const int at = covered >= 0 ? covered : map.channelindex(kVismapChannels[0]);
+    const float least = covered >= 0 ? 0.5f : 0.0f;
+    const std::array<double, 3> weights = luminance_weights(lightmap.spec());
+    const auto* rgb = static_cast<const float*>(lightmap.localpixels());
+    const auto* texel = static_cast<const float*>(vismap.localpixels());
+    std::vector<float> lit;
+    double sum = 0;
+    for (OIIO::imagesize_t i = 0; i < map.image_pixels(); ++i, rgb += 3, texel += map.nchannels) {
+        const double luminance = weights[0] * rgb[0] + weights[1] * rgb[1] + weights[2] * rgb[2];
+        if (!(texel[at] > least) || !(luminance > 0))
+            continue;
+        sum += luminance;
+        lit.push_back(float(luminance));
+    }
+    LightLevel level;
+    level.texels = int64_t(lit.size());
+    if (lit.empty())
+        return level;
+    level.mean = sum / double(lit.size());
+    const auto rank = lit.begin() + std::ptrdiff_t(0.95 * double(lit.size() - 1));
+    std::nth_element(lit.begin(), rank, lit.end());
+    level.percentile95 = *rank;
+    return level;
+}
+
+double LightLevel::stops_to_gray() const
+{
+    if (texels == 0)
+        return 0;
+    return std::clamp(std::round(100 * std::log2(kMiddleGray / mean)) / 100, -64.0, 64.0);
+}
+
+} // namespace vmlight
