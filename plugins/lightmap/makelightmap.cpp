@@ -41,8 +41,10 @@ bool light(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const LightmapPara
            std::string& error)
 {
     if (make_lightmap(dst, inputs.vismap, inputs.cfem, params, inputs.albedo_or_none(), options.threads,
-                      options.step("light", inputs.vismap.spec().width, inputs.vismap.spec().height)))
+                      options.step("light", inputs.vismap.spec().width, inputs.vismap.spec().height))) {
+        inputs.finish(dst);
         return true;
+    }
     error = dst.geterror();
     return false;
 }

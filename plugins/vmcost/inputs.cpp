@@ -54,8 +54,11 @@ bool read_environment(Environment& dst, const ColorSettings& color, const MakeOp
     if (!read_image(dst.image, dst.path, error))
         return false;
     error = input_fault(dst.path, dst.image.spec().get_string_attribute("vmlight:stage"), InputKind::Environment);
-    if (!error.empty() || !to_scene_linear(dst.image, dst.path, color, note, error))
+    std::vector<std::string> warnings;
+    if (!error.empty() || !to_scene_linear(dst.image, dst.path, color, note, error, 0, &warnings))
         return false;
+    for (const std::string& warning : warnings)
+        options.report_warning(warning);
     dst.hash = environment_hash(dst.image);
     options.say(format("{}: {}x{}, {}", dst.name, dst.image.spec().width, dst.image.spec().height, note));
     return true;

@@ -170,6 +170,42 @@ TEST_F(Light, AlbedoMultipliesInLinearLight)
     refused(1, "no such file", "makelightmap vm.exr sky.exr --albedo gone.png -o x.exr");
 }
 
+// PNG, TIFF and Targa keep colour and alpha apart; their readers multiply encoded colour by alpha unless asked not to.
+TEST_F(Light, AlphaLeavesColourAlone)
+{
+    make_vismap();
+    make_sky({ 1, 1, 1 });
+    const auto make = [&](const std::string& name, float alpha, int width, int height) {
+        OIIO::ImageSpec spec(width, height, 4, OIIO::TypeUInt8);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        OIIO::ImageBuf image(spec);
+        OIIO::ImageBufAlgo::fill(image, { 0.5f, 0.5f, 0.5f, alpha });
+        ASSERT_TRUE(image.write(path(name))) << image.geterror();
+    };
+    for (const std::string format : { "png", "tif", "tga" })
+        for (const float alpha : { 1.0f, 0.5f, 0.0f }) {
+            SCOPED_TRACE(vmlight::format("{} alpha {}", format, alpha));
+            make("albedo." + format, alpha, 8, 8);
+            make("light." + format, alpha, 16, 8);
+            EXPECT_THAT(done("makelightmap vm.exr sky.exr --albedo albedo." + format + " -o lit.exr"),
+                        HasSubstr("albedo: srgb_rec709_scene -> lin_rec709_scene (no OCIO config); alpha is ignored"));
+            EXPECT_THAT(done("makecfem light." + format + " -o cfem.exr"), HasSubstr("; alpha is ignored"));
+            for (const char* image : { "lit.exr", "cfem.exr" })
+                for (const float value : pixels(image).values)
+                    ASSERT_NEAR(value, 0.215861, 1e-4) << image; // sRGB 128 in linear light
+            write("x.lightmap", "vismap = \"vm.exr\"\nenvironment = \"sky.exr\"\nalbedo = \"albedo." + format + "\"\n");
+            done("makelightmap x.lightmap -o live.exr");
+            expect_same_pixels("lit.exr", "live.exr", 0);
+        }
+    // The colour of an EXR is multiplied by alpha by definition: it is the light that is there.
+    OIIO::ImageBuf glow(OIIO::ImageSpec(16, 8, 4, OIIO::TypeFloat));
+    OIIO::ImageBufAlgo::fill(glow, { 2, 2, 2, 0.25f });
+    ASSERT_TRUE(glow.write(path("glow.exr"))) << glow.geterror();
+    EXPECT_THAT(done("makecfem glow.exr -o cfem.exr"), HasSubstr("unchanged (no OCIO config); alpha is ignored"));
+    for (const float value : pixels("cfem.exr").values)
+        ASSERT_NEAR(value, 2, 1e-5);
+}
+
 TEST_F(Light, WhatIsNotLightOrVisibilityIsRefused)
 {
     make_vismap();

@@ -11,6 +11,8 @@
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/image_file.h>
 
+#include <OpenImageIO/strutil.h>
+
 #include <Imath/half.h>
 
 #include <cfloat>
@@ -211,15 +213,22 @@ TEST(Light, FaintLightBesideASun)
 
 TEST(Light, WhatIsNoLight)
 {
-    HardCase row("An environment with only a depth or an alpha channel; a cropped CFEM");
+    HardCase row(
+        "An environment with only a depth, an alpha, a normal or an unnamed channel, or with motion vectors; a "
+        "cropped CFEM");
     row.naive("the channel is taken for grey light; the crop is stretched over the whole sphere");
     std::string error;
-    for (const char* channel : { "Z", "A" }) {
-        OIIO::ImageSpec spec(16, 8, 1, OIIO::TypeFloat);
-        spec.channelnames[0] = channel;
+    for (const std::vector<std::string>& channels : std::vector<std::vector<std::string>> {
+             { "Z" }, { "A" }, { "depth.Z" }, { "mask.A" }, { "N.X" }, { "foo" }, { "R" }, { "U", "Y", "V" } }) {
+        OIIO::ImageSpec spec(16, 8, int(channels.size()), OIIO::TypeFloat);
+        spec.channelnames = channels;
         OIIO::ImageBuf cfem;
         EXPECT_FALSE(make_cfem(cfem, OIIO::ImageBuf(spec), exact(8, 4)));
-        EXPECT_EQ(cfem.geterror(), vmlight::format("environment: no channels R, G, B among {}", channel));
+        EXPECT_EQ(
+            cfem.geterror(),
+            vmlight::format("environment: no channels R, G, B, and no Y of grey, among {}; if one of them is light, "
+                            "name it with oiiotool --ch NAME,NAME,NAME --chnames R,G,B",
+                            OIIO::Strutil::join(channels, ", ")));
     }
     OIIO::ImageBuf crop = image(Map(8, 4, 1)), dst;
     crop.specmod().full_height = 8;

@@ -100,7 +100,9 @@ TEST(Cfem, WrongImagesAndParametersAreRefused)
 {
     OIIO::ImageSpec spec(4, 2, 2, OIIO::TypeFloat);
     spec.channelnames = { "Z", "A" };
-    EXPECT_EQ(refusal(OIIO::ImageBuf(spec)), "environment: no channels R, G, B among Z, A");
+    EXPECT_EQ(refusal(OIIO::ImageBuf(spec)),
+              "environment: no channels R, G, B, and no Y of grey, among Z, A; if one of them is light, name it with "
+              "oiiotool --ch NAME,NAME,NAME --chnames R,G,B");
     EXPECT_EQ(refusal(OIIO::ImageBuf()), "environment has no pixels");
     EXPECT_NE(refusal(OIIO::ImageBuf("no/such.exr")).find("no/such.exr"), std::string::npos);
     OIIO::ImageBuf vismap = image(Map(4, 2));

@@ -61,7 +61,7 @@ TEST_F(Color, TheSameLightInTwoSpacesIsTheSameAfterwards)
     EXPECT_EQ(id_of(rec709), id_of(again));
 }
 
-TEST_F(Color, WithoutAConfigOnlySrgbIsConverted)
+TEST_F(Color, WithoutAConfigSrgbAndKnownPrimariesAreConverted)
 {
     EXPECT_EQ(said("sky.hdr", {}), "lin_rec709_scene, unchanged (no OCIO config)");
     EXPECT_EQ(said("sky.exr", {}, OIIO::TypeHalf), "lin_rec709_scene, unchanged (no OCIO config)");
@@ -70,19 +70,27 @@ TEST_F(Color, WithoutAConfigOnlySrgbIsConverted)
     EXPECT_EQ(said("map.exr", { "", "raw" }), "data, used as lin_rec709_scene unchanged (no OCIO config)");
     EXPECT_EQ(said("map.exr", { "", "ACEScg" }),
               "ERROR colour space \"ACEScg\" needs an OCIO config: set --colorconfig or $OCIO; without one only "
-              "srgb_rec709_scene, lin_rec709_scene and data are known");
+              "srgb_rec709_scene, data and lin_ap1_scene, lin_ap0_scene, lin_rec709_scene, lin_p3d65_scene, "
+              "lin_rec2020_scene, lin_ciexyzd65_scene are known");
 
     ImageBuf image = flat({ 0.8f, 0.2f, 0.02f, 0.5f }, OIIO::TypeUInt16);
     ASSERT_TRUE(convert(image, "paint.png", {})) << error;
     expect_pixel(image, { 0.603827f, 0.033105f, 0.001548f, 0.5f }, 2e-5f);
     EXPECT_EQ(id_of(image), "lin_rec709_scene");
 
+    ImageBuf labelled = flat({ 0.613097f, 0.070194f, 0.020616f });
+    labelled.specmod().attribute("colorInteropID", "lin_ap1_scene");
+    ASSERT_TRUE(convert(labelled, "sky.exr", {})) << error;
+    EXPECT_EQ(note, "lin_ap1_scene -> lin_rec709_scene (no OCIO config)");
+    EXPECT_EQ(id_of(labelled), "lin_rec709_scene");
+    expect_pixel(labelled, { 1, 0, 0 }, 2e-5f);
+
     // A file that says more than we can convert keeps its word.
     ImageBuf tagged = flat({ 0.8f, 0.2f, 0.1f });
-    tagged.specmod().attribute("colorInteropID", "lin_ap1_scene");
+    tagged.specmod().attribute("colorInteropID", "studio_log");
     ASSERT_TRUE(convert(tagged, "sky.exr", {})) << error;
-    EXPECT_EQ(note, "lin_ap1_scene, unchanged (no OCIO config)");
-    EXPECT_EQ(id_of(tagged), "lin_ap1_scene");
+    EXPECT_EQ(note, "studio_log, unchanged (no OCIO config)");
+    EXPECT_EQ(id_of(tagged), "studio_log");
 }
 
 TEST_F(Color, TheEnvironmentsConfigIsTheDefault)

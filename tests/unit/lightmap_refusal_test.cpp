@@ -113,9 +113,11 @@ TEST(LightmapRefusal, WhatIsNotAStagesImageIsRefused)
               "not a cosine-filtered environment: its vmlight:stage is \"lightmap\", not \"cfem\"");
     EXPECT_EQ(refusal(kVismap, with_stage(kVismap, "vismap")),
               "not a cosine-filtered environment: its vmlight:stage is \"vismap\", not \"cfem\"");
-    EXPECT_EQ(refusal(kVismap, kVismap), "no channels R, G, B among visibility, direction.x, direction.y, direction.z");
-    EXPECT_EQ(refusal(kVismap, kCfem, {}, &kVismap),
-              "no channels R, G, B among visibility, direction.x, direction.y, direction.z");
+    const std::string no_light = "no channels R, G, B, and no Y of grey, among visibility, direction.x, direction.y, "
+                                 "direction.z; if one of them is light, name it with oiiotool --ch NAME,NAME,NAME "
+                                 "--chnames R,G,B";
+    EXPECT_EQ(refusal(kVismap, kVismap), no_light);
+    EXPECT_EQ(refusal(kVismap, kCfem, {}, &kVismap), no_light);
     const ImageBuf nothing;
     EXPECT_EQ(refusal(nothing, kCfem), "no visibility map: the image is empty");
     EXPECT_EQ(refusal(kVismap, nothing), "no cosine-filtered environment: the image is empty");

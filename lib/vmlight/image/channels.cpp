@@ -2,6 +2,7 @@
 #include <vmlight/image/channels.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/image/color_labels.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -11,15 +12,13 @@ namespace vmlight {
 
 namespace {
 
-// oiiotool and maketx of OIIO 2 record the whole command line.
-std::string converting_flag(const OIIO::ImageSpec& spec)
+// Y is grey if no other channel makes it something else: luminance of chroma (RY, BY), of motion vectors or positions.
+bool is_gray(const OIIO::ImageSpec& spec)
 {
-    const std::string software = spec.get_string_attribute("Software");
-    for (const char* flag :
-         { "--colorconvert", "--tocolorspace", "--ociodisplay", "--ociolook", "--ociofiletransform" })
-        if (software.find(flag) != std::string::npos)
-            return flag;
-    return "";
+    return spec.channelindex("Y") >= 0
+        && std::all_of(spec.channelnames.begin(), spec.channelnames.end(), [](const std::string& name) {
+               return name == "Y" || name == "A" || name == "Z" || name.find('.') != std::string::npos;
+           });
 }
 
 // TIFF, which maketx writes to .tx unless asked for another format, has no channel names.
@@ -81,13 +80,20 @@ bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index,
     index = { spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B") };
     if (index[0] >= 0 && index[1] >= 0 && index[2] >= 0)
         return true;
-    const auto is_light = [](const std::string& name) { return name != "A" && name != "Z"; };
-    const int gray = spec.nchannels == 1 && is_light(spec.channelnames[0]) ? 0 : spec.channelindex("Y");
-    if (gray >= 0) {
-        index = { gray, gray, gray };
+    if (is_gray(spec)) {
+        index.fill(spec.channelindex("Y"));
         return true;
     }
-    error = format("no channels R, G, B among {}", OIIO::Strutil::join(spec.channelnames, ", "));
+    const auto has = [&](const char* name) { return spec.channelindex(name) >= 0; };
+    error = format("no channels R, G, B, and no Y of grey, among {}; ", OIIO::Strutil::join(spec.channelnames, ", "));
+    if (const auto layers = color_layers(spec); !layers.empty())
+        error += format("choose a layer with --layer (--albedo-layer): {}", OIIO::Strutil::join(layers, ", "));
+    else if (has("X") && has("Y") && has("Z"))
+        error
+            += "if X, Y, Z are a colour and no position, rename them with oiiotool --ch X,Y,Z --chnames R,G,B and set "
+               "--colorspace lin_ciexyzd65_scene";
+    else
+        error += "if one of them is light, name it with oiiotool --ch NAME,NAME,NAME --chnames R,G,B";
     return false;
 }
 
@@ -97,6 +103,29 @@ std::string orientation_fault(const OIIO::ImageSpec& spec)
     return orientation == 1
         ? ""
         : format("pixels are stored flipped or rotated (Orientation {}); fix it with oiiotool --reorient", orientation);
+}
+
+std::vector<std::string> color_layers(const OIIO::ImageSpec& spec)
+{
+    std::vector<std::string> layers;
+    for (const std::string& name : spec.channelnames) {
+        const size_t dot = name.rfind('.');
+        const std::string layer = name.substr(0, dot == std::string::npos ? 0 : dot);
+        std::array<int, 3> ignored;
+        if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end()
+            && find_layer_channels(spec, layer, ignored))
+            layers.push_back(layer);
+    }
+    return layers;
+}
+
+bool find_layer_channels(const OIIO::ImageSpec& spec, const std::string& layer, std::array<int, 3>& index)
+{
+    const auto channel = [&](const char* name) { return spec.channelindex(layer + "." + name); };
+    index = { channel("R"), channel("G"), channel("B") };
+    if (std::count(index.begin(), index.end(), -1) == 3 && channel("X") < 0)
+        index.fill(channel("Y"));
+    return std::count(index.begin(), index.end(), -1) == 0;
 }
 
 bool check_window(const OIIO::ImageSpec& spec, std::string& error)

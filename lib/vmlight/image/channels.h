@@ -43,15 +43,22 @@ VMLIGHT_API std::vector<std::string> numbered_channels(const std::string& basis,
 ///          An image without `vmlight:stage` needs only the channels.
 VMLIGHT_API bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error);
 
-/// Find the colour channels R, G, B. A channel Y, or a single channel other than A or Z, is used for all three.
+/// Find the colour channels R, G, B. A channel Y is used for all three, unless X or other channels say that it is no
+/// grey; alpha, depth and layers do not. Channels of any other name are not light.
 ///
 /// @param index    set to the channel indices
-/// @param error    set to what is missing and what was found, on failure
+/// @param error    set to what is missing, what was found and what to do, on failure
 /// @returns false if the image has no colour channels or is a visibility map.
 VMLIGHT_API bool find_color_channels(const OIIO::ImageSpec& spec, std::array<int, 3>& index, std::string& error);
 
 /// Why pixels are not where they seem to be, or "": the Orientation is not 1.
 VMLIGHT_API std::string orientation_fault(const OIIO::ImageSpec& spec);
+
+/// The layers that have colour: `NAME` for channels `NAME.R`, `NAME.G`, `NAME.B`, or `NAME.Y`.
+std::vector<std::string> color_layers(const OIIO::ImageSpec& spec);
+
+/// Find the colour channels of a layer; false if it has none.
+bool find_layer_channels(const OIIO::ImageSpec& spec, const std::string& layer, std::array<int, 3>& index);
 
 /// Check that the display window, which is the whole sphere or texture whatever part of it is stored, can be processed.
 /// Returns false, with the reason in `error`, if it is empty, a side is longer than 65536, fewer than 1 in 256 of more

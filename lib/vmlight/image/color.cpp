@@ -4,8 +4,8 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/image/color_space.h>
 #include <vmlight/image/color_transform.h>
+#include <vmlight/image/primaries.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imagebufalgo_util.h>
@@ -84,6 +84,11 @@ void convert_pixels(OIIO::ImageBuf& image, const std::array<int, 3>& index, cons
     });
 }
 
+const char* alpha_note(const OIIO::ImageSpec& spec)
+{
+    return spec.alpha_channel >= 0 ? "; alpha is ignored" : "";
+}
+
 void erase_color_metadata(OIIO::ImageSpec& spec)
 {
     for (const char* name : { "oiio:ColorSpace", "oiio:Gamma", "colorInteropID", "chromaticities", "ICCProfile",
@@ -95,7 +100,7 @@ void erase_color_metadata(OIIO::ImageSpec& spec)
 } // namespace
 
 bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const ColorSettings& settings, std::string& note,
-                     std::string& error, int nthreads)
+                     std::string& error, int nthreads, std::vector<std::string>* warnings)
 {
     std::array<int, 3> index;
     image.spec(); // opens the file of a lazy ImageBuf
@@ -122,13 +127,16 @@ bool to_scene_linear(OIIO::ImageBuf& image, const std::string& path, const Color
             return false;
         convert_pixels(image, index, skip_not_finite(std::move(transform.convert)), nthreads);
     }
+    note = transform.note + alpha_note(image.spec());
     tag_scene_linear(image.specmod(), transform.space);
-    note = transform.note;
+    if (warnings)
+        warnings->insert(warnings->end(), transform.warnings.begin(), transform.warnings.end());
     return true;
 }
 
 bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& conversion, const std::string& path,
-                           const ColorSettings& settings, std::string& note, std::string& error)
+                           const ColorSettings& settings, std::string& note, std::string& error,
+                           std::vector<std::string>* warnings)
 {
     ColorSettings known = settings;
     if (known.stored == OIIO::TypeUnknown)
@@ -136,9 +144,11 @@ bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& conversion, c
     ColorTransform transform;
     if (!find_color_transform(transform, spec, path, known, error))
         return false;
+    note = transform.note + alpha_note(spec);
     tag_scene_linear(spec, transform.space);
     conversion = skip_not_finite(std::move(transform.convert));
-    note = transform.note;
+    if (warnings)
+        warnings->insert(warnings->end(), transform.warnings.begin(), transform.warnings.end());
     return true;
 }
 
@@ -150,12 +160,23 @@ bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const
     return describe_scene_linear(spec, unused, path, settings, note, error);
 }
 
+void convert_color(OIIO::ImageBuf& image, const ColorConversion& conversion, const std::string& interop_id,
+                   int nthreads)
+{
+    std::array<int, 3> index;
+    std::string ignored; // without colour there is nothing to convert
+    if (conversion && find_color_channels(image.spec(), index, ignored))
+        convert_pixels(image, index, conversion, nthreads);
+    tag_scene_linear(image.specmod(), interop_id);
+}
+
 void tag_scene_linear(OIIO::ImageSpec& spec, const std::string& interop_id)
 {
     erase_color_metadata(spec);
     spec.attribute("colorInteropID", interop_id);
-    if (const float* chromaticities = chromaticities_of(interop_id))
-        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
+    for (const LinearSpace& space : linear_spaces())
+        if (space.interop_id == interop_id)
+            spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), space.chromaticities.data());
 }
 
 void tag_data(OIIO::ImageSpec& spec)

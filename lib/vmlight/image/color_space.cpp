@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/color_space.h>
 
+#include <vmlight/image/primaries.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
@@ -14,30 +16,6 @@ using OIIO::Strutil::iequals;
 
 namespace {
 
-// Scene-linear interop ids, the names of these spaces in old and new configs, and the xy of red, green, blue and white.
-struct KnownSpace
-{
-    const char* interop_id;
-    std::vector<const char*> names;
-    float chromaticities[8];
-};
-
-const std::vector<KnownSpace>& known_spaces()
-{
-    static const std::vector<KnownSpace> spaces {
-        { "lin_ap1_scene",
-          { "lin_ap1_scene", "lin_ap1", "ACEScg", "ACES - ACEScg" },
-          { 0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f } },
-        { "lin_ap0_scene",
-          { "lin_ap0_scene", "lin_ap0", "ACES2065-1", "ACES - ACES2065-1" },
-          { 0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.32168f, 0.33767f } },
-        { kLinearRec709,
-          { kLinearRec709, "lin_rec709", "lin_srgb", "Linear Rec.709 (sRGB)", "Utility - Linear - sRGB" },
-          { 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f } },
-    };
-    return spaces;
-}
-
 // Whether `text` contains `word`, ignoring case, with no letter or digit on either side.
 bool contains_word(const std::string& text, const std::string& word)
 {
@@ -49,6 +27,8 @@ bool contains_word(const std::string& text, const std::string& word)
             return true;
     return false;
 }
+
+constexpr const char* kNoExtension = ".vmlight-none"; // of no rule
 
 // OIIO 2 and 3 differ. From 3.1 on a config reports whether only its default rule matched, and which spaces are data.
 // In 2.4 getColorSpaceFromFilepath() ignores the default rule and instead searches the whole path for any space's name,
@@ -102,8 +82,11 @@ std::string space_named(const ColorConfig& config, const std::string& name)
     const char* space = name.empty() ? nullptr : config.getColorSpaceNameByRole(name);
     if (!space)
         return "";
-    // OIIO adds names that the config does not have ("linear" for the role scene_linear, whatever its primaries).
-    static const std::vector<std::string> invented { "linear", "rgb", "default", "srgb", "scene_linear" };
+    // OIIO adds names that the config does not have ("linear" for the role scene_linear, whatever its primaries), and a
+    // config may have them as aliases for other programs' sake.
+    static const std::vector<std::string> invented { "rgb", "default", "srgb", "scene_linear" };
+    if (is_any_of(name, { "linear" }))
+        return is_any_of(name, config.getColorSpaceNames()) || is_any_of(name, config.getRoles()) ? space : "";
     return !is_any_of(name, invented) || is_any_of(name, all_space_names(config)) ? space : "";
 }
 
@@ -117,16 +100,21 @@ std::string first_space_named(const ColorConfig& config, const std::vector<const
     return "";
 }
 
-std::string space_of_path(const ColorConfig& config, const std::string& path)
+PathSpace space_of_path(const ColorConfig& config, const std::string& path)
 {
     if (path.empty())
-        return "";
-    const std::string file = OIIO::Filesystem::filename(path);
+        return {};
+    const std::string file = OIIO::Filesystem::filename(path), extension = OIIO::Filesystem::extension(file);
     std::string named(config.parseColorSpaceFromString(file));
     if (!contains_word(file, named))
         named.clear();
     const std::string ruled = rule_space(config, path, named, 0);
-    return space_named(config, ruled.empty() ? named : ruled);
+    // Which rule matched cannot be asked. One that looks at more than the extension gives another space than it gives
+    // to any name with this extension, or a space whatever the extension.
+    const std::string other = path.substr(0, path.size() - extension.size()) + kNoExtension;
+    const bool by_name = (!ruled.empty() && ruled != rule_space(config, "_" + extension, "", 0))
+        || rule_space(config, other, named, 0) != rule_space(config, std::string("_") + kNoExtension, "", 0);
+    return { space_named(config, ruled.empty() ? named : ruled), by_name || !named.empty() };
 }
 
 bool is_data_space(const ColorConfig& config, const std::string& space)
@@ -136,18 +124,10 @@ bool is_data_space(const ColorConfig& config, const std::string& space)
 
 std::string interop_id_of(const ColorConfig& config, const std::string& space)
 {
-    for (auto& known : known_spaces())
+    for (const LinearSpace& known : linear_spaces())
         if (first_space_named(config, known.names) == space)
             return known.interop_id;
     return space;
-}
-
-const float* chromaticities_of(const std::string& interop_id)
-{
-    for (auto& known : known_spaces())
-        if (known.interop_id == interop_id)
-            return known.chromaticities;
-    return nullptr;
 }
 
 } // namespace vmlight

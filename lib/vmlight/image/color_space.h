@@ -24,16 +24,19 @@ std::string space_named(const OIIO::ColorConfig& config, const std::string& name
 /// The space that the first known one of `names` refers to, or "".
 std::string first_space_named(const OIIO::ColorConfig& config, const std::vector<const char*>& names);
 
-/// The space by the config's file rules, except the default rule; else one whose name is a word of the file name; else
-/// "".
-std::string space_of_path(const OIIO::ColorConfig& config, const std::string& path);
+/// A space that a file's path gives, or "".
+struct PathSpace
+{
+    std::string space;
+    /// Whether more than the extension gives it: a rule that looks at the name, or the name of a space in it.
+    bool by_name = false;
+};
+/// The space by the config's file rules, except the default rule; else one whose name is a word of the file name.
+PathSpace space_of_path(const OIIO::ColorConfig& config, const std::string& path);
 
 bool is_data_space(const OIIO::ColorConfig& config, const std::string& space);
 
 /// The interop id of a scene-linear space of the config, or its name if it has none.
 std::string interop_id_of(const OIIO::ColorConfig& config, const std::string& space);
-
-/// xy of red, green, blue and white (8 numbers) of a scene-linear interop id, or nullptr if unknown.
-const float* chromaticities_of(const std::string& interop_id);
 
 } // namespace vmlight

@@ -6,6 +6,7 @@
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/image/file_claims.h>
+#include <vmlight/image/radiance_header.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -79,6 +80,21 @@ std::string unreadable(const std::string& path, OIIO::cspan<OIIO::ImageBuf> imag
     return "";
 }
 
+// What is wrong with a file that its reader in OIIO would not see, or "".
+std::string file_fault(const std::string& path)
+{
+    const std::string fault = claims_fault(path);
+    return fault.empty() ? radiance_fault(path) : fault;
+}
+
+// Readers multiply colour by alpha before vmlight can decode it (PNG, TIFF, Targa), unless asked not to.
+OIIO::ImageSpec reading_hints()
+{
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    return hints;
+}
+
 } // namespace
 
 bool may_be_image(const std::string& name)
@@ -92,11 +108,12 @@ bool may_be_image(const std::string& name)
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::string& error)
 {
-    const std::string fault = claims_fault(name);
+    const std::string fault = file_fault(name);
     if (!fault.empty()) {
         error = format("\"{}\": {}", name, fault);
         return nullptr;
     }
+    const OIIO::ImageSpec hints = reading_hints();
     std::string reader = reader_of(name);
     // OIIO takes what follows a '?' for a query, even in the name of a folder.
     if (reader.empty() && name.find('?') != std::string::npos && OIIO::Filesystem::is_regular(name))
@@ -104,12 +121,12 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::strin
     if (!reader.empty()) {
         auto file = OIIO::ImageInput::create(reader);
         OIIO::ImageSpec ignored;
-        if (file && file->open(name, ignored))
+        if (file && file->open(name, ignored, hints))
             return file;
         error = oiio::with_path(name, file ? oiio::error_line(*file) : OIIO::geterror());
         return nullptr;
     }
-    auto file = OIIO::ImageInput::open(name);
+    auto file = OIIO::ImageInput::open(name, &hints);
     if (!file)
         error = oiio::with_path(name, OIIO::geterror());
     return file;
@@ -130,7 +147,7 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
-    std::string fault = claims_fault(path);
+    std::string fault = file_fault(path);
     if (!fault.empty()) {
         error = format("\"{}\": {}", path, fault);
         return false;
@@ -139,7 +156,8 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
     // read the new pixels into too small a buffer.
     const auto cache = OIIO::ImageCache::create(true);
     cache->invalidate(OIIO::ustring(path));
-    dst.reset(path, subimage);
+    const OIIO::ImageSpec hints = reading_hints();
+    dst.reset(path, subimage, 0, nullptr, &hints);
     // If the file cannot be opened the spec is empty, and read() fails.
     fault = header_fault(dst.spec());
     if (fault.empty())

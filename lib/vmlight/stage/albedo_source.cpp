@@ -5,6 +5,7 @@
 #include <vmlight/base/work_counts.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
+#include <vmlight/stage/layer_source.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 
@@ -14,10 +15,10 @@
 namespace vmlight {
 
 AlbedoSource::AlbedoSource(const std::string& key, const LightmapRecipe& recipe, PixelSourcePointer image,
-                           OIIO::ROI size)
+                           const std::string& working, OIIO::ROI size)
     : PixelSource(key)
     , m_path(recipe.albedo)
-    , m_color { recipe.colorconfig, recipe.albedo_colorspace, image->spec().format }
+    , m_color { recipe.colorconfig, recipe.albedo_colorspace, image->spec().format, working }
     , m_size(size)
     , m_image(std::move(image))
 {
@@ -26,19 +27,20 @@ AlbedoSource::AlbedoSource(const std::string& key, const LightmapRecipe& recipe,
 }
 
 std::shared_ptr<AlbedoSource> AlbedoSource::open(const LightmapRecipe& recipe, PixelSourcePointer image,
-                                                 const std::string& config, OIIO::ROI size, std::string& error)
+                                                 const std::string& config, const std::string& working, OIIO::ROI size,
+                                                 std::string& error)
 {
     std::array<int, 3> channels;
     if (!find_color_channels(image->spec(), channels, error)) {
-        error = format("\"{}\": {}", recipe.albedo, error);
+        error = format("\"{}\": {}{}", recipe.albedo, error, layer_advice(recipe.albedo, "--albedo-layer"));
         return nullptr;
     }
-    const std::string key = format("albedo\n{}\n{} {} {} {}\n{}", recipe.albedo_colorspace, size.xbegin, size.xend,
-                                   size.ybegin, size.yend, config + image->key());
+    const std::string key = format("albedo\n{}\n{}\n{} {} {} {}\n{}", recipe.albedo_colorspace, working, size.xbegin,
+                                   size.xend, size.ybegin, size.yend, config + image->key());
     if (auto known = std::dynamic_pointer_cast<AlbedoSource>(find_source(key)))
         return known;
     return std::dynamic_pointer_cast<AlbedoSource>(
-        keep_source(std::make_shared<AlbedoSource>(key, recipe, std::move(image), size)));
+        keep_source(std::make_shared<AlbedoSource>(key, recipe, std::move(image), working, size)));
 }
 
 const AlbedoReader* AlbedoSource::reader(std::string& error)
@@ -65,9 +67,12 @@ bool AlbedoSource::prepare(std::string& error)
 bool AlbedoSource::make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error)
 {
     std::string note;
+    std::vector<std::string> warnings;
     if (!m_image->make(dst, {}, options, error)
-        || !to_scene_linear(dst[0], m_path, m_color, note, error, options.threads))
+        || !to_scene_linear(dst[0], m_path, m_color, note, error, options.threads, &warnings))
         return false;
+    for (const std::string& warning : warnings)
+        options.report_warning(warning);
     options.report("albedo: " + note);
     return true;
 }

@@ -23,10 +23,12 @@ class AlbedoSource : public PixelSource
 public:
     /// @param image    the texture
     /// @param config   stamp_config() of the recipe's colorconfig
+    /// @param working  interop id of the light, for use where there is no config
     /// @param size     the pixel window of the visibility map
     /// @returns nullptr, with the reason in `error`, if the texture has no colour
     static std::shared_ptr<AlbedoSource> open(const LightmapRecipe& recipe, PixelSourcePointer image,
-                                              const std::string& config, OIIO::ROI size, std::string& error);
+                                              const std::string& config, const std::string& working, OIIO::ROI size,
+                                              std::string& error);
 
     /// nullptr, with the reason in `error`, if it cannot be read or converted. Valid as long as this source.
     const AlbedoReader* reader(std::string& error);
@@ -38,7 +40,8 @@ public:
     bool failed() const override { return m_prepare.failed() || m_image->failed(); }
     size_t bytes() const override { return m_bytes; }
 
-    AlbedoSource(const std::string& key, const LightmapRecipe& recipe, PixelSourcePointer image, OIIO::ROI size);
+    AlbedoSource(const std::string& key, const LightmapRecipe& recipe, PixelSourcePointer image,
+                 const std::string& working, OIIO::ROI size);
 
 private:
     bool prepare(std::string& error);

@@ -9,7 +9,11 @@
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
+#include <vmlight/image/color_labels.h>
+#include <vmlight/image/radiance_header.h>
+#include <vmlight/stage/layer_source.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/output_color.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
@@ -22,6 +26,18 @@
 
 namespace vmlight {
 namespace {
+
+struct Shape
+{
+    int wide, high;
+    const char* name;
+};
+constexpr int kLeastShape = 32; // pixels of the longer side
+constexpr Shape kOtherShapes[] { { 6, 1, "a cube map's six faces in a row" },
+                                 { 1, 6, "a cube map's six faces in a column" },
+                                 { 4, 3, "a cube map's cross" },
+                                 { 3, 4, "a cube map's vertical cross" },
+                                 { 1, 1, "a light probe or a single face" } };
 
 class CfemSource : public PixelSource
 {
@@ -39,10 +55,15 @@ public:
         OIIO::ImageSpec spec = m_environment->spec();
         std::array<int, 3> channels;
         if (!find_color_channels(spec, channels, error)) {
+            error = format("\"{}\": {}{}", m_recipe.environment, error, layer_advice(m_recipe.environment, "--layer"));
+            return false;
+        }
+        if (!check_layout(spec, error)) {
             error = format("\"{}\": {}", m_recipe.environment, error);
             return false;
         }
-        if (!describe_scene_linear(spec, m_recipe.environment, m_color, error))
+        if (!describe_scene_linear(spec, m_recipe.environment, m_color, error)
+            || !m_output.open(m_recipe.output_colorspace, m_recipe.colorconfig, spec, error))
             return false;
         for (int level = 0; level < (m_recipe.stack ? kStackImages : 1); ++level) {
             OIIO::ImageSpec& own
@@ -50,6 +71,7 @@ public:
                                                       : describe_cfem(spec, m_recipe.cfem_params));
             tag_udim(own, m_recipe.udim);
             record_environment(own, m_recipe.environment);
+            m_output.tag(own);
             own.tile_width = own.tile_height = kTileSize;
             own.tile_depth = 1;
         }
@@ -86,6 +108,33 @@ public:
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
+    // Shapes that other layouts have. A map of few pixels has no shape to speak of.
+    bool check_layout(const OIIO::ImageSpec& spec, std::string& error) const
+    {
+        const int width = spec.full_width, height = spec.full_height;
+        if (m_recipe.layout != "auto" || std::max(width, height) < kLeastShape)
+            return true;
+        for (const Shape& shape : kOtherShapes)
+            if (int64_t(width) * shape.high == int64_t(height) * shape.wide) {
+                error = format("{}x{} pixels is the shape of {}, and an environment must be lat-long, twice as wide as "
+                               "high; convert it, or set --layout latlong",
+                               width, height, shape.name);
+                return false;
+            }
+        return true;
+    }
+
+    // What a file can be used with, but seldom means.
+    void report_doubts(const MakeOptions& options) const
+    {
+        if (is_integer(m_color.stored))
+            options.report_warning(format("\"{}\": {} bit, no light above 1: shadows will be weak; use an EXR or HDR",
+                                          m_recipe.environment, 8 * m_color.stored.basesize()));
+        const std::string radiance = unapplied_radiance_header(m_recipe.environment);
+        if (!radiance.empty())
+            options.report(format("\"{}\": {}", m_recipe.environment, radiance));
+    }
+
     // The last image of a stack, the environment itself, needs no filter: reading only that one does only that work.
     bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options, bool under_lock,
                 std::string& error)
@@ -111,8 +160,10 @@ private:
         for (OIIO::ImageBuf& image : dst) {
             tag_udim(image.specmod(), m_recipe.udim);
             record_environment(image.specmod(), m_recipe.environment);
+            m_output.apply(image, under_lock ? 1 : options.threads);
         }
-        options.report("colour: " + note);
+        options.report("colour: " + note + m_output.note());
+        report_doubts(options);
         options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
                               m_spec.height, timer()));
@@ -149,21 +200,29 @@ private:
               std::string& note, std::string& error)
     {
         const std::string& name = m_recipe.environment;
-        if (is_too_large_to_hold(m_environment->spec()))
-            return stream_environment(dst, m_environment, name, m_color, note, error);
-        dst.emplace(held);
-        if (under_lock) // OIIO's loops on this thread alone
-            return read_all(held, *m_environment, error) && to_scene_linear(held, name, m_color, note, error, 1);
-        std::vector<OIIO::ImageBuf> images;
-        if (!make_input(images, *m_environment, {}, m_recipe, "environment", name, options, error))
-            return false;
-        held = std::move(images[0]);
-        return to_scene_linear(held, name, m_color, note, error, options.threads);
+        std::vector<std::string> warnings;
+        bool opened = false;
+        if (is_too_large_to_hold(m_environment->spec())) {
+            opened = stream_environment(dst, m_environment, name, m_color, note, error, &warnings);
+        } else if (dst.emplace(held); under_lock) { // OIIO's loops on this thread alone
+            opened = read_all(held, *m_environment, error)
+                && to_scene_linear(held, name, m_color, note, error, 1, &warnings);
+        } else {
+            std::vector<OIIO::ImageBuf> images;
+            if (!make_input(images, *m_environment, {}, m_recipe, "environment", name, options, error))
+                return false;
+            held = std::move(images[0]);
+            opened = to_scene_linear(held, name, m_color, note, error, options.threads, &warnings);
+        }
+        for (const std::string& warning : warnings)
+            options.report_warning(warning);
+        return opened;
     }
 
     const CfemRecipe m_recipe;
     const PixelSourcePointer m_environment;
     const ColorSettings m_color;
+    OutputColor m_output;
     RunOnce m_make, m_reduce;
     std::vector<OIIO::ImageSpec> m_specs; // one, or one per image of the stack
     std::vector<OIIO::ImageBuf> m_cfem, m_radiance;
@@ -178,7 +237,7 @@ PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, cons
     if (!error.empty() || !check_params(recipe.cfem_params, error))
         return nullptr;
     PixelSourcePointer environment
-        = open_input(recipe, "environment", recipe.environment, InputKind::Panorama, error, chain);
+        = open_input(recipe, "environment", recipe.environment, InputKind::Panorama, error, chain, recipe.layer);
     if (!environment)
         return nullptr;
     std::string config;

@@ -11,8 +11,10 @@
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/lightmap/vismap_check.h>
 #include <vmlight/stage/albedo_source.h>
+#include <vmlight/stage/light_color.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/output_color.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
@@ -30,6 +32,7 @@ struct Inputs
 {
     PixelSourcePointer vismap, cfem;
     std::shared_ptr<AlbedoSource> albedo;
+    LightColor light;
 };
 
 class LightmapSource : public PixelSource
@@ -60,7 +63,12 @@ public:
         }
         for (const std::string& channel : m_model.channels)
             m_index.push_back(vismap.channelindex(channel));
-        m_spec = describe_lightmap(vismap, m_inputs.cfem->spec(), m_recipe.lightmap_params, m_model.name);
+        m_spec = describe_lightmap(vismap, m_inputs.light.spec, m_recipe.lightmap_params, m_model.name);
+        if (!m_output.open(m_recipe.output_colorspace, m_recipe.colorconfig, m_spec, error)) {
+            error = with_location(m_recipe, "output_colorspace", chain, error);
+            return false;
+        }
+        m_output.tag(m_spec);
         tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
@@ -88,6 +96,7 @@ public:
         m_shader.shade(roi, TexelLayout::visibility_first, vismap.data(), dst, scratch, faults);
         if (faults.any())
             error = m_shader.fault_text(faults, m_recipe.vismap, m_recipe.albedo);
+        m_output.apply(dst, texels);
         ++work_counts().tiles_shaded;
         return error.empty();
     }
@@ -105,6 +114,7 @@ public:
             error = lightmap.geterror();
             return false;
         }
+        m_output.apply(lightmap, options.threads);
         tag_udim(lightmap.specmod(), m_recipe.udim);
         options.report(format("light: 1 map of {}x{} in {:.3f} s", m_spec.width, m_spec.height, timer()));
         return true;
@@ -129,6 +139,9 @@ public:
             dst.vismap = std::move(images[0]);
             dst.map = map;
         }
+        dst.finish = [output = m_output, threads = options.threads](OIIO::ImageBuf& lightmap) {
+            output.apply(lightmap, threads);
+        };
         if (!make_light(dst, options, error))
             return false;
         if (!m_inputs.albedo || dst.albedo.initialized())
@@ -157,6 +170,7 @@ private:
                 error = m_recipe.cfem.empty() ? with_own_keys(error) : error;
                 return false;
             }
+        m_inputs.light.convert(cfem, 1);
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
@@ -210,6 +224,11 @@ private:
         if (filtered) {
             if (!make_input(dst.cfem, *m_inputs.cfem, range, m_recipe, "cfem", m_recipe.cfem, options, error))
                 return false;
+            m_inputs.light.convert(dst.cfem, options.threads);
+            for (const std::string& warning : m_inputs.light.warnings)
+                options.report_warning(warning);
+            if (m_inputs.light.conversion)
+                options.report("colour: " + m_inputs.light.note);
         } else {
             MakeOptions fileless = options; // the implicit CFEM recipe has no file
             fileless.chain.clear();
@@ -231,6 +250,7 @@ private:
     ShadingModel m_model;
     std::vector<int> m_index;
     std::array<int, 4> m_vismap_channels {};
+    OutputColor m_output;
     RunOnce m_prepare;
     LightmapShader m_shader;
     std::atomic<size_t> m_bytes { 0 };
@@ -241,7 +261,7 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
 {
     if (!recipe.cfem.empty())
         return open_input(recipe, "cfem", recipe.cfem, InputKind::Cfem, error, chain);
-    if (!open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, chain))
+    if (!open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, chain, recipe.layer))
         return nullptr;
     // Errors of the visibility map are reported by describe().
     ShadingModel model;
@@ -251,15 +271,18 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
     filter.environment = recipe.environment;
     filter.colorspace = recipe.colorspace;
     filter.colorconfig = recipe.colorconfig;
+    filter.layer = recipe.layer;
+    filter.layout = recipe.layout;
     filter.cfem_params = recipe.cfem_params;
     filter.stack = model.light != ModelLight::cfem;
     return open_source(filter, error);
 }
 
-std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::ROI size, std::string& error,
-                                          const RecipeChain& chain)
+std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::ROI size, const std::string& working,
+                                          std::string& error, const RecipeChain& chain)
 {
-    const PixelSourcePointer image = open_input(recipe, "albedo", recipe.albedo, InputKind::Albedo, error, chain);
+    const PixelSourcePointer image
+        = open_input(recipe, "albedo", recipe.albedo, InputKind::Albedo, error, chain, recipe.albedo_layer);
     if (!image)
         return nullptr;
     std::string config;
@@ -267,7 +290,7 @@ std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::RO
         error = with_location(recipe, "colorconfig", chain, error);
         return nullptr;
     }
-    auto albedo = AlbedoSource::open(recipe, image, config, size, error);
+    auto albedo = AlbedoSource::open(recipe, image, config, working, size, error);
     if (!albedo)
         error = with_location(recipe, "albedo", chain, error);
     return albedo;
@@ -286,9 +309,14 @@ std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::
         inputs.cfem = open_light(recipe, inputs.vismap->spec(), error, chain);
     if (!error.empty())
         return nullptr;
+    if (!describe_light(inputs.light, recipe, inputs.cfem->spec(), error)) {
+        error = with_location(recipe, "cfem", chain, error);
+        return nullptr;
+    }
     std::string key = recipe_key(recipe) + inputs.vismap->key() + inputs.cfem->key();
     if (!recipe.albedo.empty()) {
-        inputs.albedo = open_albedo(recipe, OIIO::get_roi(inputs.vismap->spec()), error, chain);
+        inputs.albedo = open_albedo(recipe, OIIO::get_roi(inputs.vismap->spec()),
+                                    inputs.light.spec.get_string_attribute("colorInteropID"), error, chain);
         if (!inputs.albedo)
             return nullptr;
         key += inputs.albedo->key();

@@ -5,8 +5,6 @@
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/open_source.h>
 
-#include <OpenImageIO/imageio.h>
-
 #include <utility>
 
 namespace vmlight {

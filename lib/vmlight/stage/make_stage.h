@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct LightmapInputs
     std::vector<OIIO::ImageBuf> cfem;
     /// Identify the files or recipes of `vismap`, `albedo` and `cfem`; of the last also which of its images these are.
     std::string map, texture, light;
+    /// Brings what make_lightmap() makes of these to the output_colorspace of the recipe.
+    std::function<void(OIIO::ImageBuf& lightmap)> finish;
 
     /// The albedo, or nullptr if the recipe has none.
     const OIIO::ImageBuf* albedo_or_none() const { return albedo.initialized() ? &albedo : nullptr; }

@@ -4,6 +4,7 @@
 #include <vmlight/base/file_stamp.h>
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/import/importer.h>
+#include <vmlight/stage/layer_source.h>
 #include <vmlight/stage/stored_image.h>
 
 #include <OpenImageIO/strutil.h>
@@ -36,7 +37,7 @@ PixelSourcePointer open_source(const std::string& name, std::string& error, cons
 
 template <class Recipe>
 PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, InputKind wanted,
-                              std::string& error, const RecipeChain& chain)
+                              std::string& error, const RecipeChain& chain, const std::string& layer)
 {
     const std::string stage = recipe_stage(name);
     RecipeChain longer = chain;
@@ -46,8 +47,10 @@ PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::
         error = stage.empty() ? "" : input_fault(name, stage, wanted);
     if (error.empty() && is_mesh_name(name))
         error = format("\"{}\": a mesh; bake it with makevismap first, and use its visibility map", name);
+    if (error.empty() && !layer.empty() && !stage.empty())
+        error = format("\"{}\": a recipe has no layers", name);
     if (error.empty())
-        source = open_source(name, error, chain);
+        source = layer.empty() ? open_source(name, error, chain) : open_layer(name, layer, error);
     if (source)
         error = input_fault(name, source->spec().get_string_attribute("vmlight:stage"), wanted);
     if (error.empty())
@@ -58,7 +61,7 @@ PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::
 
 #define VMLIGHT_DEFINE(Recipe)                                                                                         \
     template PixelSourcePointer open_input(const Recipe&, const char*, const std::string&, InputKind, std::string&,    \
-                                           const RecipeChain&);
+                                           const RecipeChain&, const std::string&);
 VMLIGHT_RECIPES(VMLIGHT_DEFINE)
 #undef VMLIGHT_DEFINE
 

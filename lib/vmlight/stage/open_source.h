@@ -35,11 +35,12 @@ VMLIGHT_RECIPES(VMLIGHT_DECLARE)
 
 // ---- For the sources of the stages ------------------------------------------------------------------------------
 
-/// Open the image `name`, the value of `key` in `recipe`, which is the last of `chain`. nullptr, with the location and
-/// reason in `error`, if it cannot be opened or is not of the kind `wanted`.
+/// Open the image `name`, the value of `key` in `recipe`, which is the last of `chain`; only its `layer`, unless that
+/// is
+/// "". nullptr, with the location and reason in `error`, if it cannot be opened or is not of the kind `wanted`.
 template <class Recipe>
 PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, InputKind wanted,
-                              std::string& error, const RecipeChain& chain);
+                              std::string& error, const RecipeChain& chain, const std::string& layer = "");
 
 /// Make images of `input`, which open_input() opened, whole: PixelSource::make() with the chain extended by `name`, and
 /// the location of `key` in errors.

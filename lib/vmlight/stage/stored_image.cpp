@@ -7,6 +7,7 @@
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/once_cache.h>
 #include <vmlight/image/image_file.h>
+#include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/stage/source_cache.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -80,9 +81,11 @@ bool allocate(OIIO::ImageBuf& dst, const std::string& name, OIIO::ImageSpec spec
 class StoredImage : public PixelSource
 {
 public:
-    StoredImage(const std::string& key, const std::string& path)
+    StoredImage(const std::string& key, const std::string& stamp, const std::string& path, int first)
         : PixelSource(key)
+        , m_stamp(stamp)
         , m_path(path)
+        , m_first(first)
         , m_id(next_id())
     {
     }
@@ -93,6 +96,10 @@ public:
         const auto file = open_image(m_path, error);
         if (!file)
             return false;
+        if (!file->seek_subimage(m_first, 0)) {
+            error = oiio::with_path(m_path, file->geterror());
+            return false;
+        }
         m_spec = file->spec();
         const std::string fault = header_fault(m_spec);
         if (!fault.empty())
@@ -101,7 +108,7 @@ public:
             error = format("\"{}\": a {} image", m_path, m_spec.deep ? "deep" : "volume");
         m_specs.push_back(m_spec);
         if (m_spec.get_string_attribute("vmlight:stack") == "true")
-            while (file->seek_subimage(int(m_specs.size()), 0))
+            while (file->seek_subimage(m_first + int(m_specs.size()), 0))
                 m_specs.push_back(file->spec());
         return error.empty();
     }
@@ -113,7 +120,8 @@ public:
     {
         const auto open_file = [&](std::string& reason) {
             m_file = open_image(m_path, reason);
-            if (m_file && is_unchanged(key(), m_path, reason) && OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec))
+            if (m_file && is_unchanged(m_stamp, m_path, reason)
+                && (!m_file->seek_subimage(m_first, 0) || OIIO::get_roi(m_file->spec()) != OIIO::get_roi(m_spec)))
                 reason = format("\"{}\": changed since it was opened", m_path);
             return reason.empty();
         };
@@ -153,7 +161,7 @@ public:
     // The image as it was when it was opened, bypassing the block cache.
     bool read_unchanged(int subimage, float* dst, std::string& error)
     {
-        return is_unchanged(key(), m_path, error) && read_file(subimage, dst, 1, error);
+        return is_unchanged(m_stamp, m_path, error) && read_file(subimage, dst, 1, error);
     }
     const std::string& path() const { return m_path; }
 
@@ -165,7 +173,7 @@ private:
         const auto file = open_image(m_path, error);
         if (!file)
             return false;
-        if (!file->seek_subimage(subimage, 0)) {
+        if (!file->seek_subimage(m_first + subimage, 0)) {
             error = oiio::with_path(m_path, file->geterror());
             return false;
         }
@@ -175,7 +183,7 @@ private:
             return false;
         }
         file->threads(threads);
-        if (file->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst))
+        if (file->read_image(m_first + subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst))
             return true;
         error = oiio::with_path(m_path, file->geterror());
         return false;
@@ -187,16 +195,16 @@ private:
     std::shared_ptr<const Block> read_block(OIIO::ROI roi)
     {
         std::string reason;
-        if (!is_unchanged(key(), m_path, reason))
+        if (!is_unchanged(m_stamp, m_path, reason))
             throw BadBlock("changed since it was opened");
         auto block = std::make_shared<Block>();
         block->pixels.resize(size_t(roi.width()) * roi.height() * m_spec.nchannels);
         float* pixels = block->pixels.data();
         const int channels = m_spec.nchannels, z = m_spec.z;
         const bool good = m_spec.tile_width
-            ? m_file->read_tiles(0, 0, roi.xbegin, roi.xend, roi.ybegin, roi.yend, z, z + 1, 0, channels,
+            ? m_file->read_tiles(m_first, 0, roi.xbegin, roi.xend, roi.ybegin, roi.yend, z, z + 1, 0, channels,
                                  OIIO::TypeFloat, pixels)
-            : m_file->read_scanlines(0, 0, roi.ybegin, roi.yend, z, 0, channels, OIIO::TypeFloat, pixels);
+            : m_file->read_scanlines(m_first, 0, roi.ybegin, roi.yend, z, 0, channels, OIIO::TypeFloat, pixels);
         if (!good)
             throw BadBlock(m_file->geterror());
         return block;
@@ -212,7 +220,8 @@ private:
                         to + (size_t(y - roi.ybegin) * roi.width() + (both.xbegin - roi.xbegin)) * channels);
     }
 
-    const std::string m_path;
+    const std::string m_stamp, m_path;
+    const int m_first; // of its images
     const uint64_t m_id;
     std::unique_ptr<OIIO::ImageInput> m_file;
     std::vector<OIIO::ImageSpec> m_specs;
@@ -221,14 +230,15 @@ private:
 
 } // namespace
 
-PixelSourcePointer open_stored_image(const std::string& path, std::string& error)
+PixelSourcePointer open_stored_image(const std::string& path, std::string& error, int first)
 {
-    std::string key;
-    if (!stamp_image(key, path, error))
+    std::string stamp;
+    if (!stamp_image(stamp, path, error))
         return nullptr;
+    const std::string key = first == 0 ? stamp : format("image {} of ", first) + stamp;
     if (PixelSourcePointer known = find_source(key))
         return known;
-    auto image = std::make_shared<StoredImage>(key, path);
+    auto image = std::make_shared<StoredImage>(key, stamp, path, first);
     return image->open(error) ? keep_source(image) : nullptr;
 }
 

@@ -34,7 +34,8 @@ bool is_too_large_to_hold(const OIIO::ImageSpec& spec)
 }
 
 bool stream_environment(std::optional<Environment>& dst, const PixelSourcePointer& image, const std::string& path,
-                        const ColorSettings& settings, std::string& note, std::string& error)
+                        const ColorSettings& settings, std::string& note, std::string& error,
+                        std::vector<std::string>* warnings)
 {
     OIIO::ImageSpec spec = image->spec();
     std::array<int, 3> channels;
@@ -43,7 +44,7 @@ bool stream_environment(std::optional<Environment>& dst, const PixelSourcePointe
         error = format("\"{}\": {}", path, error);
         return false;
     }
-    if (!describe_scene_linear(spec, conversion, path, settings, note, error))
+    if (!describe_scene_linear(spec, conversion, path, settings, note, error, warnings))
         return false;
     dst.emplace(spec, [=](int y, float* pixels, std::string& reason) {
         if (!image->read(OIIO::ROI(spec.x, spec.x + spec.width, y, y + 1), pixels, reason))

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -18,9 +19,10 @@ bool is_too_large_to_hold(const OIIO::ImageSpec& spec);
 /// image. A filter with two passes reads the file twice.
 ///
 /// @param path     name of the image, for its colour space and for messages
-/// @param note     as for to_scene_linear()
+/// @param note, warnings   as for to_scene_linear()
 /// @returns false, with the reason in `error`, if the image has no colour channels, or its colour space is unknown.
 bool stream_environment(std::optional<Environment>& dst, const PixelSourcePointer& image, const std::string& path,
-                        const ColorSettings& settings, std::string& note, std::string& error);
+                        const ColorSettings& settings, std::string& note, std::string& error,
+                        std::vector<std::string>* warnings = nullptr);
 
 } // namespace vmlight

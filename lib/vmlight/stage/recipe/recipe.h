@@ -47,13 +47,31 @@ struct VismapRecipe
     }
 };
 
+/// Keys of both recipes that read an environment and make light.
+template <class Visit>
+void visit_image(Visit&& field, std::string& layer, std::string& layout, std::string& output_colorspace)
+{
+    field("layer", layer, Text {},
+          advanced("Layer or part of the environment file to read, such as ViewLayer.Combined"));
+    field("layout", layout,
+          Choices { { { "auto", "lat-long; what has the shape of a cube map, a cross or a probe is refused" },
+                      { "latlong", "lat-long, whatever the shape" } } },
+          advanced("How the environment is laid out"));
+    field("output_colorspace", output_colorspace, Text {},
+          advanced("Linear colour space of the result; default: the working space"));
+}
+
 /// `studio.cfem`
 struct CfemRecipe
 {
     static constexpr const char* kStage = "cfem";
     std::string environment;
-    /// Its colour space, "" to detect it from name and tags; the OCIO config, "" for $OCIO.
+    /// Its colour space, "" to detect it from name and labels; the OCIO config, "" for $OCIO.
     std::string colorspace, colorconfig;
+    /// Its layer or part, "" for the channels R, G, B of the first part; the colour space of the result, "" for the
+    /// working space.
+    std::string layer, output_colorspace;
+    std::string layout = "auto";
     CfemParams cfem_params;
     /// Make a stack (cfem/stack.h): the CFEM is then the first of several images in one file.
     bool stack = false;
@@ -67,6 +85,7 @@ struct CfemRecipe
         field("colorspace", colorspace, Text {},
               advanced("Colour space of the environment; default: from its name and metadata"));
         field("colorconfig", colorconfig, Path {}, advanced("OCIO config; default: $OCIO"));
+        visit_image(field, layer, layout, output_colorspace);
         field("stack", stack, Flag {},
               "Write a stack: filters of several widths and the environment itself, for all models");
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
@@ -79,7 +98,8 @@ struct LightmapRecipe
 {
     static constexpr const char* kStage = "lightmap";
     std::string vismap, environment, cfem, albedo;
-    std::string colorspace, colorconfig, albedo_colorspace;
+    std::string colorspace, colorconfig, albedo_colorspace, layer, albedo_layer, output_colorspace;
+    std::string layout = "auto";
     LightmapParams lightmap_params;
     /// How the environment is filtered: keys cfem_filter, cfem_order, cfem_resolution, cfem_sanitize.
     CfemParams cfem_params;
@@ -96,8 +116,10 @@ struct LightmapRecipe
         field("albedo_colorspace", albedo_colorspace, Text {},
               advanced("Colour space of the albedo; default: from its name and metadata"));
         field("colorspace", colorspace, Text {},
-              advanced("Colour space of the environment; default: from its name and metadata"));
+              advanced("Colour space of the environment or CFEM; default: from its name and metadata"));
         field("colorconfig", colorconfig, Path {}, advanced("OCIO config; default: $OCIO"));
+        field("albedo_layer", albedo_layer, Text {}, advanced("Layer or part of the albedo file to read"));
+        visit_image(field, layer, layout, output_colorspace);
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);
         cfem_params.visit([&](const char* name, auto& value, const auto& allowed, const char* help) {

@@ -34,15 +34,14 @@ std::string unused_reason(const CfemRecipe& recipe, const std::string& key)
 std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
 {
     const bool is_filter = OIIO::Strutil::starts_with(key, "cfem_");
-    if ((is_filter || key == "colorspace") && !recipe.cfem.empty())
-        return format("no environment to {}: \"{}\" is already filtered", is_filter ? "filter" : "convert",
-                      recipe.cfem);
+    if ((is_filter || key == "layer" || key == "layout") && !recipe.cfem.empty())
+        return format("no environment to {}: \"{}\" is already filtered", is_filter ? "filter" : "read", recipe.cfem);
     const std::string& model = recipe.lightmap_params.model;
     if ((key == "cfem_filter" || key == "cfem_order") && reads_radiance(model))
         return "the model " + model + " reads the unfiltered environment";
     if (key == "cfem_order" && recipe.cfem_params.filter != "sh")
         return "only the filter sh uses it";
-    if (key == "albedo_colorspace" && recipe.albedo.empty())
+    if ((key == "albedo_colorspace" || key == "albedo_layer") && recipe.albedo.empty())
         return "no albedo is given";
     return "";
 }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/light_color.h>
+
+#include <vmlight/image/color_labels.h>
+
+namespace vmlight {
+
+void LightColor::convert(std::vector<OIIO::ImageBuf>& cfem, int nthreads) const
+{
+    if (conversion)
+        for (OIIO::ImageBuf& image : cfem)
+            convert_color(image, conversion, spec.get_string_attribute("colorInteropID"), nthreads);
+}
+
+bool describe_light(LightColor& dst, const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem, std::string& error)
+{
+    dst = {};
+    dst.spec = cfem;
+    const ColorLabels labels = read_color_labels(cfem, cfem.format);
+    const bool labelled = !labels.interop_id.empty() || labels.primaries;
+    if (recipe.cfem.empty() || (!labelled && recipe.colorspace.empty()))
+        return true;
+    ColorSettings settings { recipe.colorconfig, recipe.colorspace, cfem.format };
+    settings.labels_only = true;
+    settings.working = !recipe.colorspace.empty() ? recipe.colorspace
+        : !labels.interop_id.empty()              ? labels.interop_id
+                                                  : labels.primaries->interop_id;
+    return describe_scene_linear(dst.spec, dst.conversion, recipe.cfem, settings, dst.note, error, &dst.warnings);
+}
+
+} // namespace vmlight
