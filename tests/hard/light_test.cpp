@@ -9,8 +9,10 @@
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
+#include <vmlight/image/color.h>
 #include <vmlight/image/image_file.h>
 
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
 #include <Imath/half.h>
@@ -235,6 +237,28 @@ TEST(Light, WhatIsNoLight)
     EXPECT_FALSE(make_lightmap(dst, scene::random_vismap(4, 4), crop));
     EXPECT_EQ(dst.geterror(), "cosine-filtered environment is cropped: it stores 8x4 pixels of 8x8");
     row.ours("refused");
+}
+
+TEST(Light, ALabelAgainstARule)
+{
+    HardCase row(
+        "An EXR whose label says linear Rec.709, where the OCIO config's rule for .exr says ACEScg; the same with "
+        "the history of a conversion that left the label",
+        "oiiotool: the rule; --tocolorspace and maketx --colorconvert keep the label");
+    row.naive("by the rule: 26 % too red; by the stale label: any colour");
+    std::string note, error;
+    OIIO::ImageBuf sky = image(Map(8, 4, 1));
+    OIIO::ImageBufAlgo::fill(sky, { 0.5f, 0.25f, 0.125f });
+    sky.specmod().attribute("colorInteropID", "lin_rec709_scene");
+    OIIO::ImageBuf stale = sky.copy(OIIO::TypeFloat);
+    stale.specmod().attribute("Software", "OpenImageIO 2.4.7.1 : oiiotool a.exr --tocolorspace ACEScg -o b.exr");
+    ASSERT_TRUE(to_scene_linear(sky, "sky.exr", { VMLIGHT_TEST_OCIO, "" }, note, error)) << error;
+    float pixel[3];
+    sky.getpixel(0, 0, pixel, 3);
+    EXPECT_NEAR(pixel[0], 0.397352f, 2e-5f);
+    EXPECT_FALSE(to_scene_linear(stale, "sky.exr", { VMLIGHT_TEST_OCIO, "" }, note, error));
+    EXPECT_NE(error.find("set --colorspace"), std::string::npos) << error;
+    row.ours("the label's colour; refused, naming `--colorspace`");
 }
 
 TEST(Light, Blackness)
