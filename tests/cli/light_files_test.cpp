@@ -197,7 +197,6 @@ TEST_F(LightFiles, TheConfigHasTheNamesThatOthersAskFor)
     };
     for (const auto& [alias, space] : aliases)
         EXPECT_STREQ(config.getColorSpaceNameByRole(alias), space) << alias;
-    std::string text = read(kConfig);
     std::string text;
     ASSERT_TRUE(OIIO::Filesystem::read_text_file(kConfig, text));
     EXPECT_THAT(text, Not(HasSubstr("interop_id:")));

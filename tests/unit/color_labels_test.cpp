@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Table, WhatWins,
                              // A rule by name, or a space named in the name, beats all of them.
                              Belief { "hero_vismap.exr", kAp1, kAp1, "Raw", "ACEScg", "ACEScg", kAp1 },
                              Belief { "a_acescg.exr", k709, "", "ACEScg", "ACEScg", "ACEScg", k709 },
-                             Belief { "a_lin_rec709.exr", kAp1, kAp0, "Linear", "Linear", "Linear", kAp1 },
+                             Belief { "a_lin_rec709.exr", kAp1, kAp0, "Linear", "ACEScg", "ACEScg", kAp1 },
                              Belief { "a_acescg.tif", k709, "", "ACEScg", "ACEScg", "ACEScg", k709 }));
 
 TEST_P(WhatWins, IsTheSameInTheDocumentation)

@@ -183,12 +183,19 @@ TEST(StageState, AConfigMattersOnlyWhereColourIsConverted)
 {
     const Folder folder;
     ASSERT_TRUE(folder.vismap().write(folder / "vm.exr"));
-    ASSERT_TRUE(folder.cfem().write(folder / "cfem.exr"));
+    ImageBuf cfem = folder.cfem();
+    ASSERT_TRUE(cfem.write(folder / "labelled.exr"));
+    for (const char* label : { "colorInteropID", "chromaticities" })
+        cfem.specmod().erase_attribute(label);
+    ASSERT_TRUE(cfem.write(folder / "cfem.exr"));
     folder.write("stored.lightmap", "vismap = \"vm.exr\"\ncfem = \"cfem.exr\"\ncolorconfig = \"gone.ocio\"\n");
     folder.write("live.lightmap", "vismap = \"vm.exr\"\nenvironment = \"studio.exr\"\ncolorconfig = \"gone.ocio\"\n");
     EXPECT_TRUE(ImageInput::open(folder / "stored.lightmap")) << OIIO::geterror();
-    EXPECT_FALSE(ImageInput::open(folder / "live.lightmap"));
-    EXPECT_NE(OIIO::geterror().find("gone.ocio\": no such file"), std::string::npos);
+    for (const std::string& name :
+         { folder / "live.lightmap", folder / "stored.lightmap?cfem=" + (folder / "labelled.exr") }) {
+        EXPECT_FALSE(ImageInput::open(name));
+        EXPECT_NE(OIIO::geterror().find("gone.ocio\": no such file"), std::string::npos) << name;
+    }
 }
 
 TEST(StageState, AnInputMayBeAnImageThatAnotherReaderMakesFromItsName)

@@ -112,9 +112,10 @@ PathSpace space_of_path(const ColorConfig& config, const std::string& path)
     // Which rule matched cannot be asked. One that looks at more than the extension gives another space than it gives
     // to any name with this extension, or a space whatever the extension.
     const std::string other = path.substr(0, path.size() - extension.size()) + kNoExtension;
-    const bool by_name = (!ruled.empty() && ruled != rule_space(config, "_" + extension, "", 0))
-        || rule_space(config, other, named, 0) != rule_space(config, std::string("_") + kNoExtension, "", 0);
-    return { space_named(config, ruled.empty() ? named : ruled), by_name || !named.empty() };
+    const bool ruled_by_name = (!ruled.empty() && ruled != rule_space(config, "_" + extension, "", 0))
+        || rule_space(config, other, "", 0) != rule_space(config, std::string("_") + kNoExtension, "", 0);
+    const bool by_name = ruled_by_name || !named.empty();
+    return { space_named(config, ruled_by_name || named.empty() ? ruled : named), by_name };
 }
 
 bool is_data_space(const ColorConfig& config, const std::string& space)

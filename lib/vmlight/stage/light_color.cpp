@@ -12,14 +12,19 @@ void LightColor::convert(std::vector<OIIO::ImageBuf>& cfem, int nthreads) const
             convert_color(image, conversion, spec.get_string_attribute("colorInteropID"), nthreads);
 }
 
+bool may_convert_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem)
+{
+    const ColorLabels labels = read_color_labels(cfem, cfem.format);
+    return !recipe.cfem.empty() && (!recipe.colorspace.empty() || !labels.interop_id.empty() || labels.primaries);
+}
+
 bool describe_light(LightColor& dst, const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem, std::string& error)
 {
     dst = {};
     dst.spec = cfem;
-    const ColorLabels labels = read_color_labels(cfem, cfem.format);
-    const bool labelled = !labels.interop_id.empty() || labels.primaries;
-    if (recipe.cfem.empty() || (!labelled && recipe.colorspace.empty()))
+    if (!may_convert_light(recipe, cfem))
         return true;
+    const ColorLabels labels = read_color_labels(cfem, cfem.format);
     ColorSettings settings { recipe.colorconfig, recipe.colorspace, cfem.format };
     settings.labels_only = true;
     settings.working = !recipe.colorspace.empty() ? recipe.colorspace

@@ -24,6 +24,9 @@ struct LightColor
     void convert(std::vector<OIIO::ImageBuf>& cfem, int nthreads) const;
 };
 
+/// Whether the light may be converted: it is a CFEM, and the recipe or its labels name its space.
+bool may_convert_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem);
+
 /// Choose by the recipe's colorspace, else the CFEM's own labels; its name says nothing. Without a config, light stays
 /// in its own primaries. A CFEM without labels is in the working space. False, with the reason in `error`, as
 /// to_scene_linear().

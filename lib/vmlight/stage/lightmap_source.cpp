@@ -309,11 +309,17 @@ std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::
         inputs.cfem = open_light(recipe, inputs.vismap->spec(), error, chain);
     if (!error.empty())
         return nullptr;
+    std::string config;
+    if ((may_convert_light(recipe, inputs.cfem->spec()) || !recipe.output_colorspace.empty())
+        && !stamp_config(config, recipe.colorconfig, error)) {
+        error = with_location(recipe, "colorconfig", chain, error);
+        return nullptr;
+    }
     if (!describe_light(inputs.light, recipe, inputs.cfem->spec(), error)) {
         error = with_location(recipe, "cfem", chain, error);
         return nullptr;
     }
-    std::string key = recipe_key(recipe) + inputs.vismap->key() + inputs.cfem->key();
+    std::string key = recipe_key(recipe) + config + inputs.vismap->key() + inputs.cfem->key();
     if (!recipe.albedo.empty()) {
         inputs.albedo = open_albedo(recipe, OIIO::get_roi(inputs.vismap->spec()),
                                     inputs.light.spec.get_string_attribute("colorInteropID"), error, chain);
