@@ -3,6 +3,7 @@
 
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color_space.h>
+#include <vmlight/image/primaries.h>
 
 #include <Imath/ImathMatrix.h>
 
@@ -15,10 +16,9 @@ namespace vmlight {
 std::array<double, 3> luminance_weights(const OIIO::ImageSpec& spec)
 {
     const OIIO::ParamValue* own = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
-    const float* xy = own ? static_cast<const float*>(own->data())
-                          : chromaticities_of(spec.get_string_attribute("colorInteropID", kLinearRec709));
-    if (!xy)
-        xy = chromaticities_of(kLinearRec709);
+    const LinearSpace* named = linear_space_named(spec.get_string_attribute("colorInteropID"));
+    const LinearSpace& space = named ? *named : *linear_space_named(kLinearRec709);
+    const float* xy = own ? static_cast<const float*>(own->data()) : space.chromaticities.data();
     // Amounts of the primaries, each of Y = 1, that make white of Y = 1.
     const auto xyz = [&](int i) {
         const double x = xy[2 * i], y = xy[2 * i + 1];

@@ -188,7 +188,7 @@ private:
         const std::string hint = "; set ";
         const size_t at = error.rfind(hint); // the last: a file's name may hold the same words
         return at == std::string::npos ? error : std::string(error).insert(at + hint.size(), "cfem_");
-}
+    }
 
     // Here and not where a map is lit: once for all frames.
     bool check(const OIIO::ImageBuf& vismap, const MakeOptions& options, std::string& error) const
