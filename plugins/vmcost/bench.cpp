@@ -7,10 +7,13 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/version.h>
 #include <vmlight/vismap/baker.h>
+
+#include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
 
@@ -77,6 +80,8 @@ bool Bench::measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, s
                     const Progress& progress, std::string& error)
 {
     const Environment& light = m_inputs.environments[environment];
+    if (!m_visibility.initialized() && !bake_visibility(progress, error))
+        return false;
     row = Row {};
     row.environment = light.name;
     row.setting = setting;
@@ -84,8 +89,17 @@ bool Bench::measure(Row& row, OIIO::ImageBuf& picture, const Setting& setting, s
         ? trace(row, picture, setting, light, progress, error)
         : bake(setting, progress, error) && shade(row, picture, setting, environment, progress, error);
     if (made)
-        row.errors = compare(picture, light.reference, m_inputs.visibility);
+        row.errors = compare(picture, light.reference, m_visibility);
     return made;
+}
+
+bool Bench::bake_visibility(const Progress& progress, std::string& error)
+{
+    OIIO::ImageBuf vismap;
+    if (!make_vismap(vismap, m_inputs.scene, reference_map(m_params), nullptr, m_options.threads, progress))
+        return failed(vismap, error);
+    m_visibility = OIIO::ImageBufAlgo::channels(vismap, 1, {}, {}, { kVismapChannels[0] });
+    return true;
 }
 
 bool Bench::bake(const Setting& setting, const Progress& progress, std::string& error)

@@ -23,6 +23,8 @@ public:
                  const Progress& progress, std::string& error);
 
 private:
+    // Before the first measurement: the weights of the errors.
+    bool bake_visibility(const Progress& progress, std::string& error);
     bool bake(const Setting& setting, const Progress& progress, std::string& error);
     bool shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, size_t environment, const Progress& progress,
                std::string& error);
@@ -33,6 +35,7 @@ private:
     const CostParams& m_params;
     const MakeOptions& m_options;
     FilteredLights m_lights;
+    OIIO::ImageBuf m_visibility; // of the reference's texels, one channel
     std::string m_baked; // parameters of m_vismap
     OIIO::ImageBuf m_vismap;
     Timing m_bake;

@@ -78,9 +78,11 @@ std::string command_text(const Setting& setting, const CommandInputs& inputs)
         bake += flag("occluder", occluder);
     if (setting.storage == "half")
         bake += flag("format", setting.storage);
-    return format("{} -o {} && makelightmap {} {}{}{}{}{} -o {}", bake, quoted(vismap), quoted(vismap),
-                  quoted(inputs.environment), flags(light), flags(filter, "cfem_"),
-                  flag("colorspace", inputs.colorspace), flag("colorconfig", inputs.colorconfig),
+    const CfemRecipe& given = inputs.light;
+    const std::string reading = flag("colorspace", given.colorspace) + flag("colorconfig", given.colorconfig)
+        + flag("layer", given.layer) + flag("layout", given.layout == CfemRecipe().layout ? "" : given.layout);
+    return format("{} -o {} && makelightmap {} {}{}{}{} -o {}", bake, quoted(vismap), quoted(vismap),
+                  quoted(inputs.environment), flags(light), flags(filter, "cfem_"), reading,
                   quoted(format("{}_{}.exr", name, stem(inputs.environment))));
 }
 

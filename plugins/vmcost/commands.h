@@ -16,8 +16,8 @@ struct CommandInputs
     /// The mesh, its occluders and mesh parameters; bake parameters are ignored.
     VismapRecipe mesh;
     std::string environment;
-    /// Colour space of the environment and OCIO config; "" for the defaults.
-    std::string colorspace, colorconfig;
+    /// Colour space, OCIO config, layer and layout of the environment; the rest is ignored.
+    CfemRecipe light;
     bool sanitize = false;
 };
 

@@ -9,11 +9,12 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/image/color.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/reference/reference.h>
-#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/environment_file.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/scene_cache.h>
-#include <vmlight/vismap/baker.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -48,14 +49,21 @@ std::string environment_hash(const OIIO::ImageBuf& image)
                OIIO::Strutil::join(spec.channelnames, ",")));
 }
 
-bool read_environment(Environment& dst, const ColorSettings& color, const MakeOptions& options, std::string& error)
+bool read_environment(Environment& dst, CfemRecipe light, const MakeOptions& options, std::string& error)
 {
-    std::string note;
-    if (!read_image(dst.image, dst.path, error))
+    light.environment = dst.path;
+    const PixelSourcePointer file
+        = open_input(light, "environment", dst.path, InputKind::Environment, error, {}, light.layer);
+    std::vector<OIIO::ImageBuf> images;
+    if (!file || !check_environment(file->spec(), light, error) || !file->make(images, {}, options, error))
         return false;
-    error = input_fault(dst.path, dst.image.spec().get_string_attribute("vmlight:stage"), InputKind::Environment);
+    dst.image = std::move(images[0]);
+    const OIIO::TypeDesc stored = file->spec().format;
+    report_doubts(dst.path, dst.image.spec(), stored, options);
+    const ColorSettings color { light.colorconfig, light.colorspace, stored };
+    std::string note;
     std::vector<std::string> warnings;
-    if (!error.empty() || !to_scene_linear(dst.image, dst.path, color, note, error, 0, &warnings))
+    if (!to_scene_linear(dst.image, dst.path, color, note, error, options.threads, &warnings))
         return false;
     for (const std::string& warning : warnings)
         options.report_warning(warning);
@@ -95,7 +103,7 @@ std::string Inputs::scene_text() const
 }
 
 bool read_inputs(Inputs& dst, const VismapRecipe& mesh, const std::vector<std::string>& environments,
-                 const ColorSettings& color, const MakeOptions& options, std::string& error)
+                 const CfemRecipe& light, const MakeOptions& options, std::string& error)
 {
     SceneStamps stamps;
     std::string at;
@@ -107,7 +115,7 @@ bool read_inputs(Inputs& dst, const VismapRecipe& mesh, const std::vector<std::s
         Environment& environment = dst.environments.emplace_back();
         environment.path = path;
         environment.name = unique_name(path, taken);
-        if (!read_environment(environment, color, options, error))
+        if (!read_environment(environment, light, options, error))
             return false;
     }
     return true;
@@ -156,12 +164,6 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         if (!error.empty())
             return false;
     }
-    if (!make_vismap(inputs.visibility, inputs.scene, reference_map(params), nullptr, options.threads,
-                     options.progress("visibility", int64_t(params.side()) * params.side()))) {
-        error = inputs.visibility.geterror();
-        return false;
-    }
-    inputs.visibility = OIIO::ImageBufAlgo::channels(inputs.visibility, 1, {}, {}, { kVismapChannels[0] });
     return true;
 }
 

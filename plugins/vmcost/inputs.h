@@ -5,7 +5,6 @@
 #include "cost_params.h"
 #include "whole_progress.h"
 
-#include <vmlight/image/color.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/trace/bake_scene.h>
 
@@ -31,8 +30,6 @@ struct Inputs
 {
     BakeScenePointer scene;
     std::vector<Environment> environments;
-    /// The visibility of the reference's texels, one channel, by trace_references().
-    OIIO::ImageBuf visibility;
 
     /// Text that identifies the mesh and its occluders, for keys.
     std::string scene_text() const;
@@ -41,16 +38,16 @@ struct Inputs
 /// Read the mesh and the environments, and convert the environments to scene-linear, as makevismap and makecfem do.
 ///
 /// @param mesh     the mesh and its occluders; bake parameters are ignored
+/// @param light    colour space, OCIO config, layer and layout of all environments
 /// @returns false, with the reason in `error`, if an input is invalid
 bool read_inputs(Inputs& dst, const VismapRecipe& mesh, const std::vector<std::string>& environments,
-                 const ColorSettings& color, const MakeOptions& options, std::string& error);
+                 const CfemRecipe& light, const MakeOptions& options, std::string& error);
 
 /// Ray trace the reference under each environment, or reuse the one that an earlier run with the same inputs left in
 /// `folder`. Unreadable files and those of another size are traced again.
 ///
 /// @returns false, with the reason in `error`, if an environment has invalid pixels, the mesh covers or the light
-/// reaches
-///          too few texels, a file cannot be written, or the work was interrupted
+///          reaches too few texels, a file cannot be written, or the work was interrupted
 bool trace_references(Inputs& inputs, const CostParams& params, const std::string& folder, const MakeOptions& options,
                       WholeProgress& progress, std::string& error);
 

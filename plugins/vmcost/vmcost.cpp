@@ -15,7 +15,7 @@ int main(int argc, const char** argv)
 {
     CostParams params;
     VismapRecipe mesh;
-    ColorSettings color;
+    CfemRecipe light;
     StageMain stage("vmcost", "measure accuracy against time, and recommend settings", { "MESH", "ENVIRONMENT..." },
                     "  vmcost hero.obj studio.hdr -o report\n"
                     "  vmcost hero.obj studio.hdr sky.hdr --occluder ground.obj -o report\n"
@@ -30,8 +30,13 @@ int main(int argc, const char** argv)
         return true;
     });
     stage.option("colorspace", "NAME",
-                 advanced("Colour space of the environments; default: from their names and metadata"), color.from);
-    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), color.config);
+                 advanced("Colour space of the environments; default: from their names and metadata"),
+                 light.colorspace);
+    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), light.colorconfig);
+    stage.option("layer", "TEXT",
+                 advanced("Layer or part of the environment files to read, such as ViewLayer.Combined"), light.layer);
+    stage.option("layout", "auto|latlong", advanced("latlong: environments are lat-long, whatever their shape [auto]"),
+                 [&](auto text, auto& error) { return set_param(light, "layout", text, error); });
 
     return stage.run(argc, argv, [&](std::string& error) {
         const std::vector<std::string>& operands = stage.operands();
@@ -40,10 +45,10 @@ int main(int argc, const char** argv)
         Inputs inputs;
         Measured measured;
         mesh.mesh = operands[0];
-        const CommandInputs commands { mesh, operands[1], color.from, color.config, params.sanitize };
+        const CommandInputs commands { mesh, operands[1], light, params.sanitize };
         error = params.no_plots ? "" : gnuplot_fault();
         if (!error.empty()
-            || !read_inputs(inputs, mesh, { operands.begin() + 1, operands.end() }, color, options, error))
+            || !read_inputs(inputs, mesh, { operands.begin() + 1, operands.end() }, light, options, error))
             return false;
         if (!OIIO::Filesystem::is_directory(folder) && !OIIO::Filesystem::create_directory(folder, error)) {
             error = "\"" + folder + "\": " + error;

@@ -49,6 +49,22 @@ TEST_F(Cost, InputsOfTheWrongKindAreRefused)
     refused(1, "\"vm.exr\": is neither an environment nor a CFEM", "vmcost step.obj vm.exr -o report" + small);
 }
 
+// As makecfem reads an environment.
+TEST_F(Cost, EnvironmentsAreReadAsTheyAreFiltered)
+{
+    make_sky({ 1, 2, 3 }, "cross.exr", 64, 48);
+    refused(1, "64x48 pixels is the shape of a cube map's cross", "vmcost step.obj cross.exr -o report" + small);
+    OIIO::ImageBuf layers(path("sky.exr"));
+    layers.read(0, 0, true, OIIO::TypeFloat);
+    layers.specmod().channelnames = { "View.Combined.R", "View.Combined.G", "View.Combined.B" };
+    ASSERT_TRUE(layers.write(path("layers.exr")));
+    refused(1, "choose a layer with --layer: View.Combined", "vmcost step.obj layers.exr -o report" + small);
+    cost("layers.exr --layer View.Combined --layout latlong" + small);
+    const std::string page = read("report/report.html");
+    EXPECT_THAT(page, HasSubstr("makelightmap step_vismap.exr layers.exr"));
+    EXPECT_THAT(page, HasSubstr("--layer View.Combined --layout latlong"));
+}
+
 TEST_F(Cost, BadPixelsAreRefusedAndReplacedOnRequest)
 {
     make_sky({ 1 - 2, 2 - 2, 3 - 2 }, "negative.exr");

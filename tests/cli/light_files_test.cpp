@@ -33,6 +33,28 @@ protected:
         for (size_t i = 0; i < image.values.size(); ++i)
             ASSERT_NEAR(image.values[i], rgb[i % 3], tolerance) << name;
     }
+    /// An EXR of several parts, each constant.
+    void make_parts(const std::string& name, const std::vector<std::string>& parts,
+                    const std::vector<std::vector<std::string>>& channels,
+                    const std::vector<std::vector<float>>& values) const
+    {
+        std::vector<OIIO::ImageBuf> images;
+        std::vector<OIIO::ImageSpec> specs;
+        for (size_t i = 0; i < parts.size(); ++i) {
+            OIIO::ImageSpec& spec = specs.emplace_back(16, 8, int(channels[i].size()), OIIO::TypeFloat);
+            spec.channelnames = channels[i];
+            spec.attribute("oiio:subimagename", parts[i]);
+            OIIO::ImageBufAlgo::fill(images.emplace_back(spec), values[i]);
+        }
+        const auto out = OIIO::ImageOutput::create("openexr");
+        ASSERT_TRUE(out && out->open(path(name), int(specs.size()), specs.data()));
+        for (size_t i = 0; i < parts.size(); ++i) {
+            if (i > 0)
+                ASSERT_TRUE(out->open(path(name), specs[i], OIIO::ImageOutput::AppendSubimage));
+            ASSERT_TRUE(out->write_image(OIIO::TypeFloat, images[i].localpixels()));
+        }
+        ASSERT_TRUE(out->close());
+    }
     static std::string header(const std::string& lines) { return "#?RADIANCE\n" + lines + "\n-Y 8 +X 16\n"; }
 };
 
@@ -62,6 +84,26 @@ TEST_F(LightFiles, ALayerIsChosenByName)
           "\"ViewLayer.Mist\"\n");
     done("makelightmap x.lightmap -o live.exr");
     expect_same_pixels("lit.exr", "live.exr", 0);
+}
+
+// Renderers name parts as they name layers, with and without the layer in the channels' names.
+TEST_F(LightFiles, APartIsChosenByName)
+{
+    make_vismap();
+    make_parts("parts.exr", { "depth", "beauty", "ViewLayer.Combined" },
+               { { "Z" }, { "R", "G", "B", "A" }, { "Combined.R", "Combined.G", "Combined.B" } },
+               { { 9 }, { 0.25f, 0.5f, 0.75f, 1 }, { 0.5f, 0.125f, 1 } });
+    refused(1, "choose a layer with --layer (--albedo-layer): beauty, ViewLayer.Combined, Combined",
+            "makecfem parts.exr -o x.exr");
+    refused(1, "no layer \"depth\" with colour", "makecfem parts.exr --layer depth -o x.exr");
+    done("makecfem parts.exr --layer beauty -o beauty.exr");
+    expect_colour("beauty.exr", { 0.25f, 0.5f, 0.75f });
+    for (const std::string layer : { "Combined", "ViewLayer.Combined" }) {
+        done("makecfem parts.exr --layer " + layer + " -o combined.exr");
+        expect_colour("combined.exr", { 0.5f, 0.125f, 1 });
+        done("makelightmap vm.exr beauty.exr --albedo parts.exr --albedo-layer " + layer + " -o lit.exr");
+        expect_colour("lit.exr", { 0.125f, 0.0625f, 0.75f });
+    }
 }
 
 TEST_F(LightFiles, ChannelsThatAreNoLightAreRefused)

@@ -107,10 +107,11 @@ TEST_F(Files, DiskFullAnywhere)
             set_current_case(format("{}: {} bytes", line, limit));
             restart_watchdog();
             write(name, old);
-            const Result result = [&] {
+            Result result;
+            {
                 const FileLimit full(limit);
-                return run(line);
-            }();
+                result = run(line);
+            }
             EXPECT_EQ(result.code, limit == fresh.size() ? 0 : 1) << limit;
             EXPECT_TRUE(read(name) == (result.code == 0 ? fresh : old)) << limit;
             EXPECT_EQ(names(), before) << "debris";

@@ -108,6 +108,22 @@ TEST_F(ReaderPixels, ATargetErrorIsMetLive)
     expect_error("target_error: 1e-09 is out of reach", "hero.vismap?target_error=1e-9");
 }
 
+// The albedo is of another space than the light, and both of another than the output.
+TEST_F(ReaderPixels, ColourOfAnotherSpaceIsConvertedByTile)
+{
+    const std::string color = "--albedo albedo.exr --albedo-colorspace lin_rec709_scene "
+                              "--output-colorspace lin_rec2020_scene -o lit.exr";
+    done("makecfem studio.hdr -o albedo.exr --resolution 64");
+    done("makelightmap hero.vismap studio.cfem " + color);
+    write("color.lightmap",
+          "vismap = \"hero.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"albedo.exr\"\n"
+          "albedo_colorspace = \"lin_rec709_scene\"\noutput_colorspace = \"lin_rec2020_scene\"\n");
+    expect_same_pixels("color.lightmap", "lit.exr", 0);
+    EXPECT_EQ(attribute("lit.exr", "colorInteropID"), "lin_rec2020_scene");
+    done("makelightmap hero.vismap studio.cfem -o plain.exr");
+    EXPECT_NE(pixels("plain.exr").values, pixels("lit.exr").values);
+}
+
 TEST_F(ReaderPixels, AnExecutableReadsRecipesWhereItReadsImages)
 {
     done("makelightmap hero.vismap studio.cfem -o lit.exr --rotate 0,30,0");

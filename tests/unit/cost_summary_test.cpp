@@ -147,7 +147,9 @@ TEST(CostCommands, HoldWhatTheSettingChanges)
     inputs = inputs_of("hero.obj", "sky.hdr");
     inputs.mesh.mesh_params.normals = "flat";
     inputs.mesh.occluder = { "ground.obj", "wall.obj" };
-    inputs.colorspace = "ACES - ACEScg";
+    inputs.light.colorspace = "ACES - ACEScg";
+    inputs.light.layer = "View.Combined";
+    inputs.light.layout = "latlong";
     inputs.sanitize = true;
     Setting setting = default_setting("sh4");
     setting.samples = 512;
@@ -157,7 +159,8 @@ TEST(CostCommands, HoldWhatTheSettingChanges)
     EXPECT_EQ(command_text(setting, inputs),
               "makevismap hero.obj --normals flat --resolution 512x512 --samples 512 --basis sh --order 4 --occluder "
               "ground.obj --occluder wall.obj --format half -o hero_vismap.exr && makelightmap hero_vismap.exr sky.hdr "
-              "--model sh --cfem-resolution 64x32 --cfem-sanitize --colorspace 'ACES - ACEScg' -o hero_sky.exr");
+              "--model sh --cfem-resolution 64x32 --cfem-sanitize --colorspace 'ACES - ACEScg' --layer View.Combined "
+              "--layout latlong -o hero_sky.exr");
     EXPECT_EQ(command_text(default_setting(kTraced), inputs), "");
 }
 

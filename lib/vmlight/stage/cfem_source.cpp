@@ -7,11 +7,8 @@
 #include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/stack.h>
-#include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
-#include <vmlight/image/color_labels.h>
-#include <vmlight/image/radiance_header.h>
-#include <vmlight/stage/layer_source.h>
+#include <vmlight/stage/environment_file.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/output_color.h>
 #include <vmlight/stage/recipe/udim.h>
@@ -20,24 +17,10 @@
 #include <vmlight/stage/streamed_environment.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <optional>
 
 namespace vmlight {
 namespace {
-
-struct Shape
-{
-    int wide, high;
-    const char* name;
-};
-constexpr int kLeastShape = 32; // pixels of the longer side
-constexpr Shape kOtherShapes[] { { 6, 1, "a cube map's six faces in a row" },
-                                 { 1, 6, "a cube map's six faces in a column" },
-                                 { 4, 3, "a cube map's cross" },
-                                 { 3, 4, "a cube map's vertical cross" },
-                                 { 1, 1, "a light probe or a single face" } };
 
 class CfemSource : public PixelSource
 {
@@ -53,16 +36,8 @@ public:
     bool describe(std::string& error)
     {
         OIIO::ImageSpec spec = m_environment->spec();
-        std::array<int, 3> channels;
-        if (!find_color_channels(spec, channels, error)) {
-            error = format("\"{}\": {}{}", m_recipe.environment, error, layer_advice(m_recipe.environment, "--layer"));
-            return false;
-        }
-        if (!check_layout(spec, error)) {
-            error = format("\"{}\": {}", m_recipe.environment, error);
-            return false;
-        }
-        if (!describe_scene_linear(spec, m_recipe.environment, m_color, error)
+        if (!check_environment(spec, m_recipe, error)
+            || !describe_scene_linear(spec, m_recipe.environment, m_color, error)
             || !m_output.open(m_recipe.output_colorspace, m_recipe.colorconfig, spec, error))
             return false;
         for (int level = 0; level < (m_recipe.stack ? kStackImages : 1); ++level) {
@@ -108,33 +83,6 @@ public:
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
-    // Shapes that other layouts have. A map of few pixels has no shape to speak of.
-    bool check_layout(const OIIO::ImageSpec& spec, std::string& error) const
-    {
-        const int width = spec.full_width, height = spec.full_height;
-        if (m_recipe.layout != "auto" || std::max(width, height) < kLeastShape)
-            return true;
-        for (const Shape& shape : kOtherShapes)
-            if (int64_t(width) * shape.high == int64_t(height) * shape.wide) {
-                error = format("{}x{} pixels is the shape of {}, and an environment must be lat-long, twice as wide as "
-                               "high; convert it, or set --layout latlong",
-                               width, height, shape.name);
-                return false;
-            }
-        return true;
-    }
-
-    // What a file can be used with, but seldom means.
-    void report_doubts(const MakeOptions& options) const
-    {
-        if (is_integer(m_color.stored))
-            options.report_warning(format("\"{}\": {} bit, no light above 1: shadows will be weak; use an EXR or HDR",
-                                          m_recipe.environment, 8 * m_color.stored.basesize()));
-        const std::string radiance = unapplied_radiance_header(m_recipe.environment);
-        if (!radiance.empty())
-            options.report(format("\"{}\": {}", m_recipe.environment, radiance));
-    }
-
     // The last image of a stack, the environment itself, needs no filter: reading only that one does only that work.
     bool filter(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options, bool under_lock,
                 std::string& error)
@@ -146,10 +94,7 @@ private:
             return false;
         const OIIO::ImageSpec& spec = environment->spec();
         const int width = spec.width, height = spec.height;
-        if (std::abs(spec.full_width - 2 * spec.full_height) > 2) // sample borders add one pixel each way
-            options.report_warning(
-                format("\"{}\" is {}x{}, not twice as wide as high: treated as a lat-long map anyway",
-                       m_recipe.environment, spec.full_width, spec.full_height));
+        report_doubts(m_recipe.environment, spec, m_color.stored, options);
         const Stopwatch timer;
         if (!filter(dst, range, *environment, options, error)) {
             error = format("\"{}\": {}", m_recipe.environment, error);
@@ -163,7 +108,6 @@ private:
             m_output.apply(image, under_lock ? 1 : options.threads);
         }
         options.report("colour: " + note + m_output.note());
-        report_doubts(options);
         options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
                               m_spec.height, timer()));
