@@ -58,7 +58,8 @@ TEST_F(Cost, EnvironmentsAreReadAsTheyAreFiltered)
     layers.read(0, 0, true, OIIO::TypeFloat);
     layers.specmod().channelnames = { "View.Combined.R", "View.Combined.G", "View.Combined.B" };
     ASSERT_TRUE(layers.write(path("layers.exr")));
-    refused(1, "choose a layer with --layer: View.Combined", "vmcost step.obj layers.exr -o report" + small);
+    refused(1, "choose a layer with --layer (--albedo-layer): View.Combined",
+            "vmcost step.obj layers.exr -o report" + small);
     cost("layers.exr --layer View.Combined --layout latlong" + small);
     const std::string page = read("report/report.html");
     EXPECT_THAT(page, HasSubstr("makelightmap step_vismap.exr layers.exr"));

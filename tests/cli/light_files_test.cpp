@@ -93,8 +93,7 @@ TEST_F(LightFiles, APartIsChosenByName)
     make_parts("parts.exr", { "depth", "beauty", "ViewLayer.Combined" },
                { { "Z" }, { "R", "G", "B", "A" }, { "Combined.R", "Combined.G", "Combined.B" } },
                { { 9 }, { 0.25f, 0.5f, 0.75f, 1 }, { 0.5f, 0.125f, 1 } });
-    refused(1, "choose a layer with --layer (--albedo-layer): beauty, ViewLayer.Combined, Combined",
-            "makecfem parts.exr -o x.exr");
+    refused(1, "choose a layer with --layer: beauty, ViewLayer.Combined, Combined", "makecfem parts.exr -o x.exr");
     refused(1, "no layer \"depth\" with colour", "makecfem parts.exr --layer depth -o x.exr");
     done("makecfem parts.exr --layer beauty -o beauty.exr");
     expect_colour("beauty.exr", { 0.25f, 0.5f, 0.75f });

@@ -100,10 +100,18 @@ bool find_layer(const Part& part, const std::string& layer, std::array<int, 3>& 
 {
     std::string ignored;
     const std::string start = part.name + ".";
-    return find_layer_channels(part.spec, layer, channels)
+    if (find_layer_channels(part.spec, layer, channels)
         || (part.name == layer && find_color_channels(part.spec, channels, ignored))
         || (!part.name.empty() && OIIO::Strutil::starts_with(layer, start)
-            && find_layer_channels(part.spec, layer.substr(start.size()), channels));
+            && find_layer_channels(part.spec, layer.substr(start.size()), channels)))
+        return true;
+    if (part.name != layer)
+        return false;
+    // "ViewLayer.Combined" of channels "Combined.R".
+    const std::vector<std::string> own = color_layers(part.spec);
+    const auto is_end = [&](const std::string& name) { return OIIO::Strutil::ends_with(layer, "." + name); };
+    const auto found = std::find_if(own.begin(), own.end(), is_end);
+    return found != own.end() && find_layer_channels(part.spec, *found, channels);
 }
 
 std::vector<std::string> all_layers(const std::vector<Part>& parts)
