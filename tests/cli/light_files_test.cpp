@@ -49,8 +49,7 @@ protected:
         const auto out = OIIO::ImageOutput::create("openexr");
         ASSERT_TRUE(out && out->open(path(name), int(specs.size()), specs.data()));
         for (size_t i = 0; i < parts.size(); ++i) {
-            if (i > 0)
-                ASSERT_TRUE(out->open(path(name), specs[i], OIIO::ImageOutput::AppendSubimage));
+            ASSERT_TRUE(i == 0 || out->open(path(name), specs[i], OIIO::ImageOutput::AppendSubimage));
             ASSERT_TRUE(out->write_image(OIIO::TypeFloat, images[i].localpixels()));
         }
         ASSERT_TRUE(out->close());

@@ -2,8 +2,6 @@
 /// How bright a lightmap is, and the exposure that makes it middle grey.
 #pragma once
 
-#include <vmlight/base/export.h>
-
 #include <OpenImageIO/imagebuf.h>
 
 #include <array>
@@ -23,14 +21,14 @@ struct LightLevel
 
     /// Stops that bring the mean to middle grey, in hundredths, within what LightmapParams::exposure takes; 0 if
     /// nothing is lit.
-    VMLIGHT_API double stops_to_gray() const;
+    double stops_to_gray() const;
 };
 
 /// Measure `lightmap`, which `vismap` was lit to: float images of one size in memory.
-VMLIGHT_API LightLevel measure_light(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& vismap);
+LightLevel measure_light(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& vismap);
 
 /// The share of R, G and B in luminance, by the `chromaticities` of the image, or those of its `colorInteropID`; of
 /// Rec.709 if it has neither.
-VMLIGHT_API std::array<double, 3> luminance_weights(const OIIO::ImageSpec& spec);
+std::array<double, 3> luminance_weights(const OIIO::ImageSpec& spec);
 
 } // namespace vmlight
