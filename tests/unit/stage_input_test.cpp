@@ -5,8 +5,8 @@
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/lightmap/lightmap.h>
-#include <vmlight/stage/input.h>
 #include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/reader.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 

@@ -8,7 +8,7 @@
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/image/color.h>
 #include <vmlight/mesh/import/read_mesh.h>
-#include <vmlight/stage/input.h>
+#include <vmlight/stage/reader.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebuf.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/input.h>
+#include <vmlight/stage/reader.h>
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/text_format.h>
