@@ -31,7 +31,8 @@ TEST(LightLevel, LuminanceIsThatOfTheWorkingSpace)
     } known[] = { { "", { 0.2126, 0.7152, 0.0722 } },
                   { "lin_rec709_scene", { 0.2126, 0.7152, 0.0722 } },
                   { "lin_ap1_scene", { 0.2722287, 0.6740818, 0.0536895 } },
-                  { "lin_ap0_scene", { 0.3439664, 0.7281661, -0.0721325 } } };
+                  { "lin_ap0_scene", { 0.3439664, 0.7281661, -0.0721325 } },
+                  { "lin_ciexyzd65_scene", { 0, 1, 0 } } };
     for (const auto& [id, weights] : known) {
         ImageSpec spec(1, 1, 3, OIIO::TypeFloat);
         if (*id)

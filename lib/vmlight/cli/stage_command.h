@@ -76,8 +76,8 @@ struct StageCommand
 
     /// Parse the command line: the operands or the recipe first, then the flags, which override it.
     ///
-    /// @param answer   set to the text to print instead of working, help and the like, or to the recipe to print or
-    /// save
+    /// @param answer   set to the text to print instead of working, help and the like, or to the recipe to
+    ///                 print or save
     /// @returns Done, or the exit code with the reason in `error`
     ExitCode parse(int argc, const char** argv, std::string& answer, std::string& error);
 

@@ -26,8 +26,7 @@ struct ColorTransform
 /// @param path     of the image
 /// @param settings `stored` must be set
 /// @returns false, with the reason in `error`, if the config cannot be read, lacks the space or cannot convert it, or
-/// the
-///          label that decides is older than the pixels.
+///          the label that decides is older than the pixels.
 bool find_color_transform(ColorTransform& transform, const OIIO::ImageSpec& spec, const std::string& path,
                           const ColorSettings& settings, std::string& error);
 

@@ -27,7 +27,6 @@ public:
     ClaimReader(const ClaimReader&) = delete;
     ClaimReader& operator=(const ClaimReader&) = delete;
 
-    int64_t size() const { return m_size; }
     int64_t left() const { return m_size - m_at; }
     /// False if fewer bytes are left.
     bool read(void* bytes, int64_t count);

@@ -135,4 +135,10 @@ std::array<double, 9> matrix_between(const LinearSpace& from, const LinearSpace&
     return inverse(to_xyz(to)) * (inverse(bradford) * diagonal(gain) * bradford) * to_xyz(from);
 }
 
+std::array<double, 3> luminance_of_primaries(const LinearSpace& space)
+{
+    const Matrix xyz = to_xyz(space);
+    return { xyz[3], xyz[4], xyz[5] };
+}
+
 } // namespace vmlight

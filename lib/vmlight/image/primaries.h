@@ -31,4 +31,7 @@ const LinearSpace* linear_space_with(const std::array<float, 8>& chromaticities)
 /// configs have it. White stays white.
 std::array<double, 9> matrix_between(const LinearSpace& from, const LinearSpace& to);
 
+/// The luminance Y of one unit of each of a space's primaries; their sum is 1.
+std::array<double, 3> luminance_of_primaries(const LinearSpace& space);
+
 } // namespace vmlight

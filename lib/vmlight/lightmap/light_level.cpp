@@ -2,10 +2,9 @@
 #include <vmlight/lightmap/light_level.h>
 
 #include <vmlight/image/channels.h>
+#include <vmlight/image/color_labels.h>
 #include <vmlight/image/color_space.h>
 #include <vmlight/image/primaries.h>
-
-#include <Imath/ImathMatrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +14,9 @@ namespace vmlight {
 
 std::array<double, 3> luminance_weights(const OIIO::ImageSpec& spec)
 {
-    const OIIO::ParamValue* own = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
-    const LinearSpace* named = linear_space_named(spec.get_string_attribute("colorInteropID"));
-    const LinearSpace& space = named ? *named : *linear_space_named(kLinearRec709);
-    const float* xy = own ? static_cast<const float*>(own->data()) : space.chromaticities.data();
-    // Amounts of the primaries, each of Y = 1, that make white of Y = 1.
-    const auto xyz = [&](int i) {
-        const double x = xy[2 * i], y = xy[2 * i + 1];
-        return Imath::V3d(x / y, 1, (1 - x - y) / y);
-    };
-    const Imath::V3d r = xyz(0), g = xyz(1), b = xyz(2);
-    const Imath::M33d primaries(r.x, r.y, r.z, g.x, g.y, g.z, b.x, b.y, b.z);
-    const Imath::V3d weights = xyz(3) * primaries.inverse();
-    return { weights.x, weights.y, weights.z };
+    const ColorLabels labels = read_color_labels(spec, spec.format);
+    const LinearSpace* space = labels.primaries ? labels.primaries : linear_space_named(labels.interop_id);
+    return luminance_of_primaries(space ? *space : *linear_space_named(kLinearRec709));
 }
 
 LightLevel measure_light(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& vismap)

@@ -47,9 +47,8 @@ std::string impossible_fault(const VismapDoubts& doubts, const OIIO::ImageSpec& 
 /// @param map      a visibility map of floats in memory
 /// @param stored   as in the file, with its pixel type and compression
 /// @param warnings set to what is odd about a map that is not refused
-/// @returns false, with the reason in `error`, if impossible_fault() gives one, or 90 % of the texels with V > 0.4 are
-/// too
-///          short.
+/// @returns false, with the reason in `error`, if impossible_fault() gives one, or |B| is too short in 90 %
+///          of the texels with V > 0.4.
 bool check_vismap(const OIIO::ImageBuf& map, const OIIO::ImageSpec& stored, int nthreads,
                   std::vector<std::string>& warnings, std::string& error);
 

@@ -35,9 +35,8 @@ VMLIGHT_RECIPES(VMLIGHT_DECLARE)
 
 // ---- For the sources of the stages ------------------------------------------------------------------------------
 
-/// Open the image `name`, the value of `key` in `recipe`, which is the last of `chain`; only its `layer`, unless that
-/// is
-/// "". nullptr, with the location and reason in `error`, if it cannot be opened or is not of the kind `wanted`.
+/// Open the image `name`, the value of `key` in `recipe`, which is the last of `chain`; only its `layer`, unless
+/// that is "". nullptr, with the location and reason in `error`, if it cannot be opened or is not of the kind `wanted`.
 template <class Recipe>
 PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::string& name, InputKind wanted,
                               std::string& error, const RecipeChain& chain, const std::string& layer = "");
