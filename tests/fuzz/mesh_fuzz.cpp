@@ -53,7 +53,7 @@ bool read_imported(Mesh& mesh, Bytes& bytes)
         return false;
     }
     require(error.empty() && !mesh.triangles.empty() && mesh.normals.size() == mesh.positions.size()
-                && mesh.materials.size() == mesh.triangles.size()
+                && mesh.triangle_materials.size() == mesh.triangles.size()
                 && (mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size()),
             "a mesh is whole", error);
     for (const auto& triangle : mesh.triangles)

@@ -22,7 +22,7 @@ Mesh lone_triangle(V3d a, V3d b, V3d c, std::array<V3f, 3> normals)
     mesh.normals.assign(normals.begin(), normals.end());
     mesh.uvs = { V2f(0, 0), V2f(1, 0), V2f(0, 1) };
     mesh.triangles = { { 0, 1, 2 } };
-    mesh.materials = { 0 };
+    mesh.triangle_materials = { 0 };
     return mesh;
 }
 

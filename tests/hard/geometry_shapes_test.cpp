@@ -52,7 +52,7 @@ TEST(Geometry, TrianglesWithoutArea)
     scene.uvs.insert(scene.uvs.end(), { V2f(0, 0.5f), V2f(1, 0.5f), V2f(1, 1), V2f(0, 1) });
     scene.triangles.push_back({ first, first + 1, first + 2 });
     scene.triangles.push_back({ first + 3, first + 3, first + 3 });
-    scene.materials.resize(4);
+    scene.triangle_materials.resize(4);
     const BakedMap map(scene, {}, map_params(32, 32, 64));
     EXPECT_EQ(map.report.uv.degenerate_3d, 2);
     EXPECT_EQ(map.report.covered, 512);
@@ -81,7 +81,7 @@ TEST(Geometry, Noise)
         }
         for (int t = 0; t < 100; ++t)
             soup.triangles.push_back({ uint32_t(random() % 60), uint32_t(random() % 60), uint32_t(random() % 60) });
-        soup.materials.resize(100);
+        soup.triangle_materials.resize(100);
         for (const char* measure : { "cosine", "uniform" }) {
             VismapParams params = map_params(32, 32, 16);
             params.measure = measure;

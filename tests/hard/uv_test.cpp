@@ -30,7 +30,7 @@ Mesh flat(const std::vector<std::array<Point, 3>>& triangles, double width, doub
             mesh.normals.emplace_back(0, 0, 1);
         }
         mesh.triangles.push_back({ first, first + 1, first + 2 });
-        mesh.materials.push_back(0);
+        mesh.triangle_materials.push_back(0);
     }
     return mesh;
 }

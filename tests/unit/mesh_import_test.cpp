@@ -123,7 +123,7 @@ bool read_tri(MeshBuilder& dst, const ImportRequest& request, std::string& error
     }
     const Imath::M44d up = dst.root_transform(true);
     for (const double scale : { 1.0, -2.0 }) {
-        dst.begin_part("leaf", Imath::M44d().setScale(scale) * up);
+        dst.begin_part("leaf", Imath::M44d().setScale(scale) * up, dst.add_node("leaf", -1));
         for (int corner = 0; corner < 3; ++corner) {
             const float* at = numbers + 1 + 3 * corner;
             dst.add_vertex(V3d(at[0], at[1], at[2]), V3d(0), nullptr);
@@ -199,7 +199,7 @@ TEST_F(MeshFiles, AFormatOfItsOwnIsATableEntry)
     ASSERT_TRUE(import_mesh(mesh, path, {}, error, before_open, formats_and_tri())) << error;
     EXPECT_EQ(opened, path);
     EXPECT_EQ(mesh.name, "a.obj");
-    EXPECT_EQ(mesh.materials, (std::vector<uint32_t> { 0, 1 }));
+    EXPECT_EQ(mesh.triangle_materials, (std::vector<uint32_t> { 0, 1 }));
     EXPECT_EQ(mesh.positions[1], V3d(1, 0, 0));
     EXPECT_EQ(mesh.positions[2], V3d(0, 0, -1)); // its y, since it is z-up
     EXPECT_LT((area_vector(mesh) - V3d(0, 0.5 - 2, 0)).length(), 1e-9) << "a mirrored part keeps the outside out";

@@ -94,7 +94,7 @@ TEST_F(MeshFiles, SeveralMeshesOfAFileAreOne)
                            "o a\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
                            "o b\nusemtl blue\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 4 5 6\n");
     EXPECT_EQ(mesh.triangles.size(), 2u);
-    EXPECT_NE(mesh.materials[0], mesh.materials[1]);
+    EXPECT_NE(mesh.triangle_materials[0], mesh.triangle_materials[1]);
     // One has texture coordinates, the other none.
     int missing = 0;
     ASSERT_EQ(mesh.uvs.size(), 6u);

@@ -149,7 +149,7 @@ TEST(MeshNormals, TrianglesWithoutAreaDoNotSpoilTheirNeighbours)
     mesh.uvs.resize(mesh.positions.size());
     mesh.triangles.push_back({ first, first + 1, first + 2 });
     mesh.triangles.push_back({ first + 3, first + 3, first + 3 });
-    mesh.materials.resize(4);
+    mesh.triangle_materials.resize(4);
     make_smooth_normals(mesh, 180);
     for (size_t v = 0; v < mesh.positions.size(); ++v)
         if (mesh.positions[v] == V3d(7) || mesh.positions[v] == V3d(0, 1, 0))
@@ -216,6 +216,6 @@ TEST(MeshHash, IsStableAndTellsMeshesApart)
     expect_new([](Mesh& m) { m = Mesh(); });
     Mesh renamed = mesh;
     renamed.name = "other";
-    renamed.materials[0] = 7;
+    renamed.triangle_materials[0] = 7;
     EXPECT_EQ(mesh_hash(renamed), hash); // neither is geometry
 }

@@ -14,7 +14,7 @@ TEST_F(MeshFiles, ObjKeepsPositionsNormalsAndTextureCoordinates)
     const Mesh mesh = read("quad.obj", kQuadObj);
     EXPECT_EQ(mesh.name, "quad.obj");
     EXPECT_EQ(mesh.triangles.size(), 2u);
-    EXPECT_EQ(mesh.materials.size(), 2u);
+    EXPECT_EQ(mesh.triangle_materials.size(), 2u);
     ASSERT_EQ(mesh.positions.size(), 4u);
     ASSERT_EQ(mesh.normals.size(), 4u);
     ASSERT_EQ(mesh.uvs.size(), 4u);

@@ -27,7 +27,7 @@ inline void add_quad(Mesh& mesh, V3d a, V3d b, V3d c, V3d d, V2f uv0 = V2f(NAN),
         mesh.uvs.push_back(uv);
     mesh.triangles.push_back({ first, first + 1, first + 2 });
     mesh.triangles.push_back({ first, first + 2, first + 3 });
-    mesh.materials.insert(mesh.materials.end(), 2, 0);
+    mesh.triangle_materials.insert(mesh.triangle_materials.end(), 2, 0);
 }
 
 /// A square of side 2 `half` around `centre` in the plane z = centre.z, facing +z, over the whole texture.
@@ -62,7 +62,7 @@ inline Mesh disc(V3d centre, double radius, int sides = 2000)
     mesh.normals.assign(mesh.positions.size(), V3f(0, 0, -1));
     for (int i = 0; i < sides; ++i)
         mesh.triangles.push_back({ 0, uint32_t(1 + (i + 1) % sides), uint32_t(1 + i) });
-    mesh.materials.assign(mesh.triangles.size(), 0);
+    mesh.triangle_materials.assign(mesh.triangles.size(), 0);
     return mesh;
 }
 
@@ -93,7 +93,7 @@ inline Mesh sphere(V3d centre, double radius, int rings, bool inward = false)
                 mesh.triangles.push_back(t);
             }
         }
-    mesh.materials.assign(mesh.triangles.size(), 0);
+    mesh.triangle_materials.assign(mesh.triangles.size(), 0);
     return mesh;
 }
 
@@ -179,7 +179,7 @@ inline Mesh icosphere(int cuts)
         }
         const uint32_t first = uint32_t(3 * t);
         mesh.triangles.push_back({ first, first + 1, first + 2 });
-        mesh.materials.push_back(0);
+        mesh.triangle_materials.push_back(0);
     }
     return mesh;
 }
@@ -215,7 +215,7 @@ inline void append(Mesh& mesh, const Mesh& other)
     mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
     for (const auto& t : other.triangles)
         mesh.triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
-    mesh.materials.insert(mesh.materials.end(), other.materials.begin(), other.materials.end());
+    mesh.triangle_materials.insert(mesh.triangle_materials.end(), other.triangle_materials.begin(), other.triangle_materials.end());
 }
 
 } // namespace vmlight::scenes

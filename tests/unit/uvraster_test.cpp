@@ -32,7 +32,7 @@ struct Flat
     void triangle(uint32_t a, uint32_t b, uint32_t c)
     {
         mesh.triangles.push_back({ a, b, c });
-        mesh.materials.push_back(0);
+        mesh.triangle_materials.push_back(0);
     }
 
     int width, height;

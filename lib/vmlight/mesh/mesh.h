@@ -4,6 +4,7 @@
 
 #include <vmlight/base/export.h>
 #include <vmlight/base/params.h>
+#include <vmlight/mesh/material.h>
 
 #include <Imath/ImathVec.h>
 
@@ -13,6 +14,13 @@
 #include <vector>
 
 namespace vmlight {
+
+/// A node of a mesh file's hierarchy, or an object or group of a file without one.
+struct MeshNode
+{
+    std::string name;
+    int parent = -1; ///< index of a node before this one; -1 at the top
+};
 
 /// Triangles in object space (the file's own, right-handed, y up), counter-clockwise seen from outside. Every vertex
 /// has a position and a unit normal. Vertices without texture coordinates have NaN in `uvs`; if none has any, `uvs` is
@@ -31,14 +39,25 @@ struct Mesh
     /// v = 0 is the bottom of the texture, whatever the file's convention.
     std::vector<Imath::V2f> uvs;
     std::vector<std::array<uint32_t, 3>> triangles;
-    /// The file's material index of each triangle.
-    std::vector<uint32_t> materials;
+    /// For each triangle, an index into `materials`; empty if unknown.
+    std::vector<uint32_t> triangle_materials;
+    /// For each triangle, an index into `nodes`; empty if unknown.
+    std::vector<uint32_t> triangle_nodes;
+    /// The file's materials, in its order. Triangles without one have a material without a name.
+    std::vector<Material> materials;
+    /// Parents come before their children.
+    std::vector<MeshNode> nodes;
+    /// Where the normals are from, in words: "from the file", "flat", "flat for 12 of 40 triangles, else from the
+    /// file".
+    std::string normals_from;
+    /// What a user should know of how the file was read, one sentence each.
+    std::vector<std::string> warnings;
 };
 
 struct MeshParams
 {
-    /// `file` keeps the file's normals and computes smooth ones where they are missing; `smooth` and `flat` compute
-    /// all.
+    /// `file` keeps the file's normals, and computes missing ones as its format asks (see read_mesh()); `smooth` and
+    /// `flat` compute all.
     std::string normals = "file";
     /// Smooth normals keep edges hard whose face normals differ by more than this, in degrees.
     double crease_angle = 180;
@@ -50,7 +69,7 @@ struct MeshParams
     template <class Visit> void visit(Visit&& field)
     {
         field("normals", normals,
-              Choices { { { "file", "from the mesh file, smooth where missing" },
+              Choices { { { "file", "from the mesh file; missing ones as its format asks" },
                           { "smooth", "averaged at each vertex, weighted by angle" },
                           { "flat", "one per triangle" } } },
               "Vertex normals");
@@ -78,8 +97,19 @@ VMLIGHT_API void make_flat_normals(Mesh& mesh);
 /// Source: G. Thuermer, C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998.
 VMLIGHT_API void make_smooth_normals(Mesh& mesh, double crease_angle);
 
+/// Whether a normal is missing: normals are of unit length, or zero.
+inline bool is_missing_normal(const Imath::V3f& normal)
+{
+    return !(normal.length2() > 0.25f);
+}
+
+/// The smoothing group of triangles with flat normals.
+constexpr uint32_t kFlatGroup = 0;
+
 /// As make_smooth_normals(), but only for vertices whose normal is zero.
-VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle);
+/// @param groups   a smoothing group for each triangle: normals are smooth across triangles of one group, and those of
+///                 kFlatGroup flat; empty: all are of one group
+VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups = {});
 
 /// Merge vertices whose position, normal and uv agree bit for bit, and order them by first use.
 VMLIGHT_API void merge_equal_vertices(Mesh& mesh);

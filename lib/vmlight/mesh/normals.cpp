@@ -93,14 +93,20 @@ struct TriangleFans
         first_corner.pop_back();
     }
 
-    V3f smooth_normal(uint32_t vertex, uint32_t triangle, double crease_angle) const
+    /// @param groups   see fill_missing_normals()
+    V3f smooth_normal(uint32_t vertex, uint32_t triangle, double crease_angle,
+                      const std::vector<uint32_t>& groups) const
     {
+        if (!groups.empty() && groups[triangle] == kFlatGroup)
+            return triangle_normals[triangle];
         const uint32_t position = position_of_vertex[vertex];
         const V3f& own = triangle_normals[triangle];
         const double least_cosine = std::cos(crease_angle * latlong::pi / 180);
         V3d sum(0);
         double weight = 0;
         for (uint32_t c = first_corner[position]; c < first_corner[position + 1]; ++c) {
+            if (!groups.empty() && groups[corners[c].triangle] != groups[triangle])
+                continue;
             const V3f& other = triangle_normals[corners[c].triangle];
             const bool joins = crease_angle >= 180 || corners[c].triangle == triangle || own.length2() == 0
                 || own.dot(other) >= least_cosine - 1e-6; // rounding of a dot product of unit vectors
@@ -128,10 +134,9 @@ void make_smooth_normals(Mesh& mesh, double crease_angle)
     fill_missing_normals(mesh, crease_angle);
 }
 
-void fill_missing_normals(Mesh& mesh, double crease_angle)
+void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups)
 {
-    const auto is_missing = [](const V3f& n) { return !(n.length2() > 0.25f); };
-    if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_missing)) {
+    if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_missing_normal)) {
         merge_equal_vertices(mesh);
         return;
     }
@@ -139,7 +144,7 @@ void fill_missing_normals(Mesh& mesh, double crease_angle)
     rebuild(mesh, [&](size_t t, const auto& triangle, int k) {
         const uint32_t vertex = triangle[k];
         const V3f& normal = mesh.normals[vertex];
-        return is_missing(normal) ? fans.smooth_normal(vertex, uint32_t(t), crease_angle) : normal;
+        return is_missing_normal(normal) ? fans.smooth_normal(vertex, uint32_t(t), crease_angle, groups) : normal;
     });
 }
 

@@ -2,6 +2,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/import/assimp_importer.h>
 
+#include <assimp/material.h>
 #include <assimp/scene.h>
 
 namespace vmlight {
@@ -30,10 +31,11 @@ bool is_z_up(const aiScene& imported)
 }
 
 // @param exact     of this part, or nullptr
-void append_part(MeshBuilder& dst, const aiMesh& part, const std::vector<V3d>* exact, const Imath::M44d& to_object)
+void append_part(MeshBuilder& dst, const aiMesh& part, const std::vector<V3d>* exact, const Imath::M44d& to_object,
+                 uint32_t node)
 {
     const unsigned set = unsigned(dst.params().uv_set);
-    dst.begin_part(part.mName.C_Str(), to_object);
+    dst.begin_part(part.mName.C_Str(), to_object, node);
     for (unsigned i = 0; i < part.mNumVertices; ++i) {
         V2f uv(0);
         if (part.HasTextureCoords(set))
@@ -50,22 +52,28 @@ void append_part(MeshBuilder& dst, const aiMesh& part, const std::vector<V3d>* e
 }
 
 void append_node(MeshBuilder& dst, const aiScene& imported, const ExactPositions& exact, const aiNode& node,
-                 const Imath::M44d& parent)
+                 const Imath::M44d& parent_to_object, int parent)
 {
-    const Imath::M44d to_object = matrix_of(node.mTransformation) * parent;
+    const Imath::M44d to_object = matrix_of(node.mTransformation) * parent_to_object;
+    const uint32_t index = dst.add_node(node.mName.C_Str(), parent);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         const unsigned number = node.mMeshes[i];
-        append_part(dst, *imported.mMeshes[number], exact.empty() ? nullptr : &exact[number], to_object);
+        append_part(dst, *imported.mMeshes[number], exact.empty() ? nullptr : &exact[number], to_object, index);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i)
-        append_node(dst, imported, exact, *node.mChildren[i], to_object);
+        append_node(dst, imported, exact, *node.mChildren[i], to_object, int(index));
 }
 
 } // namespace
 
 void append_imported(MeshBuilder& dst, const aiScene& imported, const ExactPositions& exact)
 {
-    append_node(dst, imported, exact, *imported.mRootNode, dst.root_transform(is_z_up(imported)));
+    for (unsigned i = 0; i < imported.mNumMaterials; ++i) {
+        Material material;
+        material.name = imported.mMaterials[i]->GetName().C_Str();
+        dst.add_material(std::move(material));
+    }
+    append_node(dst, imported, exact, *imported.mRootNode, dst.root_transform(is_z_up(imported)), -1);
     if (!exact.empty())
         dst.set_exact_positions();
 }

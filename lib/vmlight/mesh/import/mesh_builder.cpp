@@ -4,6 +4,8 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 
+#include <OpenImageIO/strutil.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,8 +40,28 @@ Imath::M44d MeshBuilder::root_transform(bool is_file_z_up) const
     return to_y_up;
 }
 
-void MeshBuilder::begin_part(const std::string& name, const Imath::M44d& to_object)
+uint32_t MeshBuilder::add_material(Material material)
 {
+    m_mesh.materials.push_back(std::move(material));
+    return uint32_t(m_mesh.materials.size() - 1);
+}
+
+uint32_t MeshBuilder::add_node(const std::string& name, int parent)
+{
+    m_mesh.nodes.push_back({ name, parent });
+    return uint32_t(m_mesh.nodes.size() - 1);
+}
+
+void MeshBuilder::warn(const std::string& sentence)
+{
+    std::string line = shortened_line(sentence);
+    if (std::find(m_mesh.warnings.begin(), m_mesh.warnings.end(), line) == m_mesh.warnings.end())
+        m_mesh.warnings.push_back(std::move(line));
+}
+
+void MeshBuilder::begin_part(const std::string& name, const Imath::M44d& to_object, uint32_t node)
+{
+    m_node = node;
     m_part = name;
     m_to_object = to_object;
     m_normals_to_object = to_object.inverse().transposed();
@@ -68,7 +90,7 @@ void MeshBuilder::add_vertex(const V3d& position, const V3d& normal, const V2f* 
     m_has_uvs |= uv != nullptr;
 }
 
-void MeshBuilder::add_triangle(std::array<uint32_t, 3> corners, uint32_t material)
+void MeshBuilder::add_triangle(std::array<uint32_t, 3> corners, uint32_t material, uint32_t smoothing_group)
 {
     const size_t count = m_mesh.positions.size() - m_first;
     for (uint32_t& corner : corners) {
@@ -79,7 +101,50 @@ void MeshBuilder::add_triangle(std::array<uint32_t, 3> corners, uint32_t materia
     if (m_is_mirrored)
         std::swap(corners[1], corners[2]); // a mirror turns the winding inside out
     m_mesh.triangles.push_back(corners);
-    m_mesh.materials.push_back(material);
+    m_mesh.triangle_materials.push_back(material);
+    m_mesh.triangle_nodes.push_back(m_node);
+    if (smoothing_group != kFlatGroup && smoothing_group != kSmoothGroup)
+        smoothing_group
+            = m_group_numbers.emplace(std::pair(m_first, smoothing_group), uint32_t(m_group_numbers.size() + 1))
+                  .first->second;
+    m_groups.push_back(smoothing_group);
+}
+
+void MeshBuilder::compute_normals()
+{
+    const size_t count = m_mesh.triangles.size();
+    if (m_params.normals == "flat") {
+        m_mesh.normals_from = "flat";
+        make_flat_normals(m_mesh);
+        return;
+    }
+    if (m_params.normals == "smooth") {
+        m_mesh.normals_from = "smooth";
+        make_smooth_normals(m_mesh, m_params.crease_angle);
+        return;
+    }
+    size_t flat = 0, smooth = 0, grouped = 0;
+    for (size_t t = 0; t < count; ++t) {
+        const auto& triangle = m_mesh.triangles[t];
+        if (std::none_of(triangle.begin(), triangle.end(),
+                         [&](uint32_t vertex) { return is_missing_normal(m_mesh.normals[vertex]); }))
+            continue;
+        ++(m_groups[t] == kFlatGroup ? flat : m_groups[t] == kSmoothGroup ? smooth : grouped);
+    }
+    std::vector<std::string> rules;
+    const auto add_rule = [&](size_t triangles, const char* rule) {
+        if (triangles == count)
+            rules.push_back(rule);
+        else if (triangles > 0)
+            rules.push_back(format("{} for {} of {} triangles", rule, triangles, count));
+    };
+    add_rule(flat, "flat");
+    add_rule(grouped, "smooth within smoothing groups");
+    add_rule(smooth, "smooth");
+    if (flat + smooth + grouped < count)
+        rules.push_back(rules.empty() ? "from the file" : "else from the file");
+    m_mesh.normals_from = OIIO::Strutil::join(rules, ", ");
+    fill_missing_normals(m_mesh, m_params.crease_angle, m_groups);
 }
 
 bool MeshBuilder::finish(std::string& error)
@@ -90,12 +155,7 @@ bool MeshBuilder::finish(std::string& error)
     }
     if (!m_has_uvs)
         m_mesh.uvs.clear();
-    if (m_params.normals == "flat")
-        make_flat_normals(m_mesh);
-    else if (m_params.normals == "smooth")
-        make_smooth_normals(m_mesh, m_params.crease_angle);
-    else
-        fill_missing_normals(m_mesh, m_params.crease_angle);
+    compute_normals();
     return true;
 }
 

@@ -10,9 +10,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace vmlight {
+
+/// The smoothing group of formats that have none: smooth over all parts of the file.
+constexpr uint32_t kSmoothGroup = 0xffffffff;
 
 /// Appends the parts of a file to a mesh, each with the transform of its node. No number is trusted to be finite.
 class MeshBuilder
@@ -31,18 +37,29 @@ public:
     /// @param is_file_z_up     what the file's axis metadata says; false if it has none
     Imath::M44d root_transform(bool is_file_z_up) const;
 
+    /// @returns the index that add_triangle() takes
+    uint32_t add_material(Material material);
+    /// @param parent   of a node added before, or -1
+    /// @returns the index that begin_part() takes
+    uint32_t add_node(const std::string& name, int parent);
+    /// Something that the user should know, as a sentence without the file's path. Said once each.
+    void warn(const std::string& sentence);
+
     /// Start a part (a mesh under a node). As everywhere in Imath, `to_object` multiplies row vectors.
-    void begin_part(const std::string& name, const Imath::M44d& to_object);
+    void begin_part(const std::string& name, const Imath::M44d& to_object, uint32_t node);
     /// @param normal   of any length; zero or not finite if the file has none: finish() computes it
     /// @param uv       v up, of the set params().uv_set; nullptr if the part has no such set
     void add_vertex(const Imath::V3d& position, const Imath::V3d& normal, const Imath::V2f* uv);
     /// @param corners  vertices of this part, from 0, that add_vertex() has added
-    void add_triangle(std::array<uint32_t, 3> corners, uint32_t material);
+    /// @param material from add_material()
+    /// @param smoothing_group  how normals that the file lacks are computed: see fill_missing_normals(). Groups of
+    ///                 different parts are different ones, unless both are kSmoothGroup
+    void add_triangle(std::array<uint32_t, 3> corners, uint32_t material, uint32_t smoothing_group = kSmoothGroup);
 
     /// The positions are the file's own, without rounding to float.
     void set_exact_positions() { m_mesh.has_exact_positions = true; }
 
-    /// Compute the normals that are missing or asked for, and merge equal vertices.
+    /// Compute the normals that are missing or asked for, say so in Mesh::normals_from, and merge equal vertices.
     /// @returns false, with the reason in `error`, if there is no triangle, a vertex is not finite or beyond 1e70 (the
     ///          first is named), or a triangle has a vertex that does not exist
     bool finish(std::string& error);
@@ -50,10 +67,15 @@ public:
 private:
     Mesh& m_mesh;
     const MeshParams& m_params;
+    void compute_normals();
+
     std::string m_part, m_error;
     Imath::M44d m_to_object, m_normals_to_object;
     bool m_is_mirrored = false, m_has_uvs = false;
     size_t m_first = 0; // vertex of the part
+    uint32_t m_node = 0;
+    std::vector<uint32_t> m_groups; // of each triangle, unique across parts
+    std::map<std::pair<size_t, uint32_t>, uint32_t> m_group_numbers; // by first vertex of the part and its group
 };
 
 } // namespace vmlight
