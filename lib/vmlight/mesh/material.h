@@ -5,6 +5,7 @@
 #include <Imath/ImathColor.h>
 #include <Imath/ImathMatrix.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -13,9 +14,11 @@ namespace vmlight {
 /// An image that a material names, and how to look it up.
 struct MaterialTexture
 {
-    /// The file, relative to the working folder as the mesh is; "" if the image is embedded, or there is none.
+    /// The file, as the mesh's path is from the working folder; "" if there is none, or it is in `embedded`.
     std::string path;
-    /// A whole image file (PNG, JPEG, ...) from inside the mesh file; nullptr if there is none.
+    /// Which bytes of that file are an image file (PNG, JPEG, ...): all if `length` is 0.
+    uint64_t offset = 0, length = 0;
+    /// A whole image file that is written as text in the mesh file; nullptr if there is none.
     std::shared_ptr<const std::string> embedded;
     /// The UV set it is looked up with; 0 is the first.
     int uv_set = 0;

@@ -45,11 +45,10 @@ bool is_stl(const FileHead& head);
 
 /// glTF: starts as a GLB does, or as a JSON object with "asset" near its start.
 bool is_gltf(const FileHead& head);
-/// Refuses JSON nested more than 1000 deep, a node with two parents (assimp 5.2 copies it, and doubles memory at each
-/// of a chain of them) or that is its own ancestor, and a scene that expands to more than a million nodes, since it may
-/// name a root many times. Invalid JSON is left to assimp. Source: Khronos, glTF 2.0 specification, 3.5.2 (node
-/// hierarchy) and 4.4 (GLB).
-Inspection inspect_gltf(const std::string& bytes);
+/// MeshFormat::read of glTF 2.0, .gltf and .glb: see gltf/. Shows the default scene, in the pose of its nodes and of the
+/// default weights of morph targets. Normals that it lacks are flat. Refuses extensions that it does not read, if the
+/// file requires them.
+bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& error);
 
 /// Collada: XML, in 8 or 16 bits, with "<collada" near its start, in any case.
 bool is_collada(const FileHead& head);

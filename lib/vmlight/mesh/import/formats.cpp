@@ -25,7 +25,7 @@ const std::vector<MeshFormat>& mesh_formats()
         { "OBJ", "obj", is_obj, inspect_obj, read_with_assimp },
         { "PLY", "ply", is_ply, inspect_ply, read_with_assimp },
         { "STL", "stl", is_stl, nullptr, read_with_assimp },
-        { "glTF 2.0", "gltf glb", is_gltf, inspect_gltf, read_with_assimp },
+        { "glTF 2.0", "gltf glb", is_gltf, nullptr, read_gltf },
         { "Collada", "dae xml", is_collada, inspect_collada, read_with_assimp },
         { "FBX", "fbx", is_fbx, inspect_fbx, read_with_assimp },
     };

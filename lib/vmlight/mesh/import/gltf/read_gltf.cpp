@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/available_memory.h>
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/mesh/import/format_checks.h>
+#include <vmlight/mesh/import/gltf/document.h>
+#include <vmlight/mesh/import/gltf/hierarchy.h>
+#include <vmlight/mesh/import/gltf/instances.h>
+#include <vmlight/mesh/import/gltf/material.h>
+#include <vmlight/mesh/import/gltf/primitive.h>
+#include <vmlight/mesh/import/gltf/skin.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vmlight {
+namespace {
+
+using namespace gltf;
+using Imath::M44d;
+using Imath::V3d;
+
+// Appends what the nodes of a document show to its builder.
+class Walk
+{
+public:
+    explicit Walk(Document& document)
+        : m_document(document)
+        , m_model(document.model())
+        , m_roots(root_nodes(m_model))
+    {
+        check_hierarchy(m_model, m_roots);
+        m_transforms = node_transforms(m_model);
+    }
+
+    void append_all()
+    {
+        const M44d to_object = m_document.builder().root_transform(false);
+        for (const int root : m_roots)
+            append_node(root, -1, to_object);
+        if (m_model.nodes.empty()) // a library of meshes
+            for (size_t mesh = 0; mesh < m_model.meshes.size(); ++mesh)
+                append_mesh(int(mesh), m_model.meshes[mesh].weights, -1,
+                            m_document.builder().add_node(m_model.meshes[mesh].name, -1), { to_object });
+    }
+
+private:
+    // Recurses as deep as the hierarchy.
+    void append_node(int index, int parent, const M44d& to_object)
+    {
+        if (!is_node_visible(m_model, index))
+            return;
+        const tinygltf::Node& node = m_model.nodes[size_t(index)];
+        const uint32_t number = m_document.builder().add_node(node.name, parent);
+        if (node.mesh >= 0) {
+            if (size_t(node.mesh) >= m_model.meshes.size())
+                throw Error(
+                    format("node {} has mesh {}, but there are only {}", index, node.mesh, m_model.meshes.size()));
+            std::vector<M44d> places;
+            if (node.skin >= 0)
+                places = { to_object };
+            else
+                for (const M44d& instance : read_instances(m_document, node))
+                    places.push_back(instance * m_transforms[size_t(index)] * to_object);
+            append_mesh(node.mesh, node.weights.empty() ? m_model.meshes[size_t(node.mesh)].weights : node.weights,
+                        node.skin, number, places);
+        }
+        for (const int child : node.children)
+            append_node(child, int(number), to_object);
+    }
+
+    void append_mesh(int mesh, const std::vector<double>& weights, int skin, uint32_t node,
+                     const std::vector<M44d>& places)
+    {
+        const auto& primitives = m_model.meshes[size_t(mesh)].primitives;
+        std::vector<Primitive> parts;
+        for (size_t i = 0; i < primitives.size(); ++i) {
+            parts.push_back(
+                read_primitive(m_document, mesh, int(i), weights, m_document.builder().params().uv_set, skin >= 0));
+            if (skin >= 0)
+                apply_skin(parts.back(), m_document, skin, m_transforms);
+        }
+        check_memory(parts, places.size());
+        for (const M44d& place : places)
+            for (size_t i = 0; i < parts.size(); ++i)
+                append_part(parts[i], primitives[i].material, m_model.meshes[size_t(mesh)].name, node, place);
+    }
+
+    void append_part(const Primitive& part, int material, const std::string& name, uint32_t node, const M44d& place)
+    {
+        const size_t materials = m_model.materials.size(); // the one after them is for parts without
+        MeshBuilder& builder = m_document.builder();
+        builder.begin_part(name, place, node);
+        for (size_t v = 0; v < part.positions.size(); ++v)
+            builder.add_vertex(part.positions[v], part.normals.empty() ? V3d(0) : part.normals[v],
+                               part.uvs.empty() ? nullptr : &part.uvs[v]);
+        for (const auto& triangle : part.triangles)
+            builder.add_triangle(
+                triangle, uint32_t(material >= 0 && size_t(material) < materials ? material : materials), kFlatGroup);
+    }
+
+    // A short file may ask for a large mesh a million times.
+    static void check_memory(const std::vector<Primitive>& parts, size_t copies)
+    {
+        double vertices = 0, triangles = 0;
+        for (const Primitive& part : parts) {
+            vertices += double(copies) * double(part.positions.size());
+            triangles += double(copies) * double(part.triangles.size());
+        }
+        const double bytes = vertices * 44 + triangles * 24; // of Mesh
+        if (vertices > UINT32_MAX || bytes > double(available_memory()))
+            throw Error(format("{:.6g} vertices and {:.6g} triangles need {:.3g} GB of memory, {:.3g} available",
+                               vertices, triangles, bytes * 1e-9, double(available_memory()) * 1e-9));
+    }
+
+    Document& m_document;
+    const tinygltf::Model& m_model;
+    const std::vector<int> m_roots;
+    std::vector<M44d> m_transforms;
+};
+
+} // namespace
+
+bool is_gltf(const FileHead& head)
+{
+    const OIIO::string_view text = first_text(head);
+    return OIIO::Strutil::starts_with(head.bytes, "glTF")
+        || (OIIO::Strutil::starts_with(text, "{") && OIIO::Strutil::contains(text, "\"asset\""));
+}
+
+bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& error)
+{
+    try {
+        Document document(request, dst);
+        add_materials(document);
+        Walk(document).append_all();
+        return true;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) { // of this room, or of the libraries that it uses
+        error = format("cannot read as {}: {}", request.format.name,
+                       shortened_line(OIIO::Strutil::strip(exception.what())));
+        return false;
+    }
+}
+
+} // namespace vmlight
