@@ -5,6 +5,7 @@
 //   mesh_fuzz -max_total_time=60 NEW_CORPUS tests/fuzz/mesh_corpus
 #include "imported_of_bytes.h"
 #include "law.h"
+#include "mesh_law.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/import/assimp_importer.h>
@@ -15,11 +16,6 @@ using namespace vmlight;
 using namespace vmlight::fuzz;
 
 namespace {
-
-std::string said(const Imath::V3d& v)
-{
-    return format("({}, {}, {})", v.x, v.y, v.z);
-}
 
 // Vertices that no float holds.
 ExactPositions exact_of(const aiScene& imported)
@@ -52,17 +48,7 @@ bool read_imported(Mesh& mesh, Bytes& bytes)
         require_reason(error);
         return false;
     }
-    require(error.empty() && !mesh.triangles.empty() && mesh.normals.size() == mesh.positions.size()
-                && mesh.triangle_materials.size() == mesh.triangles.size()
-                && (mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size()),
-            "a mesh is whole", error);
-    for (const auto& triangle : mesh.triangles)
-        for (uint32_t vertex : triangle)
-            require(vertex < mesh.positions.size(), "a corner is a vertex", std::to_string(vertex));
-    for (const Imath::V3d& p : mesh.positions)
-        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "positions are finite", said(p));
-    for (const Imath::V3f& n : mesh.normals)
-        require(n == Imath::V3f(0) || std::abs(n.length() - 1) < 1e-5, "normals are of unit length", said(n));
+    require_whole(mesh);
     return true;
 }
 

@@ -169,7 +169,7 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
         none);
     const std::string first = R"({"asset":{"version":"1.0"},"scene":"s","scenes":{"s":{"nodes":["a"]}},)"
                               R"("nodes":{"a":{"children":["b"]},"b":{"children":["a"]}}})";
-    EXPECT_EQ(refusal(folder, "a.gltf", first), "cannot read as glTF 2.0: Unsupported glTF version: 1.0");
+    EXPECT_EQ(refusal(folder, "a.gltf", first), "glTF version 1.0; supported: 2.0");
     EXPECT_EQ(refusal(folder, "a.3mf", "PK\3\4"), "a zip archive: unpack it, and pass the mesh inside");
     row.ours("refused; README lists the formats that are read");
 }

@@ -5,14 +5,13 @@
 
 #include <vmlight/mesh/import/gltf/container.h>
 #include <vmlight/mesh/import/importer.h>
+#include <vmlight/mesh/tinygltf.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <tiny_gltf.h>
 
 namespace vmlight::gltf {
 

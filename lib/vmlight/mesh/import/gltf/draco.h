@@ -3,15 +3,12 @@
 #pragma once
 
 #include <vmlight/mesh/import/gltf/accessor.h>
+#include <vmlight/mesh/tinygltf.h>
 
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
-
-namespace tinygltf {
-struct Primitive;
-}
 
 namespace vmlight::gltf {
 

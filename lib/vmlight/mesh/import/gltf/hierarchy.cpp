@@ -4,12 +4,11 @@
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/import/gltf/error.h>
 #include <vmlight/mesh/import/node_graph.h>
+#include <vmlight/mesh/tinygltf.h>
 
 #include <Imath/ImathQuat.h>
 
 #include <algorithm>
-
-#include <tiny_gltf.h>
 
 namespace vmlight::gltf {
 namespace {

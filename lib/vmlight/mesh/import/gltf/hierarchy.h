@@ -2,14 +2,12 @@
 /// The nodes of a glTF: who is whose child, where each is, and which can be seen.
 #pragma once
 
+#include <vmlight/mesh/tinygltf.h>
+
 #include <Imath/ImathMatrix.h>
 
 #include <string>
 #include <vector>
-
-namespace tinygltf {
-class Model;
-}
 
 namespace vmlight::gltf {
 

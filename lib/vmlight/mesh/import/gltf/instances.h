@@ -2,13 +2,11 @@
 /// EXT_mesh_gpu_instancing.
 #pragma once
 
+#include <vmlight/mesh/tinygltf.h>
+
 #include <Imath/ImathMatrix.h>
 
 #include <vector>
-
-namespace tinygltf {
-class Node;
-}
 
 namespace vmlight::gltf {
 

@@ -2,12 +2,10 @@
 /// Buffer views compressed by meshoptimizer.
 #pragma once
 
+#include <vmlight/mesh/tinygltf.h>
+
 #include <cstdint>
 #include <vector>
-
-namespace tinygltf {
-class Value;
-}
 
 namespace vmlight::gltf {
 

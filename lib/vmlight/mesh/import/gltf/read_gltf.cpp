@@ -139,13 +139,14 @@ bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& erro
         add_materials(document);
         Walk(document).append_all();
         return true;
+    } catch (const gltf::Error& reason) {
+        error = shortened_line(OIIO::Strutil::strip(reason.what()));
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception& exception) { // of this room, or of the libraries that it uses
-        error = format("cannot read as {}: {}", request.format.name,
-                       shortened_line(OIIO::Strutil::strip(exception.what())));
-        return false;
+    } catch (const std::exception& exception) { // of the libraries that the room uses
+        error = format("cannot read as glTF 2.0: {}", shortened_line(exception.what()));
     }
+    return false;
 }
 
 } // namespace vmlight

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/gltf/uri.h>
+#include <vmlight/mesh/tinygltf.h>
 
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cctype>
 #include <limits>
-
-#include <tiny_gltf.h>
 
 namespace vmlight::gltf {
 namespace {

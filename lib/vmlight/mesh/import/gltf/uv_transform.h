@@ -2,12 +2,12 @@
 /// KHR_texture_transform: of textures, and of UVs that were quantized.
 #pragma once
 
+#include <vmlight/mesh/tinygltf.h>
+
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
 
 #include <vector>
-
-#include <tiny_gltf.h>
 
 namespace vmlight::gltf {
 

@@ -2,11 +2,11 @@
 /// Members of extension objects.
 #pragma once
 
+#include <vmlight/mesh/tinygltf.h>
+
 #include <cstddef>
 #include <limits>
 #include <string>
-
-#include <tiny_gltf.h>
 
 namespace vmlight::gltf {
 

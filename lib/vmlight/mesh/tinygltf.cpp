@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
+// The implementation of tinygltf, which nothing else may compile.
+#define TINYGLTF_IMPLEMENTATION
+#include <vmlight/mesh/tinygltf.h>
