@@ -279,4 +279,12 @@ void CommandTest::shrink(const std::string& src, const std::string& dst) const
     EXPECT_TRUE(small.write(path(dst))) << small.geterror();
 }
 
+size_t count(const std::string& text, const std::string& part)
+{
+    size_t found = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
+    return found;
+}
+
 } // namespace vmlight

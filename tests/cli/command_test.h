@@ -39,6 +39,9 @@ struct Result
     std::string all() const { return out + err; }
 };
 
+/// How often `part` occurs in `text`.
+size_t count(const std::string& text, const std::string& part);
+
 /// Each test runs in a temporary folder of its own, the current one.
 ///
 /// A command line is written as in a shell: blanks part words, single quotes keep them together. {spot}, {sky} and

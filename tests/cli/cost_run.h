@@ -8,7 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <regex>
+#include <algorithm>
+#include <cstdio>
 #include <set>
 #include <string>
 
@@ -38,11 +39,10 @@ protected:
     std::string cost(const std::string& words)
     {
         const std::string printed = done("vmcost step.obj " + words + " -o report");
-        static const std::regex line("measured (\\d+) rows?, reused (\\d+)");
-        std::smatch found;
-        EXPECT_TRUE(std::regex_search(printed, found, line)) << printed;
-        measured = found.empty() ? -1 : std::stoi(found[1]);
-        reused = found.empty() ? -1 : std::stoi(found[2]);
+        measured = reused = -1;
+        const size_t at = std::min(printed.rfind("measured "), printed.size());
+        EXPECT_EQ(std::sscanf(printed.c_str() + at, "measured %d row%*[s,] reused %d", &measured, &reused), 2)
+            << printed;
         return printed;
     }
     void expect_counts(int measured_rows, int reused_rows, const std::string& why = "") const

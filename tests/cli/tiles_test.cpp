@@ -13,14 +13,6 @@ using testing::Not;
 
 namespace {
 
-size_t count(const std::string& text, const std::string& part)
-{
-    size_t found = 0;
-    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        ++found;
-    return found;
-}
-
 /// A floor in tile 1001, a wall in 1002, and a lid in 1011.
 class Tiles : public CommandTest
 {

@@ -30,7 +30,7 @@ std::vector<double> harmonics_at(const V3d& w, int order = kOrder)
     return result;
 }
 
-V3d random_direction(std::mt19937& random)
+V3d random_unit_vector(std::mt19937& random)
 {
     std::normal_distribution<double> normal;
     return V3d(normal(random), normal(random), normal(random)).normalized();
@@ -74,7 +74,7 @@ TEST(Harmonics, FulfilTheAdditionTheorem)
     // The squares of a band sum to (2 l + 1) / (4 pi), poles included.
     std::mt19937 random(5);
     for (int i = 0; i < 50; ++i) {
-        const V3d w = i == 0 ? V3d(0, 1, 0) : i == 1 ? V3d(0, -1, 0) : random_direction(random);
+        const V3d w = i == 0 ? V3d(0, 1, 0) : i == 1 ? V3d(0, -1, 0) : random_unit_vector(random);
         const std::vector<double> y = harmonics_at(w);
         for (int l = 0; l < kOrder; ++l) {
             double sum = 0;
@@ -93,7 +93,7 @@ TEST(Harmonics, TurnWithTheirFunction)
         const Rotation turn = rotation_from_angles(20, -75, 130);
         const std::vector<double> turned = rotate_harmonics(coefficients, order, turn);
         for (int i = 0; i < 20; ++i) {
-            const V3d w = random_direction(random);
+            const V3d w = random_unit_vector(random);
             const std::vector<double> here = harmonics_at(w, order), there = harmonics_at(rotate(turn, w), order);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(sum_at(turned, here, c), sum_at(coefficients, there, c), 2e-5) << order;

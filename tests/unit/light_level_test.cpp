@@ -53,7 +53,7 @@ TEST(LightLevel, LuminanceIsThatOfTheWorkingSpace)
 TEST(LightLevel, MeanAndPercentileOfARamp)
 {
     // 0, .01, ... 1, of which 0 is not lit.
-    const ImageBuf map = vismap(101, 1, [](int, int) { return Texel { 1, V3f(0, 0, 2.0f / 3) }; });
+    const ImageBuf map = vismap(101, 1, [](int, int) { return VismapTexel { 1, V3f(0, 0, 2.0f / 3) }; });
     const LightLevel level = measure_light(gray_ramp(101, 0.01f), map);
     EXPECT_EQ(level.texels, 100);
     EXPECT_NEAR(level.mean, 0.505, 1e-6);
@@ -73,14 +73,14 @@ TEST(LightLevel, CountsWhatTrianglesCoverOrWhatSeesAnything)
     const ImageBuf ramp = gray_ramp(8, 1);
     EXPECT_EQ(measure_light(ramp, covered).texels, 3);
     EXPECT_NEAR(measure_light(ramp, covered).mean, 2, 1e-6);
-    const ImageBuf plain = vismap(8, 1, [](int x, int) { return Texel { x < 6 ? 1.0f : 0, V3f(0) }; });
+    const ImageBuf plain = vismap(8, 1, [](int x, int) { return VismapTexel { x < 6 ? 1.0f : 0, V3f(0) }; });
     EXPECT_EQ(measure_light(ramp, plain).texels, 5);
     EXPECT_NEAR(measure_light(ramp, plain).mean, 3, 1e-6);
 }
 
 TEST(LightLevel, NothingLitAndTooMuch)
 {
-    const ImageBuf map = vismap(2, 1, [](int, int) { return Texel { 1, V3f(0) }; });
+    const ImageBuf map = vismap(2, 1, [](int, int) { return VismapTexel { 1, V3f(0) }; });
     EXPECT_EQ(measure_light(gray_ramp(2, 0), map).texels, 0);
     EXPECT_EQ(measure_light(gray_ramp(2, 0), map).stops_to_gray(), 0);
     EXPECT_EQ(measure_light(gray_ramp(2, 1e30f), map).stops_to_gray(), -64);

@@ -52,13 +52,6 @@ ImageBuf environment(const std::function<V3f(V3d direction)>& light, int width =
     return cfem(width, width / 2, light);
 }
 
-std::string refusal(const ImageBuf& vm, OIIO::cspan<ImageBuf> light, const LightmapParams& params)
-{
-    ImageBuf dst;
-    EXPECT_FALSE(make_lightmap(dst, vm, light, params));
-    return dst.geterror();
-}
-
 float visibility(const ImageBuf& vm, int i)
 {
     return pixels(vm)[i * vm.nchannels()];

@@ -101,7 +101,7 @@ TEST(LightmapInput, AlbedosDisplayWindowIsTheTexture)
 TEST(LightmapInput, AlbedoOfAnotherSizeIsResizedWithoutRinging)
 {
     const ImageBuf white = cfem(4, 2, [](V3d) { return V3f(1); });
-    const ImageBuf open = vismap(12, 12, [](int, int) { return Texel { 1, V3f(0, 1, 0) }; });
+    const ImageBuf open = vismap(12, 12, [](int, int) { return VismapTexel { 1, V3f(0, 1, 0) }; });
     // Black on the left, white on the right, in 8 bits: a filter with negative lobes would leave [0, 1] at the edge.
     for (int side : { 4, 36 }) {
         ImageBuf albedo(ImageSpec(side, side, 3, OIIO::TypeUInt8));

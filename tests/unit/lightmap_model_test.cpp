@@ -15,23 +15,15 @@ ImageBuf environment(int width, const std::function<V3f(V3d direction)>& light)
     return cfem(width, width / 2, light); // any image of a function of direction
 }
 
-std::string refusal(const ImageBuf& vm, OIIO::cspan<ImageBuf> light, const LightmapParams& params)
-{
-    ImageBuf dst;
-    EXPECT_FALSE(make_lightmap(dst, vm, light, params));
-    EXPECT_FALSE(dst.initialized());
-    return dst.geterror();
-}
-
 // A point with normal +z that sees the directions for which `open` is true: V, B and (1/pi) Int L cos dw, by midpoints.
-struct Point
+struct LitPoint
 {
     double v = 0, light = 0;
     V3d b { 0 };
 };
-template <class Open, class Light> Point integrate(Open&& open, Light&& light)
+template <class Open, class Light> LitPoint integrate(Open&& open, Light&& light)
 {
-    Point point;
+    LitPoint point;
     const int steps = 400;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < 2 * steps; ++j) {
@@ -57,7 +49,7 @@ template <class Open> double error_of(const char* name, Open&& open)
         const double z = 1 - (2 * i + 1.0) / count, a = 2.4 * i; // evenly about the sphere
         const V3d toward(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
         const auto light = [&](V3d w) { return std::exp(3 * w.dot(toward)); };
-        const Point truth = integrate(open, light);
+        const LitPoint truth = integrate(open, light);
         const auto stack = filtered_stack(environment(128, [&](V3d w) { return V3f(float(light(w))); }), 128);
         const double got = color(lit(one_texel(float(truth.v), V3f(truth.b)), stack, model(name))).x;
         sum += (got - truth.light) * (got - truth.light);
@@ -81,7 +73,7 @@ TEST(LightmapModel, ALinearEnvironmentIsExactForEveryVisibility)
     std::uniform_real_distribution<float> unit;
     const ImageBuf vm = vismap(64, 48, [&](int, int) {
         const float v = unit(random), length = unit(random) * std::min(v * kLargestLobe, float(longest_direction(v)));
-        return Texel { v, V3f(normal(random), normal(random), normal(random)).normalized() * length };
+        return VismapTexel { v, V3f(normal(random), normal(random), normal(random)).normalized() * length };
     });
     const ImageBuf image = lit(vm, stack, params);
     for (int y = 0; y < 48; ++y)
@@ -137,7 +129,7 @@ TEST(LightmapModel, LightOfASunIsNeverNegativeAndTurnsWithoutASeam)
 TEST(LightmapModel, ALobeFollowsAWallAndAWellMoreCloselyThanTheCosine)
 {
     const auto wall = [](V3d w) { return w.x > 0; };
-    const Point half = integrate(wall, [](V3d) { return 1.0; });
+    const LitPoint half = integrate(wall, [](V3d) { return 1.0; });
     EXPECT_NEAR(half.v, 0.5, 1e-12);
     EXPECT_NEAR(half.light, 0.5, 1e-12);
     EXPECT_LT((half.b - V3d(2 / (3 * latlong::pi), 0, 1.0 / 3)).length(), 1e-4);

@@ -19,7 +19,7 @@ using Imath::V3f;
 using OIIO::ImageBuf;
 using OIIO::ImageSpec;
 
-struct Texel
+struct VismapTexel
 {
     float v;
     V3f b;
@@ -34,14 +34,14 @@ inline const float* pixels(const ImageBuf& image)
     return static_cast<const float*>(image.localpixels());
 }
 
-inline ImageBuf vismap(int width, int height, const std::function<Texel(int x, int y)>& at)
+inline ImageBuf vismap(int width, int height, const std::function<VismapTexel(int x, int y)>& at)
 {
     ImageSpec spec(width, height, 4, OIIO::TypeFloat);
     spec.channelnames.assign(vmlight::kVismapChannels.begin(), vmlight::kVismapChannels.end());
     ImageBuf image(spec);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const Texel texel = at(x, y);
+            const VismapTexel texel = at(x, y);
             const float values[4] { texel.v, texel.b.x, texel.b.y, texel.b.z };
             image.setpixel(x, y, values, 4);
         }
@@ -57,13 +57,13 @@ inline ImageBuf random_vismap(int width, int height)
     return vismap(width, height, [&](int, int) {
         const float v = unit(random);
         const V3f w(normal(random), normal(random), normal(random));
-        return Texel { v, w.normalized() * (v * (1 - v / 3)) };
+        return VismapTexel { v, w.normalized() * (v * (1 - v / 3)) };
     });
 }
 
 inline ImageBuf one_texel(float v, V3f b)
 {
-    return vismap(1, 1, [&](int, int) { return Texel { v, b }; });
+    return vismap(1, 1, [&](int, int) { return VismapTexel { v, b }; });
 }
 
 inline ImageBuf cfem(int width, int height, const std::function<V3f(V3d direction)>& at)

@@ -114,7 +114,7 @@ TEST(ShadeLobe, AnUnoccludedTexelIsThePapers)
     std::mt19937 random(2);
     std::normal_distribution<float> normal;
     const ImageBuf vm = vismap(50, 50, [&](int, int) {
-        return Texel { 1, V3f(normal(random), normal(random), normal(random)).normalized() * (2.0f / 3) };
+        return VismapTexel { 1, V3f(normal(random), normal(random), normal(random)).normalized() * (2.0f / 3) };
     });
     // |B| / V is 2/3 to a rounding, and the next knot 14 times as far.
     EXPECT_LT(difference(lit(vm, stack, model("lobe")), lit(vm, stack, model("paper"))), 1e-5f);

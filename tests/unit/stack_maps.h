@@ -47,6 +47,15 @@ inline ImageBuf lit(const ImageBuf& vismap, const std::vector<ImageBuf>& stack,
     return dst;
 }
 
+/// The error of a lightmap that cannot be made.
+inline std::string refusal(const ImageBuf& vismap, OIIO::cspan<ImageBuf> light, const vmlight::LightmapParams& params)
+{
+    ImageBuf dst;
+    EXPECT_FALSE(vmlight::make_lightmap(dst, vismap, light, params));
+    EXPECT_FALSE(dst.initialized());
+    return dst.geterror();
+}
+
 inline vmlight::LightmapParams model(const char* name)
 {
     vmlight::LightmapParams params;

@@ -57,7 +57,7 @@ ImageBuf made(const VismapRecipe& recipe, const MakeOptions& options = {})
     return image;
 }
 
-std::vector<float> opened(const std::string& name)
+std::vector<float> pixels_of(const std::string& name)
 {
     const auto input = ImageInput::open(name);
     EXPECT_TRUE(input) << OIIO::geterror();
@@ -82,7 +82,7 @@ TEST(UdimStage, ATileIsTheMapOfTheMeshWithItsCoordinatesMovedThere)
     EXPECT_EQ(all_pixels(tile), all_pixels(expected));
     EXPECT_NE(all_pixels(tile), all_pixels(made(folder.recipe(1001))));
     EXPECT_EQ(tile.spec().get_string_attribute("vmlight:udim"), "1012");
-    EXPECT_EQ(opened(folder / "corner.vismap?udim=1012"), all_pixels(tile));
+    EXPECT_EQ(pixels_of(folder / "corner.vismap?udim=1012"), all_pixels(tile));
     for (float value : all_pixels(made(folder.recipe(1044))))
         ASSERT_EQ(value, 0);
 }
@@ -110,14 +110,14 @@ TEST(UdimStage, TilesOfOneMeshShareItAndTheRayTracersScene)
     std::vector<std::thread> threads;
     for (const char* query :
          { "udim=1001", "udim=1012", "udim=1002", "resolution=30", "seed=3", "samples=4&udim=1012" })
-        threads.emplace_back([&folder, query] { opened(folder / "corner.vismap?" + query); });
+        threads.emplace_back([&folder, query] { pixels_of(folder / "corner.vismap?" + query); });
     for (std::thread& thread : threads)
         thread.join();
     Work work = Work() - before;
     EXPECT_EQ(work.meshes_read, 1);
     EXPECT_EQ(work.scenes_built, 1);
     // Other normals are another mesh.
-    opened(folder / "corner.vismap?normals=flat");
+    pixels_of(folder / "corner.vismap?normals=flat");
     work = Work() - before;
     EXPECT_EQ(work.scenes_built, 2);
 }
@@ -176,7 +176,7 @@ TEST(UdimStage, ATextureSystemFindsTheTilesOfOneRecipeUnderSeveralNames)
     options.interpmode = OIIO::TextureOpt::InterpClosest;
     options.mipmode = OIIO::TextureOpt::MipModeNoMIP;
     for (const auto& [udim, u, v] : { std::tuple(1001, 0, 0), std::tuple(1012, 1, 1) }) {
-        const std::vector<float> expected = opened(folder / "corner.lightmap?udim=" + std::to_string(udim));
+        const std::vector<float> expected = pixels_of(folder / "corner.lightmap?udim=" + std::to_string(udim));
         for (int y = 0; y < 40; y += 3)
             for (int x = 0; x < 40; x += 3) {
                 float rgb[3] = {};
@@ -209,7 +209,7 @@ TEST(UdimStage, LinksToOneRecipeAreRecipesOfTheirOwn)
     options.chain = { folder / "a.1001.lightmap" };
     ASSERT_TRUE(read_recipe(recipe, options.chain[0], error)) << error;
     ASSERT_TRUE(make_image(image, recipe, options)) << image.geterror();
-    EXPECT_EQ(opened(options.chain[0]), all_pixels(image));
+    EXPECT_EQ(pixels_of(options.chain[0]), all_pixels(image));
     // A ring through a link is one.
     options.chain = { folder / "ring.lightmap" };
     ASSERT_TRUE(read_recipe(recipe, options.chain[0], error)) << error;

@@ -18,7 +18,7 @@ using namespace vmlight;
 
 namespace {
 
-const Mesh& spot()
+const Mesh& spot_mesh()
 {
     static const Mesh mesh = [] {
         Mesh read;
@@ -41,7 +41,7 @@ VismapParams quick(int width, int height, int margin)
 std::vector<float> whole_map(const VismapParams& params)
 {
     OIIO::ImageBuf image;
-    EXPECT_TRUE(make_vismap(image, spot(), {}, params)) << image.geterror();
+    EXPECT_TRUE(make_vismap(image, spot_mesh(), {}, params)) << image.geterror();
     std::vector<float> pixels(size_t(image.spec().image_pixels()) * image.nchannels());
     image.get_pixels(image.roi(), OIIO::TypeFloat, pixels.data());
     return pixels;
@@ -77,7 +77,7 @@ TEST(VismapTiles, TilesAreTheWholeMapBitForBitWhateverTheMargin)
             const VismapParams params = quick(width, height, margin);
             VismapBaker baker;
             std::string error;
-            ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+            ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
             VismapTiles tiles(baker, margin);
             EXPECT_EQ(tiled_map(tiles, baker, unsigned(margin + 2), 3), whole_map(params)) << width << " " << margin;
         }
@@ -89,7 +89,7 @@ TEST(VismapTiles, TheCoverageChannelIsZeroInTheMargin)
     params.channels = { "coverage" };
     VismapBaker baker;
     std::string error;
-    ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+    ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
     VismapTiles tiles(baker, params.margin);
     EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole_map(params));
 }
@@ -104,7 +104,7 @@ TEST(VismapTiles, NormalsAreThoseOfTheWholeMapInTheMarginToo)
                 params.channels.push_back("coverage");
             VismapBaker baker;
             std::string error;
-            ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+            ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
             EXPECT_EQ(baker.channels(), coverage ? 8 : 7);
             VismapTiles tiles(baker, params.margin);
             EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole_map(params)) << margin;
@@ -121,7 +121,7 @@ TEST(VismapTiles, EachBasisIsThatOfTheWholeMapInTheMarginToo)
             params.channels = { "coverage" };
             VismapBaker baker;
             std::string error;
-            ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+            ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
             EXPECT_EQ(baker.channels(), channels);
             VismapTiles tiles(baker, params.margin);
             const std::vector<float> whole = whole_map(params);
@@ -142,7 +142,7 @@ TEST(VismapTiles, ErrorsAndWhatWasChosenForOneAreThoseOfTheWholeMap)
         params.channels = { "normal", "coverage", "error" };
         VismapBaker baker;
         std::string error;
-        ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+        ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
         EXPECT_NE(baker.params().samples, params.samples);
         EXPECT_EQ(baker.channels(), 9);
         EXPECT_EQ(baker.margin_channels().averaged, 8);
@@ -157,7 +157,7 @@ TEST(VismapTiles, ACacheWithoutRoomCostsTimeAndNoBit)
     const VismapParams params = quick(256, 256, 16);
     VismapBaker baker;
     std::string error;
-    ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+    ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
     VismapTiles tiles(baker, params.margin);
     EXPECT_EQ(tiled_map(tiles, baker, 1, 4), whole_map(params));
     VismapTiles::set_cache_limit(size_t(512) << 20);
@@ -168,7 +168,7 @@ TEST(VismapTiles, ATileOfALargeMapCostsItselfAndWhatReachesIntoItsMargin)
     VismapParams params = quick(8192, 8192, 16);
     VismapBaker baker;
     std::string error;
-    ASSERT_TRUE(baker.prepare(spot(), {}, params, 0, error)) << error;
+    ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
     const auto scratch = baker.scratch();
     // One tile in the midst of an island, and one on its rim.
     int inside = -1, rim = -1;

@@ -16,7 +16,7 @@ using latlong::pi;
 
 namespace {
 
-constexpr int kNodes = 2; // per band
+constexpr int kBandNodes = 2; // per band
 // Rows are split into bands of at most pi / 128, so that the ends of arcs are sampled finely enough, and rows with a
 // sun into finer ones. Where the horizon crosses a bright pixel, a band of extent d that has a share of all light in
 // one place errs by up to 0.077 d times that share of the mean (measured: bench/cfem_bench.cpp), and N bands in its
@@ -66,7 +66,7 @@ public:
         , m_height(resolution.height)
         , m_grid(grid)
         , m_nthreads(nthreads)
-        , m_rule(kNodes)
+        , m_rule(kBandNodes)
         , m_stride(size_t(grid.width) + 2)
         , m_block_rows(int(std::clamp<size_t>(kBlockBytes / (m_stride * sizeof(PrefixCell)), 4, 64)))
         // The antipode of a pixel centre is a pixel centre only if the width is even.

@@ -57,8 +57,8 @@ struct CommandLine
     /// @param answer   set to the text to print, if the user asks for the help, the version, the man page or a
     ///                 completion script
     /// @returns false, with the reason in `error`, if a flag is unknown (the error suggests the closest one), a value
-    /// is
-    ///          missing, unexpected or empty (a recipe's key may be cleared), or there are too few or too many operands
+    ///          is missing, unexpected or empty (a recipe's key may be cleared), or there are too few or too many
+    ///          operands
     bool parse(int argc, const char** argv, std::string& answer, std::string& error);
 
     /// Whether the first operand is a recipe of `stage`.

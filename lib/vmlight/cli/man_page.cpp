@@ -28,7 +28,7 @@ std::string escaped(const std::string& text)
     return roff;
 }
 
-std::string option_text(const CommandLine::Option& option)
+std::string option_paragraph(const CommandLine::Option& option)
 {
     std::string text = format(".TP\n\\fB{}\\fR", escaped(option.flag()));
     if (!option.metavar.empty())
@@ -64,7 +64,7 @@ std::string man_page(const CommandLine& line)
     for (const CommandLine::Section& section : line.sections()) {
         text += ".SS " + escaped(section.heading.substr(0, section.heading.rfind(':'))) + "\n";
         for (const CommandLine::Option* option : section.options)
-            text += option_text(*option);
+            text += option_paragraph(*option);
     }
     text += ".SH EXAMPLES\n.nf\n" + escaped(line.example) + "\n.fi\n";
     text += ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n1\nthe job failed\n.TP\n2\nwrong usage\n";

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/image/file_claims.h>
 
-#include <vmlight/base/format.h>
+#include <vmlight/image/radiance_header.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
+#include <OpenImageIO/string_view.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdio>
 
 namespace vmlight {
 
@@ -59,56 +58,26 @@ struct Format
     const char* reader;
     std::string (*fault)(ClaimReader& file);
 };
-constexpr Format kFormats[]
-    = { { "\x76\x2f\x31\x01", "openexr", exr_claims_fault }, { "#?R", "hdr", radiance_claims_fault } };
-
-const Format* format_of(ClaimReader& file)
-{
-    char magic[4];
-    if (file.read(magic, 4))
-        for (const Format& format : kFormats)
-            if (OIIO::Strutil::starts_with(OIIO::string_view(magic, 4), format.magic))
-                return &format;
-    return nullptr;
-}
+constexpr Format kFormats[] = { { "\x76\x2f\x31\x01", "openexr", exr_claims_fault }, { "#?", "hdr", radiance_fault } };
 
 } // namespace
 
+FileHeader inspect_header(const std::string& path)
+{
+    ClaimReader file(path);
+    std::string begin;
+    for (char c; begin.size() < 4 && file.read(&c, 1);) {
+        begin += c;
+        for (const Format& format : kFormats)
+            if (begin == format.magic)
+                return { format.reader, format.fault(file) };
+    }
+    return {};
+}
+
 std::string claims_fault(const std::string& path)
 {
-    ClaimReader file(path);
-    const Format* format = format_of(file);
-    return format ? format->fault(file) : "";
-}
-
-std::string reader_of(const std::string& path)
-{
-    ClaimReader file(path);
-    const Format* format = format_of(file);
-    return format ? format->reader : "";
-}
-
-std::string radiance_claims_fault(ClaimReader& file)
-{
-    constexpr size_t kLongestLine = 4096, kMostLines = 1000;
-    std::string line;
-    for (size_t i = 0; i < kMostLines && file.read_until('\n', line, kLongestLine); ++i) {
-        int scanlines = 0, pixels = 0;
-        char axes[2][3];
-        // "-Y 512 +X 1024": the first axis counts scanlines.
-        if (std::sscanf(line.c_str(), "%2[-+XY] %d %2[-+XY] %d", axes[0], &scanlines, axes[1], &pixels) != 4)
-            continue;
-        // A run is at most 127 pixels of one of four components, in two bytes. Scanlines shorter than 8 pixels or
-        // longer than 32767 have no runs.
-        const bool has_runs = pixels >= 8 && pixels <= 32767;
-        const double shortest = has_runs ? 4 + 4 * 2 * std::ceil(pixels / 127.0) : 4.0 * pixels;
-        const double least = shortest * scanlines;
-        if (scanlines > 0 && pixels > 0 && least > double(file.left()) && 4.0 * pixels * scanlines > kSmallImage)
-            return format("its header says {} scanlines of {} pixels, which take {:.0f} bytes or more; the file has {}",
-                          scanlines, pixels, least, file.left());
-        break;
-    }
-    return "";
+    return inspect_header(path).fault;
 }
 
 } // namespace vmlight

@@ -9,14 +9,22 @@
 
 namespace vmlight {
 
-/// What the header of the image file `path` claims that cannot be in a file of its size, or "". Looks at the header
-/// alone, of OpenEXR and Radiance files, recognised by content; nothing is said of other files, of names that are not
-/// files, and of headers that are invalid in other ways, which OpenImageIO refuses.
-std::string claims_fault(const std::string& path);
+/// What an image file is, by its first bytes: OpenEXR or Radiance.
+struct FileHeader
+{
+    /// The name of OpenImageIO's reader, or "" for other files. Asked for a damaged file, OpenImageIO tries all its
+    /// readers, some of which take 64 MiB to see that it is not theirs.
+    std::string reader;
+    /// What its header claims that cannot be in a file of its size, or why OpenImageIO would misread its pixels, or "".
+    /// Nothing is said of headers that are invalid in other ways, which OpenImageIO refuses.
+    std::string fault;
+};
 
-/// The name of OpenImageIO's reader of the file `path` by its first bytes, of OpenEXR and Radiance files; else "".
-/// Asked for a damaged file, OpenImageIO tries all its readers, some of which take 64 MiB to see that it is not theirs.
-std::string reader_of(const std::string& path);
+/// Looks at the header of the file `path` alone. Empty for other files, and for names that are not files.
+FileHeader inspect_header(const std::string& path);
+
+/// inspect_header().fault
+std::string claims_fault(const std::string& path);
 
 /// Reads a file's first bytes in order, and knows how many are left.
 class ClaimReader
@@ -42,8 +50,7 @@ private:
 /// Bytes of decoded pixels that may be missing: a file that was cut short is opened, and fails where it is read.
 constexpr double kSmallImage = 1 << 20;
 
-// The same for one format, from behind its first four bytes.
+/// FileHeader::fault of an OpenEXR file, from behind its first four bytes.
 std::string exr_claims_fault(ClaimReader& file);
-std::string radiance_claims_fault(ClaimReader& file);
 
 } // namespace vmlight

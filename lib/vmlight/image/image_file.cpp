@@ -6,7 +6,6 @@
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/image/file_claims.h>
-#include <vmlight/image/radiance_header.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -80,13 +79,6 @@ std::string unreadable(const std::string& path, OIIO::cspan<OIIO::ImageBuf> imag
     return "";
 }
 
-// What is wrong with a file that its reader in OIIO would not see, or "".
-std::string file_fault(const std::string& path)
-{
-    const std::string fault = claims_fault(path);
-    return fault.empty() ? radiance_fault(path) : fault;
-}
-
 // Readers multiply colour by alpha before vmlight can decode it (PNG, TIFF, Targa), unless asked not to.
 OIIO::ImageSpec reading_hints()
 {
@@ -108,13 +100,13 @@ bool may_be_image(const std::string& name)
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::string& error)
 {
-    const std::string fault = file_fault(name);
-    if (!fault.empty()) {
-        error = format("\"{}\": {}", name, fault);
+    const FileHeader header = inspect_header(name);
+    if (!header.fault.empty()) {
+        error = format("\"{}\": {}", name, header.fault);
         return nullptr;
     }
     const OIIO::ImageSpec hints = reading_hints();
-    std::string reader = reader_of(name);
+    std::string reader = header.reader;
     // OIIO takes what follows a '?' for a query, even in the name of a folder.
     if (reader.empty() && name.find('?') != std::string::npos && OIIO::Filesystem::is_regular(name))
         reader = OIIO::Filesystem::extension(name, false);
@@ -147,7 +139,7 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
         return false;
     }
-    std::string fault = file_fault(path);
+    std::string fault = claims_fault(path);
     if (!fault.empty()) {
         error = format("\"{}\": {}", path, fault);
         return false;

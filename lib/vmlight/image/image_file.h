@@ -18,7 +18,7 @@ bool may_be_image(const std::string& name);
 
 /// Open an image file, or a name that a plugin generates, through OIIO, as every input is: colour comes as stored, not
 /// multiplied by alpha. nullptr with the reason and the path in `error`. A header that claims more than its file can
-/// hold (image/file_claims.h) and what OIIO misreads (image/radiance_header.h) are refused first.
+/// hold and what OIIO misreads (image/file_claims.h) are refused first.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::string& error);
 
 /// Why a header is implausible, or "": a side of the data or display window is longer than 2^20. Protects loops over

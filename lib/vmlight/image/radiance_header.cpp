@@ -2,10 +2,11 @@
 #include <vmlight/image/radiance_header.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/image/file_claims.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -15,47 +16,43 @@ namespace {
 
 struct RadianceHeader
 {
-    std::vector<std::string> lines; ///< up to the empty one
-    int width = 0, height = 0; ///< 0 if the resolution is not of the usual form
-    std::string pixels; ///< their first bytes
-    uint64_t pixel_bytes = 0;
+    std::vector<std::string> entries; ///< lines before the resolution
+    int scanlines = 0, pixels = 0; ///< in each; 0 if there is no resolution
+    bool rows = false; ///< scanlines are rows, not columns
+    unsigned char first[4] {}; ///< bytes of pixels
+    int64_t pixel_bytes = 0;
 };
 
-// False for a file of any other kind.
-bool read_header(RadianceHeader& header, const std::string& path)
+// `file` is read up to the end of "#?".
+RadianceHeader read_header(ClaimReader& file)
 {
-    constexpr size_t kLongest = 1 << 16;
-    if (!OIIO::Filesystem::is_regular(path))
-        return false;
-    std::string bytes(kLongest, '\0');
-    bytes.resize(OIIO::Filesystem::read_bytes(path, bytes.data(), bytes.size()));
-    if (!OIIO::Strutil::starts_with(bytes, "#?"))
-        return false;
-    size_t at = 0;
-    const auto next_line = [&] {
-        const size_t end = bytes.find('\n', at);
-        std::string line = bytes.substr(at, end - at);
-        at = end == std::string::npos ? bytes.size() : end + 1;
-        return line;
-    };
-    while (at < bytes.size()) {
-        header.lines.push_back(next_line());
-        if (header.lines.back().empty())
-            break;
+    constexpr size_t kLongestLine = 4096, kMostLines = 1000;
+    RadianceHeader header;
+    std::string line;
+    for (size_t i = 0; i < kMostLines && file.read_until('\n', line, kLongestLine); ++i) {
+        int scanlines = 0, pixels = 0;
+        char axes[2][3];
+        // "-Y 512 +X 1024": the first axis counts scanlines.
+        if (std::sscanf(line.c_str(), "%2[-+XY] %d %2[-+XY] %d", axes[0], &scanlines, axes[1], &pixels) != 4) {
+            header.entries.push_back(line);
+            continue;
+        }
+        if (scanlines > 0 && pixels > 0) {
+            header.scanlines = scanlines;
+            header.pixels = pixels;
+        }
+        header.rows = axes[0][1] == 'Y' && axes[1][1] == 'X';
+        header.pixel_bytes = file.left();
+        file.read(header.first, 4);
+        break;
     }
-    char y = 0, x = 0;
-    const std::string resolution = next_line();
-    if (std::sscanf(resolution.c_str(), "%cY %d %cX %d", &y, &header.height, &x, &header.width) != 4)
-        header.width = header.height = 0;
-    header.pixels = bytes.substr(at, 4);
-    header.pixel_bytes = OIIO::Filesystem::file_size(path) - at;
-    return true;
+    return header;
 }
 
 std::vector<std::string> values_of(const RadianceHeader& header, const std::string& name)
 {
     std::vector<std::string> values;
-    for (const std::string& line : header.lines)
+    for (const std::string& line : header.entries)
         if (OIIO::Strutil::starts_with(line, name + "="))
             values.emplace_back(OIIO::Strutil::strip(line.substr(name.size() + 1)));
     return values;
@@ -63,42 +60,52 @@ std::vector<std::string> values_of(const RadianceHeader& header, const std::stri
 
 bool has_new_encoding(const RadianceHeader& header)
 {
-    const auto byte = [&](size_t i) { return int(static_cast<unsigned char>(header.pixels[i])); };
-    return header.pixels.size() == 4 && byte(0) == 2 && byte(1) == 2 && byte(2) * 256 + byte(3) == header.width;
+    return header.first[0] == 2 && header.first[1] == 2 && header.first[2] * 256 + header.first[3] == header.pixels;
+}
+
+// The fewest bytes that the pixels can take: a run is at most 127 pixels of one of four components, in two bytes.
+// Scanlines shorter than 8 pixels or longer than 32767 have no runs.
+double least_bytes(const RadianceHeader& header)
+{
+    const bool has_runs = header.pixels >= 8 && header.pixels <= 32767;
+    return header.scanlines * (has_runs ? 4 + 4 * 2 * std::ceil(header.pixels / 127.0) : 4.0 * header.pixels);
 }
 
 } // namespace
 
-std::string radiance_fault(const std::string& path)
+std::string radiance_fault(ClaimReader& file)
 {
-    RadianceHeader header;
-    if (!read_header(header, path))
-        return "";
+    const RadianceHeader header = read_header(file);
+    const double least = least_bytes(header), plain = 4.0 * header.scanlines * header.pixels;
+    if (least > double(header.pixel_bytes) && plain > kSmallImage)
+        return format("its header says {} scanlines of {} pixels, which take {:.0f} bytes or more; the file has {}",
+                      header.scanlines, header.pixels, least, header.pixel_bytes);
     for (const std::string& name : values_of(header, "FORMAT"))
         if (OIIO::Strutil::icontains(name, "xyze"))
             return "a Radiance picture of XYZE pixels cannot be read; convert it to RGBE with ra_xyze -r";
     // A run makes the pixels fewer than there are; without runs the old encoding is the plain one.
-    const uint64_t plain
-        = 4 * uint64_t(header.width > 0 ? header.width : 0) * uint64_t(header.height > 0 ? header.height : 0);
-    if (plain && !has_new_encoding(header) && header.pixel_bytes < plain)
+    if (header.rows && !has_new_encoding(header) && double(header.pixel_bytes) < plain)
         return format(
             "a Radiance picture of old run-length encoding, or cut off: {} bytes of pixels where {}x{} plain ones "
-            "take {}; if it is whole, write it again with another program",
-            header.pixel_bytes, header.width, header.height, plain);
+            "take {:.0f}; if it is whole, write it again with another program",
+            header.pixel_bytes, header.pixels, header.scanlines, plain);
     return "";
 }
 
 std::string unapplied_radiance_header(const std::string& path)
 {
-    RadianceHeader header;
+    ClaimReader file(path);
+    char magic[2];
+    if (!file.read(magic, 2) || OIIO::string_view(magic, 2) != "#?")
+        return "";
+    const RadianceHeader header = read_header(file);
     std::string found;
-    if (read_header(header, path))
-        for (const char* name : { "EXPOSURE", "GAMMA" })
-            for (const std::string& value : values_of(header, name)) {
-                const double number = OIIO::Strutil::strtod(value.c_str());
-                if (number != 1)
-                    found += format("{}{}={}", found.empty() ? "" : ", ", name, value);
-            }
+    for (const char* name : { "EXPOSURE", "GAMMA" })
+        for (const std::string& value : values_of(header, name)) {
+            const double number = OIIO::Strutil::strtod(value.c_str());
+            if (number != 1)
+                found += format("{}{}={}", found.empty() ? "" : ", ", name, value);
+        }
     return found.empty() ? "" : format("light is used as stored: {} in the header is not divided out", found);
 }
 

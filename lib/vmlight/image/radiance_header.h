@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Headers of Radiance pictures (.hdr): what OIIO misreads or leaves out.
+/// Headers of Radiance pictures (.hdr): what they claim, and what OIIO misreads or leaves out.
 #pragma once
 
 #include <string>
 
 namespace vmlight {
 
-/// Why OIIO cannot read the Radiance picture `path`, or "": its pixels are XYZE, or in the run-length encoding from
-/// before 1991, which OIIO takes for plain pixels. "" for any other file.
-std::string radiance_fault(const std::string& path);
+class ClaimReader;
 
-/// A line about header entries that are not applied to the pixels (EXPOSURE, GAMMA), or "".
+/// Why OIIO cannot read a Radiance picture, or "": its file is too short for the scanlines that its header claims, its
+/// pixels are XYZE, or they are in the run-length encoding from before 1991, which OIIO takes for plain pixels.
+/// @param file read up to the end of "#?"
+std::string radiance_fault(ClaimReader& file);
+
+/// A line about header entries of the Radiance picture `path` that are not applied to the pixels (EXPOSURE, GAMMA), or
+/// "".
 std::string unapplied_radiance_header(const std::string& path);
 
 } // namespace vmlight

@@ -54,8 +54,7 @@ public:
     /// @param time_budget as for make_vismap()
     /// @param progress called with 0; returning false stops the work
     /// @returns false, with the reason in `error`, if a parameter is out of range, the target error is out of reach,
-    /// the
-    ///          basis needs another measure, or `progress` stopped it
+    ///          the basis needs another measure, or `progress` stopped it
     bool prepare(BakeScenePointer scene, const VismapParams& params, std::string& error, int nthreads = 0,
                  const Progress& progress = {}, double time_budget = 0);
 

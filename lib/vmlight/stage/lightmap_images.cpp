@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/lightmap_images.h>
+
+#include <vmlight/lightmap/model.h>
+#include <vmlight/stage/open_source.h>
+#include <vmlight/stage/output_color.h>
+
+namespace vmlight {
+namespace {
+
+PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, std::string& error,
+                              const RecipeChain& chain)
+{
+    if (!recipe.cfem.empty())
+        return open_input(recipe, "cfem", recipe.cfem, InputKind::Cfem, error, chain);
+    if (!open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, chain, recipe.layer))
+        return nullptr;
+    // Errors of the visibility map are reported by describe().
+    ShadingModel model;
+    std::string ignored;
+    choose_model(model, recipe.lightmap_params, vismap, true, ignored);
+    CfemRecipe filter;
+    filter.environment = recipe.environment;
+    filter.colorspace = recipe.colorspace;
+    filter.colorconfig = recipe.colorconfig;
+    filter.layer = recipe.layer;
+    filter.layout = recipe.layout;
+    filter.cfem_params = recipe.cfem_params;
+    filter.stack = model.light != ModelLight::cfem;
+    return open_source(filter, error);
+}
+
+std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::ROI size, const std::string& working,
+                                          std::string& error, const RecipeChain& chain)
+{
+    const PixelSourcePointer image
+        = open_input(recipe, "albedo", recipe.albedo, InputKind::Albedo, error, chain, recipe.albedo_layer);
+    if (!image)
+        return nullptr;
+    std::string config;
+    if (!stamp_config(config, recipe.colorconfig, error)) {
+        error = with_location(recipe, "colorconfig", chain, error);
+        return nullptr;
+    }
+    auto albedo = AlbedoSource::open(recipe, image, config, working, size, error);
+    if (!albedo)
+        error = with_location(recipe, "albedo", chain, error);
+    return albedo;
+}
+
+} // namespace
+
+bool open_images(LightmapImages& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
+{
+    dst.vismap = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, chain);
+    if (dst.vismap)
+        dst.cfem = open_light(recipe, dst.vismap->spec(), error, chain);
+    if (!error.empty())
+        return false;
+    std::string config;
+    if ((may_convert_light(recipe, dst.cfem->spec()) || !recipe.output_colorspace.empty())
+        && !stamp_config(config, recipe.colorconfig, error)) {
+        error = with_location(recipe, "colorconfig", chain, error);
+        return false;
+    }
+    if (!describe_light(dst.light, recipe, dst.cfem->spec(), error)) {
+        error = with_location(recipe, "cfem", chain, error);
+        return false;
+    }
+    dst.key = config + dst.vismap->key() + dst.cfem->key();
+    if (!recipe.albedo.empty()) {
+        dst.albedo = open_albedo(recipe, OIIO::get_roi(dst.vismap->spec()),
+                                 dst.light.spec.get_string_attribute("colorInteropID"), error, chain);
+        if (!dst.albedo)
+            return false;
+        dst.key += dst.albedo->key();
+    }
+    return true;
+}
+
+} // namespace vmlight

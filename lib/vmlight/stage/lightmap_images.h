@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The images that a lightmap reads, opened.
+#pragma once
+
+#include <vmlight/stage/albedo_source.h>
+#include <vmlight/stage/light_color.h>
+#include <vmlight/stage/pixel_source.h>
+#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/recipe/recipe.h>
+
+#include <memory>
+#include <string>
+
+namespace vmlight {
+
+struct LightmapImages
+{
+    PixelSourcePointer vismap;
+    PixelSourcePointer cfem; ///< the recipe's, or that of its environment, of an implicit CfemRecipe
+    std::shared_ptr<AlbedoSource> albedo; ///< nullptr without
+    LightColor light; ///< how the colour of the CFEM is converted
+    std::string key; ///< changes with any of them, and with the OCIO config if one is used
+};
+
+/// Open them; `recipe` has its UDIM tile resolved. False, with `error`, if one cannot be opened.
+bool open_images(LightmapImages& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain);
+
+} // namespace vmlight
