@@ -146,7 +146,8 @@ TEST_F(ObjGroups, MaterialsAreNamedByTheirFaces)
               (Names { "a", "b", "a" }));
     folder.write("my lib.mtl", "newmtl unused\nnewmtl a\nKd .1 .2 .3\nnewmtl c\n");
     folder.write("two.mtl", "newmtl d\nd .5\n");
-    const Mesh mesh = read("a.obj", "mtllib my lib.mtl\nmtllib two.mtl\n" + peak("usemtl a\n", "usemtl d\n", "usemtl e\n"));
+    const Mesh mesh
+        = read("a.obj", "mtllib my lib.mtl\nmtllib two.mtl\n" + peak("usemtl a\n", "usemtl d\n", "usemtl e\n"));
     EXPECT_EQ(material_names(mesh), (Names { "a", "d", "e" }));
     EXPECT_EQ(mesh.materials.size(), 5u);
     EXPECT_EQ(mesh.materials[0].name, "unused") << "in the file's order";

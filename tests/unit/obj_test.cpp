@@ -37,11 +37,23 @@ protected:
 
 TEST(TextNumbers, AreReadInEveryForm)
 {
-    const std::pair<const char*, double> forms[]
-        = { { "1", 1 },         { "+1", 1 },        { "-1", -1 },       { ".5", 0.5 },      { "-.5", -0.5 },
-            { "+.5", 0.5 },     { "5.", 5 },        { "1e-3", 1e-3 },   { "-1.25E+2", -125 }, { "1.e2", 100 },
-            { ".25e1", 2.5 },   { "0", 0 },         { "1,5", 1.5 },     { "1e30", 1e30 },   { "123456789.125", 123456789.125 },
-            { "100000000000000000000", 1e20 },      { "1e-400", 0 } };
+    const std::pair<const char*, double> forms[] = { { "1", 1 },
+                                                     { "+1", 1 },
+                                                     { "-1", -1 },
+                                                     { ".5", 0.5 },
+                                                     { "-.5", -0.5 },
+                                                     { "+.5", 0.5 },
+                                                     { "5.", 5 },
+                                                     { "1e-3", 1e-3 },
+                                                     { "-1.25E+2", -125 },
+                                                     { "1.e2", 100 },
+                                                     { ".25e1", 2.5 },
+                                                     { "0", 0 },
+                                                     { "1,5", 1.5 },
+                                                     { "1e30", 1e30 },
+                                                     { "123456789.125", 123456789.125 },
+                                                     { "100000000000000000000", 1e20 },
+                                                     { "1e-400", 0 } };
     for (const auto& [word, value] : forms) {
         vmlight::TextNumber number;
         EXPECT_TRUE(vmlight::parse_number(word, number)) << word;
@@ -96,14 +108,15 @@ TEST_F(ObjFiles, NumbersNeedNoDigitBeforeThePoint)
 TEST_F(ObjFiles, NoVertexIsSkipped)
 {
     // One vertex of each kind before the triangle: were one skipped, all indices behind it would shift.
-    for (const char* vertex : { "v 7 7 7 1", "v 7 7 7 0", "v 7 7 7 .5", "v 7 7 7 1 0", "v 7 7 7 1 0 0", "v 7 7 7 1 0 0 1",
-                                "v 7 7 7 1 0 0 1 1", "v 7 7 7 # off", "v 7 7 7# off", "v\t7\t7\t7", "v  7   7\t 7  ",
-                                "v .7 .7 .7", "v 7 7 \\\n7", " v 7 7 7", "v 7 7 7 red", "v 7 7 7 #7", "v 7,5 7 7",
-                                "v nan 7 7", "v 1e400 7 7" })
+    for (const char* vertex :
+         { "v 7 7 7 1", "v 7 7 7 0", "v 7 7 7 .5", "v 7 7 7 1 0", "v 7 7 7 1 0 0", "v 7 7 7 1 0 0 1",
+           "v 7 7 7 1 0 0 1 1", "v 7 7 7 # off", "v 7 7 7# off", "v\t7\t7\t7", "v  7   7\t 7  ", "v .7 .7 .7",
+           "v 7 7 \\\n7", " v 7 7 7", "v 7 7 7 red", "v 7 7 7 #7", "v 7,5 7 7", "v nan 7 7", "v 1e400 7 7" })
         EXPECT_EQ(corners(std::string(vertex) + "\n" + kTriangle + "f 2 3 4\n"),
                   (std::vector<V3d> { V3d(0), V3d(1, 0, 0), V3d(0, 1, 0) }))
             << vertex;
-    for (const char* uv : { "vt .7", "vt 7", "vt 7 7", "vt 7 7 7", "vt 7 7 nan", "vt 7 7 7 7", "vt 7 7 # 7", "vt\t7 7" })
+    for (const char* uv :
+         { "vt .7", "vt 7", "vt 7 7", "vt 7 7 7", "vt 7 7 nan", "vt 7 7 7 7", "vt 7 7 # 7", "vt\t7 7" })
         EXPECT_EQ(read("a.obj", std::string(uv) + "\nvt .5 .25\n" + kTriangle + "f 1/2 2/2 3/2\n").uvs[0],
                   V2f(0.5f, 0.25f))
             << uv;
@@ -197,7 +210,8 @@ TEST_F(ObjFiles, WhatCannotBeReadIsToldByLine)
     const std::string head = "cannot read as OBJ: line ";
     EXPECT_EQ(said("f 1 2 99\n"), head + "4: a face uses vertex 99, but there are only 3");
     EXPECT_EQ(said("\n\nf 1 \\\n0 2\n"), head + "6: a face uses vertex 0, but they count from 1: \"f 1  0 2\"");
-    EXPECT_EQ(said("f 1 2 -4\nv 0 0 0\n"), head + "4: a face uses vertex -4, but there are only 3 before it: \"f 1 2 -4\"");
+    EXPECT_EQ(said("f 1 2 -4\nv 0 0 0\n"),
+              head + "4: a face uses vertex -4, but there are only 3 before it: \"f 1 2 -4\"");
     EXPECT_EQ(said("vt 0 0\nf 1/1 2/1 3/2\n"), head + "5: a face uses texture coordinate 2, but there are only 1");
     EXPECT_EQ(said("vn 0 0 1\nf 1//1 2//-2 3//1\n"),
               head + "5: a face uses normal -2, but there are only 1 before it: \"f 1//1 2//-2 3//1\"");

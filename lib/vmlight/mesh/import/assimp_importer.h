@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Meshes through assimp, which only this header and its sources include.
+/// Meshes through assimp, which only this header, its sources and polygons.cpp include.
 #pragma once
 
 #include <vmlight/mesh/import/importer.h>

@@ -45,9 +45,12 @@ Map parse_map(string_view arguments, const std::string& folder)
     Map map;
     float offset[3] = { 0, 0, 0 }, scale[3] = { 1, 1, 1 };
     const std::map<std::string, float*> vectors { { "-o", offset }, { "-s", scale } };
-    const std::map<std::string, size_t> skipped_words { { "-blendu", 1 }, { "-blendv", 1 },     { "-cc", 1 },
-                                                        { "-type", 1 },   { "-colorspace", 1 } };
-    const std::map<std::string, size_t> skipped_numbers { { "-boost", 1 }, { "-mm", 2 }, { "-t", 3 }, { "-texres", 1 } };
+    const std::map<std::string, size_t> skipped_words {
+        { "-blendu", 1 }, { "-blendv", 1 }, { "-cc", 1 }, { "-type", 1 }, { "-colorspace", 1 }
+    };
+    const std::map<std::string, size_t> skipped_numbers {
+        { "-boost", 1 }, { "-mm", 2 }, { "-t", 3 }, { "-texres", 1 }
+    };
     string_view rest = arguments;
     for (string_view file = rest; !file.empty(); file = rest) {
         const std::string option = next_word(rest);

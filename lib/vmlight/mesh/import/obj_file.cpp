@@ -143,7 +143,8 @@ bool Parser::numbers(const Statement& statement, size_t least, size_t most)
         const string_view word = next_word(rest);
         if ((word.empty() && i >= least) || parse_number(word, m_numbers[i]))
             continue;
-        m_error = format("cannot read as OBJ: line {} must have {} numbers: {}", statement.line, most, quoted(statement));
+        m_error
+            = format("cannot read as OBJ: line {} must have {} numbers: {}", statement.line, most, quoted(statement));
         return false;
     }
     return true;
@@ -227,9 +228,10 @@ void Parser::check_faces()
     for (const Face& face : m_file.faces) {
         for (; begin < face.end; ++begin) {
             const Corner& corner = m_file.corners[begin];
-            const std::tuple<const char*, int32_t, size_t> uses[] = { { "vertex", corner.vertex, m_file.positions.size() },
-                                                                      { "texture coordinate", corner.uv, m_file.uvs.size() },
-                                                                      { "normal", corner.normal, m_file.normals.size() } };
+            const std::tuple<const char*, int32_t, size_t> uses[]
+                = { { "vertex", corner.vertex, m_file.positions.size() },
+                    { "texture coordinate", corner.uv, m_file.uvs.size() },
+                    { "normal", corner.normal, m_file.normals.size() } };
             for (const auto& [what, index, count] : uses)
                 if (index >= 0 && size_t(index) >= count) {
                     m_error = format("cannot read as OBJ: line {}: a face uses {} {}, but there are only {}", face.line,
@@ -243,11 +245,11 @@ void Parser::check_faces()
 bool Parser::parse(const std::string& text)
 {
     static const std::map<string_view, Handler> handlers {
-        { "v", &Parser::vertex },        { "vt", &Parser::uv },         { "vn", &Parser::normal },
-        { "f", &Parser::face },          { "fo", &Parser::face },       { "o", &Parser::object },
-        { "g", &Parser::group },         { "s", &Parser::smoothing },   { "usemtl", &Parser::material },
-        { "mtllib", &Parser::library },  { "surf", &Parser::ignored },  { "bzp", &Parser::ignored },
-        { "bsp", &Parser::ignored },     { "cdp", &Parser::ignored },   { "call", &Parser::ignored },
+        { "v", &Parser::vertex },       { "vt", &Parser::uv },        { "vn", &Parser::normal },
+        { "f", &Parser::face },         { "fo", &Parser::face },      { "o", &Parser::object },
+        { "g", &Parser::group },        { "s", &Parser::smoothing },  { "usemtl", &Parser::material },
+        { "mtllib", &Parser::library }, { "surf", &Parser::ignored }, { "bzp", &Parser::ignored },
+        { "bsp", &Parser::ignored },    { "cdp", &Parser::ignored },  { "call", &Parser::ignored },
     };
     Statements statements(text);
     Statement statement;

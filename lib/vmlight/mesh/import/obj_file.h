@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The statements of an OBJ file that matter to a mesh.
-/// Source: Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1; what writers do where it is silent.
+/// Source: Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1; what writers do where it is
+/// silent.
 #pragma once
 
 #include <vmlight/mesh/mesh.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/unique_index.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/obj.h>
@@ -107,7 +108,8 @@ private:
         m_vertices.emplace(m_file.faces[end - 1].end - begin_corner);
         const State& state = m_file.states[m_file.faces[first_face].state];
         const uint32_t node = m_nodes[m_file.faces[first_face].state];
-        m_dst.begin_part(state.node < 0 ? "" : m_file.nodes[size_t(state.node)].name, m_dst.root_transform(false), node);
+        m_dst.begin_part(state.node < 0 ? "" : m_file.nodes[size_t(state.node)].name, m_dst.root_transform(false),
+                         node);
     }
 
     uint32_t vertex_of(const Corner& corner)
@@ -151,6 +153,8 @@ private:
 
 bool append_obj(MeshBuilder& dst, const obj::File& file, std::vector<Material> materials, std::string& error)
 {
+    if (!file.ignored.empty())
+        dst.warn(format("not read: statements \"{}\"; only polygons are", OIIO::Strutil::join(file.ignored, "\", \"")));
     return Appender(dst, file, std::move(materials)).append(error);
 }
 

@@ -117,8 +117,8 @@ bool append_ply(MeshBuilder& dst, const ply::File& file, const std::string& fold
     add_materials(dst, file, folder);
     Appender appender(dst, file);
     return visit_triangles(
-        file.ends, [&](uint32_t corner) { return appender.position(file.corners[corner]); },
-        appender.is_far(), [&](size_t face, const std::array<uint32_t, 3>& corners) { appender.add_triangle(face, corners); }, error);
+        file.ends, [&](uint32_t corner) { return appender.position(file.corners[corner]); }, appender.is_far(),
+        [&](size_t face, const std::array<uint32_t, 3>& corners) { appender.add_triangle(face, corners); }, error);
 }
 
 bool read_ply(MeshBuilder& dst, const ImportRequest& request, std::string& error)

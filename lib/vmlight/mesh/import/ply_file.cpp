@@ -19,18 +19,30 @@ using Imath::V3d;
 using Imath::V3f;
 
 // What a number is, by the name of its property: of a vertex, an index into its eight numbers.
-enum Role { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kU, kV, kCorners, kUvs, kTexture, kNone };
+enum Role
+{
+    kX,
+    kY,
+    kZ,
+    kNormalX,
+    kNormalY,
+    kNormalZ,
+    kU,
+    kV,
+    kCorners,
+    kUvs,
+    kTexture,
+    kNone
+};
 
 const std::map<std::string, Role> kVertexRoles {
-    { "x", kX },         { "y", kY },         { "z", kZ },         { "nx", kNormalX },  { "ny", kNormalY },
-    { "nz", kNormalZ },  { "u", kU },         { "s", kU },         { "tx", kU },        { "texture_u", kU },
-    { "texture_s", kU }, { "v", kV },         { "t", kV },         { "ty", kV },        { "texture_v", kV },
-    { "texture_t", kV },
+    { "x", kX }, { "y", kY },  { "z", kZ },         { "nx", kNormalX },  { "ny", kNormalY },  { "nz", kNormalZ },
+    { "u", kU }, { "s", kU },  { "tx", kU },        { "texture_u", kU }, { "texture_s", kU }, { "v", kV },
+    { "t", kV }, { "ty", kV }, { "texture_v", kV }, { "texture_t", kV },
 };
-const std::map<std::string, Role> kFaceRoles { { "vertex_indices", kCorners },
-                                               { "vertex_index", kCorners },
-                                               { "texcoord", kUvs },
-                                               { "texnumber", kTexture } };
+const std::map<std::string, Role> kFaceRoles {
+    { "vertex_indices", kCorners }, { "vertex_index", kCorners }, { "texcoord", kUvs }, { "texnumber", kTexture }
+};
 
 class Parser
 {
@@ -151,8 +163,8 @@ std::string Parser::add_corners(const Element& element, size_t row)
 std::string Parser::add_face(size_t row)
 {
     if (!m_uvs.empty() && m_uvs.size() != 2 * m_corners.size())
-        return format("PLY face {} has {} numbers as texture coordinates, but its {} corners need {}", row, m_uvs.size(),
-                      m_corners.size(), 2 * m_corners.size());
+        return format("PLY face {} has {} numbers as texture coordinates, but its {} corners need {}", row,
+                      m_uvs.size(), m_corners.size(), 2 * m_corners.size());
     const float nan = std::numeric_limits<float>::quiet_NaN();
     if (!m_uvs.empty())
         m_file.corner_uvs.resize(m_file.corners.size(), V2f(nan, nan));

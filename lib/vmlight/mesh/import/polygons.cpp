@@ -2,7 +2,6 @@
 #include <vmlight/mesh/import/polygons.h>
 
 #include <vmlight/base/text_format.h>
-#include <vmlight/mesh/import/assimp_importer.h>
 
 #include <assimp/BaseImporter.h>
 #include <assimp/IOSystem.hpp>
@@ -31,6 +30,11 @@ struct Polygon
 {
     uint32_t number, begin, end;
 };
+
+bool is_finite(const V3d& p)
+{
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 // Hands assimp polygons as if they came from a file.
 class PolygonImporter : public Assimp::BaseImporter
@@ -63,7 +67,7 @@ public:
     bool Exists(const char*) const override { return true; }
     char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
-    void Close(Assimp::IOStream*) override {}
+    void Close(Assimp::IOStream*) override { }
 };
 
 class Triangulator
@@ -163,8 +167,9 @@ bool Triangulator::cut(const std::vector<Polygon>& polygons, std::vector<Cut>& c
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
         const aiFace& face = part.mFaces[f];
         if (face.mNumIndices == 3)
-            cuts.push_back({ m_numbers[face.mIndices[0]],
-                             { m_corners[face.mIndices[0]], m_corners[face.mIndices[1]], m_corners[face.mIndices[2]] } });
+            cuts.push_back(
+                { m_numbers[face.mIndices[0]],
+                  { m_corners[face.mIndices[0]], m_corners[face.mIndices[1]], m_corners[face.mIndices[2]] } });
     }
     m_importer.FreeScene();
     return true;
@@ -172,35 +177,46 @@ bool Triangulator::cut(const std::vector<Polygon>& polygons, std::vector<Cut>& c
 
 } // namespace
 
-bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(uint32_t corner)>& position, bool is_far,
-                     const TriangleVisitor& visit, std::string& error)
+bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(uint32_t corner)>& position,
+                     bool is_far, const TriangleVisitor& visit, std::string& error)
 {
     constexpr size_t kBatch = 65536; // bounds the memory that assimp needs
     std::unique_ptr<Triangulator> triangulator;
     std::vector<Polygon> polygons;
     std::vector<Cut> cuts;
     size_t next = 0; // polygon that has not been visited
-    const auto begin_of = [&](size_t polygon) { return polygon == 0 ? 0 : ends[polygon - 1]; };
+    const auto polygon_of = [&](size_t number) {
+        return Polygon { uint32_t(number), number == 0 ? 0 : ends[number - 1], ends[number] };
+    };
+    const auto must_be_cut = [&](const Polygon& polygon) {
+        bool finite = true; // others are refused later: assimp need not see them
+        for (uint32_t corner = polygon.begin; corner < polygon.end; ++corner)
+            finite &= is_finite(position(corner));
+        return finite && polygon.end - polygon.begin > 3;
+    };
     const auto visit_until = [&](size_t end) {
         if (!polygons.empty() && !triangulator)
             triangulator = std::make_unique<Triangulator>(position, is_far);
         if (!polygons.empty() && !triangulator->cut(polygons, cuts, error))
             return false;
-        polygons.clear();
-        size_t at = 0;
+        size_t given = 0, cut = 0;
         for (; next < end; ++next) {
-            const uint32_t begin = begin_of(next);
-            if (ends[next] - begin == 3)
-                visit(next, { begin, begin + 1, begin + 2 });
-            for (; at < cuts.size() && cuts[at].polygon == next; ++at)
-                visit(next, cuts[at].corners);
+            if (given < polygons.size() && polygons[given].number == next) {
+                for (++given; cut < cuts.size() && cuts[cut].polygon == next; ++cut)
+                    visit(next, cuts[cut].corners);
+                continue;
+            }
+            const Polygon fan = polygon_of(next);
+            for (uint32_t corner = fan.begin + 2; corner < fan.end; ++corner)
+                visit(next, { fan.begin, corner - 1, corner });
         }
+        polygons.clear();
         cuts.clear();
         return true;
     };
     for (size_t i = 0; i < ends.size(); ++i) {
-        if (ends[i] - begin_of(i) > 3)
-            polygons.push_back({ uint32_t(i), begin_of(i), ends[i] });
+        if (const Polygon polygon = polygon_of(i); must_be_cut(polygon))
+            polygons.push_back(polygon);
         if (polygons.size() == kBatch && !visit_until(i + 1))
             return false;
     }

@@ -41,8 +41,8 @@ float rounded_in_steps(OIIO::string_view word, double value)
     float sum = float(take_digits(word, digits));
     if (!word.empty() && word[0] == '.') {
         word.remove_prefix(1);
-        constexpr double kUnits[] = { 1,    1e-1, 1e-2, 1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
-                                      1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15 };
+        constexpr double kUnits[]
+            = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15 };
         const size_t count = std::min<size_t>(std::min(word.find_first_not_of("0123456789"), word.size()), 15);
         sum += float(double(take_digits(word, 15)) * kUnits[count]);
     }
