@@ -32,6 +32,13 @@ bool is_continued(string_view line)
     return !line.empty() && line.back() == '\\' && line.find('#') == string_view::npos;
 }
 
+// As in 1.#QNAN, 1.#IND, 1.#SNAN and 1.#INF, which old C libraries write.
+bool is_in_number(string_view text, size_t sign)
+{
+    const string_view next = text.substr(std::min(sign + 1, text.size()), 1);
+    return sign > 0 && text[sign - 1] == '.' && (next == "Q" || next == "I" || next == "S");
+}
+
 } // namespace
 
 string_view next_word(string_view& text)
@@ -49,7 +56,7 @@ string_view next_word(string_view& text)
 string_view without_comment(string_view arguments)
 {
     size_t sign = arguments.find('#');
-    while (sign != string_view::npos && sign > 0 && arguments[sign - 1] == '.') // 1.#QNAN
+    while (sign != string_view::npos && is_in_number(arguments, sign))
         sign = arguments.find('#', sign + 1);
     return stripped(arguments.substr(0, sign));
 }

@@ -31,9 +31,11 @@ struct Polygon
     uint32_t number, begin, end;
 };
 
+// Offsets between such are finite too.
 bool is_finite(const V3d& p)
 {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    constexpr double kFarthest = 1e300;
+    return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
 }
 
 // Hands assimp polygons as if they came from a file.
@@ -101,21 +103,20 @@ private:
 };
 
 // Assimp 5.4 drops polygons of five and more corners whose ears have areas below 1e-6, and areas beyond float are
-// infinite: polygons are cut at a size of 2^30, scaled by powers of two, which lose no bit above 2^-149 of it.
+// infinite: polygons are cut at a size of 2^30, scaled by a power of two.
 void Triangulator::set_vertices(aiVector3D* dst, const Polygon& polygon)
 {
     const V3d origin = m_is_far ? m_position(polygon.begin) : V3d(0);
-    const uint32_t count = polygon.end - polygon.begin;
-    float reach = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        const V3d p = m_position(polygon.begin + i) - origin;
-        dst[i] = aiVector3D(ai_real(p.x), ai_real(p.y), ai_real(p.z));
+    double reach = 0;
+    for (uint32_t corner = polygon.begin; corner < polygon.end; ++corner)
         for (int k = 0; k < 3; ++k)
-            reach = std::max(reach, std::abs(dst[i][k]));
+            reach = std::max(reach, std::abs(m_position(corner)[k] - origin[k]));
+    const int exponent = reach > 0 ? 30 - std::ilogb(reach) : 0;
+    for (uint32_t corner = polygon.begin; corner < polygon.end; ++corner) {
+        const V3d p = m_position(corner) - origin;
+        *dst++ = aiVector3D(ai_real(std::ldexp(p.x, exponent)), ai_real(std::ldexp(p.y, exponent)),
+                            ai_real(std::ldexp(p.z, exponent)));
     }
-    const int exponent = reach > 0 ? std::clamp(30 - std::ilogb(reach), -97, 126) : 0;
-    for (uint32_t i = 0; i < count; ++i)
-        dst[i] *= std::ldexp(1.0f, exponent);
 }
 
 std::unique_ptr<aiScene> Triangulator::scene_of(const std::vector<Polygon>& polygons)
@@ -189,10 +190,10 @@ bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(
         return Polygon { uint32_t(number), number == 0 ? 0 : ends[number - 1], ends[number] };
     };
     const auto must_be_cut = [&](const Polygon& polygon) {
-        bool finite = true; // others are refused later: assimp need not see them
-        for (uint32_t corner = polygon.begin; corner < polygon.end; ++corner)
-            finite &= is_finite(position(corner));
-        return finite && polygon.end - polygon.begin > 3;
+        bool is_good = polygon.end - polygon.begin > 3;
+        for (uint32_t corner = polygon.begin; is_good && corner < polygon.end; ++corner)
+            is_good = is_finite(position(corner)); // others are refused later: assimp need not see them
+        return is_good;
     };
     const auto visit_until = [&](size_t end) {
         if (!polygons.empty() && !triangulator)

@@ -53,6 +53,8 @@ float rounded_in_steps(OIIO::string_view word, double value)
         const float exponent = float(take_digits(word, 9));
         sum *= std::pow(10.0f, is_small ? -exponent : exponent);
     }
+    if (!std::isfinite(sum)) // 0e99 and .001e40 are no infinities
+        return nearest_float(value);
     return is_negative ? -sum : sum;
 }
 

@@ -9,7 +9,7 @@ namespace vmlight {
 struct TextNumber
 {
     double value = 0; ///< nearest to the text
-    /// At most one unit in the last place from the text: rounded in the same steps as assimp 5.2 does, so that meshes
+    /// Within two units in the last place of the text: rounded in the same steps as assimp 5.2 does, so that meshes
     /// stay what they were, bit for bit, when assimp read their formats.
     float rounded = 0;
 };
