@@ -106,13 +106,12 @@ Inspection inspect_tri(const std::string& bytes)
 {
     Inspection result;
     result.error = bytes.size() == 40 ? "" : "not 40 bytes";
-    result.exact_positions = { V3d(1e-300) };
     return result;
 }
 
 bool read_tri(MeshBuilder& dst, const ImportRequest& request, std::string& error)
 {
-    EXPECT_EQ(request.inspection.exact_positions.size(), 1u);
+    EXPECT_TRUE(request.inspection.error.empty());
     EXPECT_EQ(request.format.name, std::string("Tri"));
     if (request.before_open)
         request.before_open(request.path);

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/mesh/import/side_files.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -10,7 +11,6 @@
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -21,8 +21,6 @@
 
 namespace vmlight {
 namespace {
-
-using Imath::V3d;
 
 // The format's usual extension, which assimp's importers list first, too.
 std::string extension_of(const ImportRequest& request)
@@ -54,7 +52,7 @@ std::string known_name(const ImportRequest& request)
     return OIIO::Strutil::iends_with(request.path, ending) ? request.path : request.path + ending;
 }
 
-// Opens files for assimp: reports each, and gives the mesh's replacement for the mesh. Wraps assimp's own file system,
+// Opens files for assimp, and reports each. Wraps assimp's own file system,
 // which cannot be derived from in assimp 6.
 class ReportedFiles : public Assimp::IOSystem
 {
@@ -67,11 +65,9 @@ public:
     }
     Assimp::IOStream* Open(const char* name, const char* mode) override
     {
-        const std::string path = path_of(name), &replacement = m_request.inspection.replacement;
+        const std::string path = path_of(name);
         if (m_request.before_open)
             m_request.before_open(path);
-        if (!replacement.empty() && path == m_request.path)
-            return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(replacement.data()), replacement.size());
         if (!OIIO::Filesystem::is_regular(path))
             return nullptr; // a pipe among the files that a mesh names would block
         return m_files.Open(path.c_str(), mode);
@@ -102,41 +98,6 @@ void correct_primitive_types(aiScene& imported)
         for (unsigned f = 0; f < part.mNumFaces; ++f)
             part.mPrimitiveTypes |= kTypes[std::min(part.mFaces[f].mNumIndices, 4u)];
     }
-}
-
-// A vertex that a face uses: others may be anywhere.
-V3d first_corner(const aiMesh& part, const std::vector<V3d>& positions)
-{
-    for (unsigned f = 0; f < part.mNumFaces; ++f)
-        if (part.mFaces[f].mNumIndices > 0)
-            return positions[part.mFaces[f].mIndices[0]];
-    return V3d(0);
-}
-
-// Set `exact` to the file's own vertices, and those of `imported` to their offsets from a corner, so that triangulation
-// sees the shape. False if assimp made vertices that are not in the file.
-bool restore_positions(aiScene& imported, const Inspection& inspection, ExactPositions& exact)
-{
-    const std::vector<V3d>& positions = inspection.exact_positions;
-    if (positions.empty())
-        return true;
-    for (unsigned m = 0; m < imported.mNumMeshes; ++m) {
-        aiMesh& part = *imported.mMeshes[m];
-        exact.emplace_back();
-        for (unsigned i = 0; i < part.mNumVertices; ++i) {
-            const aiVector3D& v = part.mVertices[i];
-            const size_t number = inspection.has_numbered_vertices ? size_t(v.x) + (size_t(v.y) << 16) : i;
-            if (number >= positions.size())
-                return false;
-            exact.back().push_back(positions[number]);
-        }
-        const V3d centre = first_corner(part, exact.back());
-        for (unsigned i = 0; i < part.mNumVertices; ++i) {
-            const V3d offset = exact.back()[i] - centre;
-            part.mVertices[i] = aiVector3D(ai_real(offset.x), ai_real(offset.y), ai_real(offset.z));
-        }
-    }
-    return true;
 }
 
 // Assimp 5.4 drops polygons of five and more corners whose ears have areas below 1e-6, and areas beyond float are
@@ -204,12 +165,9 @@ bool read_with_assimp(MeshBuilder& dst, const ImportRequest& request, std::strin
     if (const std::string reason = face_error(imported); !reason.empty())
         return fail(reason);
     correct_primitive_types(imported);
-    ExactPositions exact;
-    if (!restore_positions(imported, request.inspection, exact))
-        return fail("assimp made vertices that are not in the file");
     if (!triangulate(importer, imported))
         return fail_with_assimps_error();
-    append_imported(dst, imported, exact);
+    append_imported(dst, imported, folder_of(request.path));
     return true;
 }
 

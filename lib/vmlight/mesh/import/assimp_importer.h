@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Meshes through assimp, which only this header and its sources include.
+/// Meshes through assimp, which only this header, its sources and polygons.cpp include.
 #pragma once
 
 #include <vmlight/mesh/import/importer.h>
-
-#include <Imath/ImathVec.h>
 
 #include <string>
 #include <vector>
@@ -17,12 +15,13 @@ namespace vmlight {
 /// is given the file, whatever the file is called.
 bool read_with_assimp(MeshBuilder& dst, const ImportRequest& request, std::string& error);
 
-/// The vertices of each aiMesh in double; empty if assimp's floats are as good as the file's numbers.
-using ExactPositions = std::vector<std::vector<Imath::V3d>>;
-
 /// Append every triangle under the root node of what assimp imported. Every index must be in range; no number is
 /// trusted to be finite. Recurses as deep as the node hierarchy.
-void append_imported(MeshBuilder& dst, const aiScene& imported, const ExactPositions& exact);
+/// @param folder   of the file, where the paths of textures start
+void append_imported(MeshBuilder& dst, const aiScene& imported, const std::string& folder);
+
+/// What assimp says of the file's materials, in its order.
+std::vector<Material> materials_of(const aiScene& imported, const std::string& folder);
 
 /// Why assimp must not process further what it has imported, or "": a face with a vertex that does not exist, which
 /// assimp 5.2 passes on from damaged files, and reads beyond its memory when it triangulates.

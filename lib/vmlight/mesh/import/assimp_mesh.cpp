@@ -2,7 +2,6 @@
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/import/assimp_importer.h>
 
-#include <assimp/material.h>
 #include <assimp/scene.h>
 
 namespace vmlight {
@@ -30,9 +29,7 @@ bool is_z_up(const aiScene& imported)
     return axis == 2;
 }
 
-// @param exact     of this part, or nullptr
-void append_part(MeshBuilder& dst, const aiMesh& part, const std::vector<V3d>* exact, const Imath::M44d& to_object,
-                 uint32_t node)
+void append_part(MeshBuilder& dst, const aiMesh& part, const Imath::M44d& to_object, uint32_t node)
 {
     const unsigned set = unsigned(dst.params().uv_set);
     dst.begin_part(part.mName.C_Str(), to_object, node);
@@ -40,8 +37,7 @@ void append_part(MeshBuilder& dst, const aiMesh& part, const std::vector<V3d>* e
         V2f uv(0);
         if (part.HasTextureCoords(set))
             uv = V2f(part.mTextureCoords[set][i].x, part.mTextureCoords[set][i].y);
-        dst.add_vertex(exact ? (*exact)[i] : to_double(part.mVertices[i]),
-                       part.HasNormals() ? to_double(part.mNormals[i]) : V3d(0),
+        dst.add_vertex(to_double(part.mVertices[i]), part.HasNormals() ? to_double(part.mNormals[i]) : V3d(0),
                        part.HasTextureCoords(set) ? &uv : nullptr);
     }
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
@@ -51,31 +47,24 @@ void append_part(MeshBuilder& dst, const aiMesh& part, const std::vector<V3d>* e
     }
 }
 
-void append_node(MeshBuilder& dst, const aiScene& imported, const ExactPositions& exact, const aiNode& node,
-                 const Imath::M44d& parent_to_object, int parent)
+void append_node(MeshBuilder& dst, const aiScene& imported, const aiNode& node, const Imath::M44d& parent_to_object,
+                 int parent)
 {
     const Imath::M44d to_object = matrix_of(node.mTransformation) * parent_to_object;
     const uint32_t index = dst.add_node(node.mName.C_Str(), parent);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const unsigned number = node.mMeshes[i];
-        append_part(dst, *imported.mMeshes[number], exact.empty() ? nullptr : &exact[number], to_object, index);
-    }
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        append_part(dst, *imported.mMeshes[node.mMeshes[i]], to_object, index);
     for (unsigned i = 0; i < node.mNumChildren; ++i)
-        append_node(dst, imported, exact, *node.mChildren[i], to_object, int(index));
+        append_node(dst, imported, *node.mChildren[i], to_object, int(index));
 }
 
 } // namespace
 
-void append_imported(MeshBuilder& dst, const aiScene& imported, const ExactPositions& exact)
+void append_imported(MeshBuilder& dst, const aiScene& imported, const std::string& folder)
 {
-    for (unsigned i = 0; i < imported.mNumMaterials; ++i) {
-        Material material;
-        material.name = imported.mMaterials[i]->GetName().C_Str();
+    for (Material& material : materials_of(imported, folder))
         dst.add_material(std::move(material));
-    }
-    append_node(dst, imported, exact, *imported.mRootNode, dst.root_transform(is_z_up(imported)), -1);
-    if (!exact.empty())
-        dst.set_exact_positions();
+    append_node(dst, imported, *imported.mRootNode, dst.root_transform(is_z_up(imported)), -1);
 }
 
 std::string face_error(const aiScene& imported)

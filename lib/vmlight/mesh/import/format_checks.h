@@ -24,22 +24,6 @@ constexpr double kFarFromOrigin = 16;
 /// one is not finite, or if all are equal.
 bool is_far_from_origin(const std::vector<Imath::V3d>& positions);
 
-/// OBJ: the first line that is neither blank nor a comment starts with a keyword of OBJ.
-bool is_obj(const FileHead& head);
-/// Refuses texture coordinates that are not finite. Keeps the vertices in double, if those that faces use are far from
-/// the origin. The replacement numbers them, or lacks what assimp misreads (a byte order mark, indents, continued
-/// lines, backslashes in comments). Lines end in LF, CR or both; one that ends in a backslash continues in the next.
-/// Source: Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1.
-Inspection inspect_obj(const std::string& text);
-
-/// PLY: starts with "ply", in any case.
-bool is_ply(const FileHead& head);
-/// Refuses a header or body that ends early, and faces of vertices that do not exist. Keeps vertices of type `double`,
-/// if they are far from the origin. The replacement holds vertices, faces and strips alone, without blank lines. Walks
-/// every element in all three encodings; in an ascii file each is one line, as assimp reads it.
-/// Source: G. Turk, "The PLY Polygon File Format", 1994.
-Inspection inspect_ply(const std::string& bytes);
-
 /// STL: starts with "solid", or has the size that the triangle count of a binary file asks for.
 bool is_stl(const FileHead& head);
 

@@ -2,6 +2,8 @@
 #include <vmlight/mesh/import/assimp_importer.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/importer.h>
+#include <vmlight/mesh/import/obj.h>
+#include <vmlight/mesh/import/ply.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -22,8 +24,8 @@ bool has_extension(const MeshFormat& format, const std::string& path)
 const std::vector<MeshFormat>& mesh_formats()
 {
     static const std::vector<MeshFormat> formats {
-        { "OBJ", "obj", is_obj, inspect_obj, read_with_assimp },
-        { "PLY", "ply", is_ply, inspect_ply, read_with_assimp },
+        { "OBJ", "obj", is_obj, nullptr, read_obj },
+        { "PLY", "ply", is_ply, nullptr, read_ply },
         { "STL", "stl", is_stl, nullptr, read_with_assimp },
         { "glTF 2.0", "gltf glb", is_gltf, nullptr, read_gltf },
         { "Collada", "dae xml", is_collada, inspect_collada, read_with_assimp },

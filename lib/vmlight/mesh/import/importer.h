@@ -29,15 +29,6 @@ struct Inspection
 {
     /// Why the library must not see the file, on one line, or "".
     std::string error;
-
-    /// The file's vertices in double precision, in file order, if floats would lose the shape of the mesh; else empty.
-    std::vector<Imath::V3d> exact_positions;
-
-    /// What the library must read instead of the file's bytes, or "" for the file as it is.
-    std::string replacement;
-
-    /// Vertex n of `replacement` is at (n % 2^16, n / 2^16, 0), which maps the library's vertices to exact_positions.
-    bool has_numbered_vertices = false;
 };
 
 /// Called with the path of a file before it is opened.
@@ -80,6 +71,9 @@ const std::vector<MeshFormat>& mesh_formats();
 /// case), else nullptr.
 const MeshFormat* find_mesh_format(const std::vector<MeshFormat>& formats, const std::string& path,
                                    const FileHead& head);
+
+/// All bytes of a file; none of one that cannot be read.
+std::string file_bytes(const std::string& path);
 
 /// Whether `path` ends in an extension of mesh_formats(), in any case. Does not look at the file.
 bool is_mesh_name(const std::string& path);

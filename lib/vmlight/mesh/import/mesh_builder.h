@@ -47,6 +47,8 @@ public:
 
     /// Start a part (a mesh under a node). As everywhere in Imath, `to_object` multiplies row vectors.
     void begin_part(const std::string& name, const Imath::M44d& to_object, uint32_t node);
+    /// The triangles that follow are under another node, in the same part.
+    void set_node(uint32_t node) { m_node = node; }
     /// @param normal   of any length; zero or not finite if the file has none: finish() computes it
     /// @param uv       v up, of the set params().uv_set; nullptr if the part has no such set
     void add_vertex(const Imath::V3d& position, const Imath::V3d& normal, const Imath::V2f* uv);

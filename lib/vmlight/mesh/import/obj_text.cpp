@@ -1,99 +1,122 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/obj_text.h>
 
 #include <OpenImageIO/strutil.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace vmlight::obj {
-
-bool has_keyword(const char* line, OIIO::string_view keyword)
-{
-    const char after = std::equal(keyword.begin(), keyword.end(), line) ? line[keyword.size()] : 0;
-    return after == ' ' || after == '\t';
-}
-
-bool parse_numbers(const char* at, size_t max_count, std::vector<double>& numbers)
-{
-    numbers.clear();
-    while (numbers.size() < max_count) {
-        while (*at == ' ' || *at == '\t')
-            ++at;
-        if (*at == '\0' || *at == '\n' || *at == '\r' || *at == '#')
-            return true;
-        char* rest = nullptr;
-        numbers.push_back(OIIO::Strutil::strtod(at, &rest));
-        if (rest == at) {
-            numbers.pop_back();
-            return false;
-        }
-        at = rest;
-    }
-    return false;
-}
-
 namespace {
 
-std::string first_words(const std::string& line, size_t count)
+using OIIO::string_view;
+
+bool is_blank(char c)
 {
-    std::vector<std::string> words = OIIO::Strutil::splits(line);
-    words.resize(std::min(words.size(), count));
-    return OIIO::Strutil::join(words, " ");
+    return c == ' ' || c == '\t';
 }
 
-// Drop what assimp misreads: comments after numbers, alpha after a vertex colour, a third texture coordinate that is
-// not finite.
-void sanitize_line(std::string& line)
+string_view stripped(string_view text)
 {
-    const bool is_vertex = has_keyword(line.c_str(), "v"), is_uv = has_keyword(line.c_str(), "vt");
-    if (!is_vertex && !is_uv)
-        return;
-    line.resize(std::min(line.find('#'), line.size()));
-    std::vector<double> numbers;
-    parse_numbers(line.c_str() + (is_uv ? 2 : 1), 8, numbers);
-    if (is_vertex && numbers.size() == 7)
-        line = first_words(line, 4);
-    if (is_uv && numbers.size() == 3 && !std::isfinite(numbers[2]))
-        line = first_words(line, 3);
+    while (!text.empty() && is_blank(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+// A path in a comment may end in a backslash too.
+bool is_continued(string_view line)
+{
+    return !line.empty() && line.back() == '\\' && line.find('#') == string_view::npos;
+}
+
+// As in 1.#QNAN, 1.#IND, 1.#SNAN and 1.#INF, which old C libraries write.
+bool is_in_number(string_view text, size_t sign)
+{
+    const string_view next = text.substr(std::min(sign + 1, text.size()), 1);
+    return sign > 0 && text[sign - 1] == '.' && (next == "Q" || next == "I" || next == "S");
 }
 
 } // namespace
 
-std::string sanitized(const std::string& text)
+string_view next_word(string_view& text)
 {
-    std::string clean, line;
-    bool differs = false;
-    size_t continued = 0; // lines joined with the next so far
-    const size_t byte_order_mark = text.compare(0, 3, "\xef\xbb\xbf") == 0 ? 3 : 0;
-    for_each_line(text, [&](size_t begin, size_t end) {
-        begin += begin == 0 ? byte_order_mark : 0;
-        const size_t first = std::min(text.find_first_not_of(" \t", begin), end);
-        line.append(text, continued ? begin : first, end - (continued ? begin : first));
-        differs |= first > begin && first < end;
-        const bool has_backslash = line.find('\\') != std::string::npos;
-        if (!line.empty() && line[0] == '#') { // assimp continues a comment after a backslash, and never ends it
-            differs |= has_backslash;
-            line.clear();
-        } else if (!line.empty() && line.back() == '\\') {
-            differs = true;
-            line.back() = ' ';
-            ++continued;
-            return true;
-        } else if (has_backslash) { // in a name or a path, where assimp joins the next line too
-            differs = true;
-            std::replace(line.begin(), line.end(), '\\', '/');
+    size_t begin = 0, end = 0;
+    while (begin < text.size() && is_blank(text[begin]))
+        ++begin;
+    for (end = begin; end < text.size() && !is_blank(text[end]);)
+        ++end;
+    const string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return word;
+}
+
+string_view without_comment(string_view arguments)
+{
+    size_t sign = arguments.find('#');
+    while (sign != string_view::npos && is_in_number(arguments, sign))
+        sign = arguments.find('#', sign + 1);
+    return stripped(arguments.substr(0, sign));
+}
+
+std::string name_in(string_view arguments)
+{
+    for (size_t sign = arguments.find('#'); sign != string_view::npos; sign = arguments.find('#', sign + 1)) {
+        const bool ends_word = sign + 1 == arguments.size() || is_blank(arguments[sign + 1]);
+        if (ends_word && sign > 0 && is_blank(arguments[sign - 1]))
+            return stripped(arguments.substr(0, sign));
+    }
+    return stripped(arguments);
+}
+
+std::string quoted(const Statement& statement)
+{
+    return shortened_line(format("\"{} {}\"", statement.keyword, statement.arguments));
+}
+
+Statements::Statements(const std::string& text)
+    : m_rest(text)
+{
+    OIIO::Strutil::parse_prefix(m_rest, "\xef\xbb\xbf");
+}
+
+string_view Statements::next_line()
+{
+    ++m_line;
+    size_t end = 0;
+    while (end < m_rest.size() && m_rest[end] != '\n' && m_rest[end] != '\r')
+        ++end;
+    const string_view line = stripped(m_rest.substr(0, end));
+    const bool is_crlf = end + 1 < m_rest.size() && m_rest[end] == '\r' && m_rest[end + 1] == '\n';
+    m_rest.remove_prefix(std::min(m_rest.size(), end + (is_crlf ? 2 : 1)));
+    return line;
+}
+
+bool Statements::next(Statement& statement)
+{
+    while (!m_rest.empty()) {
+        string_view line = next_line();
+        statement.line = m_line;
+        if (is_continued(line)) {
+            m_joined.clear();
+            for (; is_continued(line); line = next_line()) {
+                m_joined.append(line.data(), line.size() - 1) += ' ';
+                if (m_rest.empty()) {
+                    line = "";
+                    break;
+                }
+            }
+            m_joined.append(line.data(), line.size());
+            line = stripped(m_joined);
         }
-        const size_t length = line.size();
-        sanitize_line(line);
-        differs |= line.size() != length;
-        clean += line;
-        clean.append(continued + 1, '\n');
-        line.clear();
-        continued = 0;
-        return true;
-    });
-    clean += line;
-    return differs || byte_order_mark ? clean : "";
+        statement.keyword = next_word(line);
+        statement.arguments = stripped(line);
+        if (!statement.keyword.empty() && statement.keyword[0] != '#')
+            return true;
+    }
+    return false;
 }
 
 } // namespace vmlight::obj

@@ -1,35 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The text of OBJ files: lines, keywords and numbers.
+/// The text of OBJ and MTL files: lines, statements and words.
 #pragma once
+
+#include <vmlight/mesh/import/text_number.h>
 
 #include <OpenImageIO/string_view.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace vmlight::obj {
 
-/// Call visit(begin, end) for each line, until it returns false. Lines end in LF, CR or both.
-template <class Visit> void for_each_line(const std::string& text, Visit&& visit)
+/// One line, or several that are joined by backslashes at their ends.
+struct Statement
 {
-    for (size_t begin = 0; begin < text.size();) {
-        const size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
-        if (!visit(begin, end))
-            return;
-        begin = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
-    }
-}
+    OIIO::string_view keyword;
+    OIIO::string_view arguments; ///< without blanks around them
+    size_t line; ///< of its start, from 1
+};
 
-/// Does the line start with the keyword and a blank? The line must end in a zero.
-bool has_keyword(const char* line, OIIO::string_view keyword);
+/// Drop the word that `text` starts with, and blanks before it. Returns it, "" at the end.
+OIIO::string_view next_word(OIIO::string_view& text);
 
-/// Parse up to `max_count` numbers, starting at `at`, to the end of the line. False if something else than a comment
-/// follows them.
-bool parse_numbers(const char* at, size_t max_count, std::vector<double>& numbers);
+/// Arguments that are numbers or words, without the comment behind them.
+OIIO::string_view without_comment(OIIO::string_view arguments);
 
-/// The text without what assimp misreads, one statement per line and lines numbered as before; "" if nothing differs.
-std::string sanitized(const std::string& text);
+/// Arguments that are a name or a path, which may have blanks. Only a number sign between blanks starts a comment:
+/// 3ds Max calls materials "Material #25".
+std::string name_in(OIIO::string_view arguments);
+
+/// The statement as an error quotes it.
+std::string quoted(const Statement& statement);
+
+/// Splits a text into statements. Lines end in LF, CR or both. A byte order mark, empty lines and comments are skipped.
+class Statements
+{
+public:
+    explicit Statements(const std::string& text);
+    /// False at the end. What `statement` points to is valid until the next call.
+    bool next(Statement& statement);
+
+private:
+    OIIO::string_view next_line();
+
+    OIIO::string_view m_rest;
+    std::string m_joined;
+    size_t m_line = 0;
+};
 
 } // namespace vmlight::obj

@@ -1,137 +1,109 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/base/format.h>
-#include <vmlight/base/text_format.h>
+#include <vmlight/base/unique_index.h>
 #include <vmlight/mesh/import/format_checks.h>
-#include <vmlight/mesh/import/ply_header.h>
+#include <vmlight/mesh/import/ply.h>
+#include <vmlight/mesh/import/polygons.h>
+#include <vmlight/mesh/import/side_files.h>
 
-#include <OpenImageIO/fmath.h>
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace vmlight {
 namespace {
 
-using namespace ply;
+using Imath::V2f;
+using Imath::V3d;
 
-// Reads the numbers of the body in order. Each read is false past the end, or past the element's line.
-class Body
+// A function of its own, so that the bytes are freed before the mesh is built.
+bool parse_file(ply::File& dst, const ImportRequest& request, std::string& error)
+{
+    if (request.before_open)
+        request.before_open(request.path);
+    return ply::parse(dst, file_bytes(request.path), error);
+}
+
+void add_materials(MeshBuilder& dst, const ply::File& file, const std::string& folder)
+{
+    if (file.textures.empty())
+        dst.add_material({});
+    for (const std::string& texture : file.textures) {
+        Material material;
+        material.name = OIIO::Filesystem::filename(texture);
+        material.base_color_texture.path = side_path(folder, texture);
+        dst.add_material(std::move(material));
+    }
+}
+
+class Appender
 {
 public:
-    Body(const std::string& bytes, const Header& header)
-        : m_bytes(bytes)
-        , m_at(std::min(header.body, bytes.size()))
-        , m_line_begin(m_at)
-        , m_line_end(m_at)
-        , m_ascii(header.format == "ascii")
-        , m_swapped(!m_ascii && (header.format == "binary_big_endian") == OIIO::littleendian())
+    Appender(MeshBuilder& dst, const ply::File& file)
+        : m_dst(dst)
+        , m_file(file)
+        , m_is_far(file.has_doubles && is_far_from_origin(file.positions))
+        , m_has_uvs(dst.params().uv_set == 0)
+        , m_split(m_has_uvs ? file.corner_uvs.size() : 0)
     {
+        if (m_is_far)
+            dst.set_exact_positions();
+        dst.begin_part("", dst.root_transform(false), dst.add_node("", -1));
+        for (size_t i = 0; i < file.positions.size(); ++i)
+            add_vertex(i, file.uvs.empty() ? nullptr : &file.uvs[i]);
     }
 
-    // Add what has been read since `begin` to `ranges`: in an ascii file, the line.
-    void add_to(ByteRanges& ranges, size_t begin) const
+    bool is_far() const { return m_is_far; }
+    V3d position(size_t vertex) const
     {
-        ranges.add(m_ascii ? m_line_begin : begin, m_ascii ? m_line_end : m_at);
+        return m_is_far ? m_file.positions[vertex] : V3d(m_file.rounded_positions[vertex]);
     }
 
-    size_t at() const { return m_at; }
-
-    bool next_element()
+    void add_triangle(size_t face, const std::array<uint32_t, 3>& corners)
     {
-        if (!m_ascii)
-            return true;
-        do { // skip blank lines
-            m_at = m_line_begin = m_line_end;
-            if (m_at >= m_bytes.size())
-                return false;
-            m_line_end = std::min(m_bytes.find('\n', m_at), m_bytes.size() - 1) + 1;
-        } while (!find_word());
-        return true;
-    }
-
-    bool read(const Type& type, double& value)
-    {
-        if (m_ascii) {
-            if (!find_word())
-                return false;
-            char* rest = nullptr;
-            value = OIIO::Strutil::strtod(&m_bytes[m_at], &rest);
-            const bool any = rest != &m_bytes[m_at];
-            m_at = size_t(rest - m_bytes.data());
-            return any;
-        }
-        if (m_bytes.size() - m_at < type.bytes)
-            return false;
-        char raw[8];
-        std::memcpy(raw, &m_bytes[m_at], type.bytes);
-        if (m_swapped)
-            std::reverse(raw, raw + type.bytes);
-        m_at += type.bytes;
-        value = number(type, raw);
-        return true;
+        std::array<uint32_t, 3> vertices {};
+        for (size_t k = 0; k < 3; ++k)
+            vertices[k] = vertex_of(corners[k]);
+        const int32_t texture = m_file.face_textures.empty() ? 0 : m_file.face_textures[face];
+        m_dst.add_triangle(vertices, uint32_t(std::max(texture, 0)));
     }
 
 private:
-    bool find_word()
+    struct Split
     {
-        while (m_at < m_line_end && std::strchr(" \t\r\n", m_bytes[m_at]))
-            ++m_at;
-        return m_at < m_line_end;
-    }
-    template <class T> static double as(const char* raw)
+        uint32_t vertex;
+        V2f uv;
+    };
+
+    void add_vertex(size_t vertex, const V2f* uv)
     {
-        T value;
-        std::memcpy(&value, raw, sizeof(T));
-        return double(value);
-    }
-    static double number(const Type& type, const char* raw)
-    {
-        if (type.kind == 'f')
-            return type.bytes == 4 ? as<float>(raw) : as<double>(raw);
-        if (type.kind == 's')
-            return type.bytes == 1 ? as<int8_t>(raw) : type.bytes == 2 ? as<int16_t>(raw) : as<int32_t>(raw);
-        return type.bytes == 1 ? as<uint8_t>(raw) : type.bytes == 2 ? as<uint16_t>(raw) : as<uint32_t>(raw);
+        m_dst.add_vertex(position(vertex), m_file.normals.empty() ? V3d(0) : V3d(m_file.normals[vertex]),
+                         m_has_uvs ? uv : nullptr);
     }
 
-    const std::string& m_bytes;
-    size_t m_at, m_line_begin, m_line_end;
-    bool m_ascii, m_swapped;
+    // The vertices of the file come first; those with texture coordinates of a corner follow.
+    uint32_t vertex_of(uint32_t corner)
+    {
+        const uint32_t vertex = m_file.corners[corner];
+        if (m_file.corner_uvs.empty() || !m_has_uvs)
+            return vertex;
+        const V2f& uv = m_file.corner_uvs[corner];
+        if (std::isnan(uv.x))
+            return vertex;
+        const uint32_t index = m_split.index_of({ vertex, uv });
+        if (index == m_split_count) {
+            ++m_split_count;
+            add_vertex(vertex, &uv);
+        }
+        return uint32_t(m_file.positions.size()) + index;
+    }
+
+    MeshBuilder& m_dst;
+    const ply::File& m_file;
+    const bool m_is_far, m_has_uvs;
+    UniqueIndex<Split> m_split;
+    size_t m_split_count = 0;
 };
-
-// Read one property of element number `row`, and leave its last number in `value`. Every number of a face's list must
-// be one of `vertices` vertices. Returns the error, or "".
-std::string read_property(Body& body, const Element& element, const Property& property, size_t row, double vertices,
-                          double& value)
-{
-    const auto cut = [&] { return format("PLY ends inside {} {} of {}", element.name, row, element.count); };
-    double count = 1;
-    if (property.count && !body.read(*property.count, count))
-        return cut();
-    const bool is_corners = element.name == "face" && property.count
-        && (property.name == "vertex_indices" || property.name == "vertex_index");
-    for (double i = 0; i < count; ++i) {
-        if (!body.read(*property.type, value))
-            return cut();
-        if (is_corners && !(value >= 0 && value < vertices && value == std::floor(value)))
-            return format("PLY face {} uses vertex {}, but there are only {}", row, value, vertices);
-    }
-    return "";
-}
-
-// 0, 1, 2 for x, y, z; else -1.
-int axis_of(const Property& property)
-{
-    return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
-}
-
-bool has_double_coordinates(const Element& element)
-{
-    return element.name == "vertex"
-        && std::any_of(element.properties.begin(), element.properties.end(),
-                       [](const Property& p) { return axis_of(p) >= 0 && p.type->bytes == 8; });
-}
 
 } // namespace
 
@@ -140,44 +112,19 @@ bool is_ply(const FileHead& head)
     return OIIO::Strutil::istarts_with(head.bytes, "ply");
 }
 
-Inspection inspect_ply(const std::string& bytes)
+bool append_ply(MeshBuilder& dst, const ply::File& file, const std::string& folder, std::string& error)
 {
-    Header header = read_header(bytes);
-    Inspection result;
-    result.error = header.error;
-    double vertices = 0;
-    for (const Element& element : header.elements)
-        vertices = element.name == "vertex" ? double(element.count) : vertices;
-    Body body(bytes, header);
-    for (const Element& element : header.elements) {
-        const bool is_exact = has_double_coordinates(element);
-        for (size_t row = 0; row < element.count && result.error.empty() && !element.properties.empty(); ++row) {
-            if (!body.next_element()) {
-                result.error = format("PLY ends before {} {} of {}", element.name, row, element.count);
-                break;
-            }
-            const size_t begin = body.at();
-            Imath::V3d position(0);
-            for (const Property& property : element.properties) {
-                double value = 0;
-                result.error = read_property(body, element, property, row, vertices, value);
-                if (!result.error.empty())
-                    break;
-                if (const int axis = axis_of(property); axis >= 0)
-                    position[axis] = value;
-            }
-            if (is_exact)
-                result.exact_positions.push_back(position);
-            if (element.is_mesh())
-                body.add_to(header.mesh, begin);
-        }
-    }
-    if (result.error.empty())
-        result.replacement = header.mesh.text(bytes);
-    result.error = shortened_line(result.error); // it quotes words of the header
-    if (!result.error.empty() || !is_far_from_origin(result.exact_positions))
-        result.exact_positions.clear();
-    return result;
+    add_materials(dst, file, folder);
+    Appender appender(dst, file);
+    return visit_triangles(
+        file.ends, [&](uint32_t corner) { return appender.position(file.corners[corner]); }, appender.is_far(),
+        [&](size_t face, const std::array<uint32_t, 3>& corners) { appender.add_triangle(face, corners); }, error);
+}
+
+bool read_ply(MeshBuilder& dst, const ImportRequest& request, std::string& error)
+{
+    ply::File file;
+    return parse_file(file, request, error) && append_ply(dst, file, folder_of(request.path), error);
 }
 
 } // namespace vmlight

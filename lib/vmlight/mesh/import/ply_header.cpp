@@ -18,6 +18,8 @@ constexpr Type kTypes[]
         { "ushort", "uint16", 2, 'u' }, { "int", "int32", 4, 's' },     { "uint", "uint32", 4, 'u' },
         { "float", "float32", 4, 'f' }, { "double", "float64", 8, 'f' } };
 
+const char* const kFormats[] = { "ascii", "binary_little_endian", "binary_big_endian" };
+
 const Type* find_type(const std::string& name)
 {
     const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
@@ -47,8 +49,10 @@ std::string add_property(Header& header, const Words& words)
 }
 
 // Why the line is invalid, or "".
-std::string add_line(Header& header, const Words& words, size_t file_size)
+std::string add_line(Header& header, const std::string& line, const Words& words, size_t file_size)
 {
+    if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile")
+        header.textures.push_back(OIIO::Strutil::strip(line.substr(line.find(words[1]) + words[1].size())));
     if (words.size() > 1 && words[0] == "format")
         header.format = words[1];
     if (words.size() > 2 && words[0] == "element")
@@ -58,35 +62,19 @@ std::string add_line(Header& header, const Words& words, size_t file_size)
 
 } // namespace
 
-void ByteRanges::add(size_t begin, size_t end)
-{
-    if (!m_ranges.empty() && m_ranges.back().second == begin)
-        m_ranges.back().second = end;
-    else if (begin < end)
-        m_ranges.emplace_back(begin, end);
-}
-
-std::string ByteRanges::text(const std::string& bytes) const
-{
-    std::string text;
-    if (m_ranges.size() > 1 || (m_ranges.size() == 1 && m_ranges[0].first > 0))
-        for (const auto& [begin, end] : m_ranges)
-            text.append(bytes, begin, end - begin);
-    return text;
-}
-
 Header read_header(const std::string& bytes)
 {
     Header header;
     for (size_t begin = 0; begin < bytes.size();) {
         const size_t end = std::min(bytes.find('\n', begin), bytes.size());
-        const Words words = OIIO::Strutil::splits(bytes.substr(begin, end - begin));
+        const std::string line = bytes.substr(begin, end - begin);
+        const Words words = OIIO::Strutil::splits(line);
         header.body = std::min(end + 1, bytes.size());
         const bool is_end = !words.empty() && words[0] == "end_header";
         if (!is_end)
-            header.error = add_line(header, words, bytes.size());
-        if (is_end || (!words.empty() && (header.elements.empty() || header.elements.back().is_mesh())))
-            header.mesh.add(begin, header.body);
+            header.error = add_line(header, line, words, bytes.size());
+        if (is_end && std::find(std::begin(kFormats), std::end(kFormats), header.format) == std::end(kFormats))
+            header.error = format("invalid PLY header: format \"{}\"", header.format);
         if (is_end || !header.error.empty())
             return header;
         begin = end + 1;

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace vmlight::ply {
@@ -28,21 +27,6 @@ struct Element
     std::string name;
     size_t count;
     std::vector<Property> properties;
-
-    /// Triangles are made of it. assimp 5.2 reads some others as vertices, and loses its place after some.
-    bool is_mesh() const { return name == "vertex" || name == "face" || name == "tristrips"; }
-};
-
-/// Ranges of a file's bytes, in its order.
-class ByteRanges
-{
-public:
-    void add(size_t begin, size_t end);
-    /// The bytes in the ranges; "" if they are one range from the start of `bytes`.
-    std::string text(const std::string& bytes) const;
-
-private:
-    std::vector<std::pair<size_t, size_t>> m_ranges;
 };
 
 struct Header
@@ -50,7 +34,7 @@ struct Header
     std::string format; ///< "ascii", "binary_little_endian" or "binary_big_endian"
     std::string error; ///< why the header is invalid, or ""
     std::vector<Element> elements;
-    ByteRanges mesh; ///< its lines less those of elements that are not is_mesh()
+    std::vector<std::string> textures; ///< as MeshLab's comments name them
     size_t body = 0; ///< the first byte after the header
 };
 

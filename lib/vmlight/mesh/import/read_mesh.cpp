@@ -30,9 +30,9 @@ std::string unknown_format(const std::vector<MeshFormat>& formats)
 }
 
 // A function of its own, so that the bytes are freed before the file is read.
-Inspection inspect(const MeshFormat& format, const std::string& path, uint64_t size)
+Inspection inspect(const MeshFormat& format, const std::string& path)
 {
-    return format.inspect ? format.inspect(read_bytes(path, size)) : Inspection();
+    return format.inspect ? format.inspect(file_bytes(path)) : Inspection();
 }
 
 bool import_parts(MeshBuilder& dst, const std::string& path, const BeforeOpen& before_open,
@@ -48,12 +48,17 @@ bool import_parts(MeshBuilder& dst, const std::string& path, const BeforeOpen& b
         error = unknown_format(formats);
         return false;
     }
-    const ImportRequest request { path, *format, head, inspect(*format, path, head.size), before_open };
+    const ImportRequest request { path, *format, head, inspect(*format, path), before_open };
     error = request.inspection.error;
     return error.empty() && format->read(dst, request, error);
 }
 
 } // namespace
+
+std::string file_bytes(const std::string& path)
+{
+    return read_bytes(path, OIIO::Filesystem::file_size(path));
+}
 
 bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                  const BeforeOpen& before_open, const std::vector<MeshFormat>& formats)

@@ -13,17 +13,28 @@ namespace vmlight {
 /// Read all meshes of an OBJ, PLY, STL, glTF 2.0 (.gltf, .glb), Collada or FBX file, each at its place in the node
 /// hierarchy. The format is detected by content, and by the extension only where content cannot tell.
 ///
-/// Polygons are triangulated, points and lines dropped, vertices that agree bit for bit merged. Normals are of unit
-/// length; one that is missing, zero or not finite is computed as a smooth one. Triangles without area are kept (they
-/// occlude nothing). Coordinates are rounded to float, unless an OBJ, or a PLY with `double` coordinates, has a
-/// coordinate more than 16 times the longest side of its bounding box: then every bit of the file's doubles is kept.
-/// An OBJ is measured by the vertices that faces use, a PLY by all.
+/// Polygons are triangulated, points, lines and curves dropped, vertices that agree bit for bit merged. Triangles
+/// without area are kept (they occlude nothing).
+///
+/// Normals are of unit length. One that is missing, zero or not finite is computed: in an OBJ as its `s` statements say
+/// (flat where they are off, and before the first of them; smooth within a group; smooth if there are none), in a PLY
+/// and an STL smooth. Mesh::normals_from tells.
+///
+/// Texture coordinates of face corners, in an OBJ or PLY, split vertices where they differ. Materials and textures come
+/// along as far as the format has them: MTL files beside an OBJ, TextureFile comments of a PLY. One that is not there
+/// is a warning. The objects (`o`) of an OBJ are nodes, its groups (`g`) nodes below them.
+///
+/// Coordinates are rounded to float, unless an OBJ, or a PLY with `double` coordinates, has a coordinate more than 16
+/// times the longest side of its bounding box: then every bit of the file's doubles is kept. An OBJ is measured by the
+/// vertices that faces use, a PLY by all.
 ///
 /// @param error        set to the reason, with the path in quotes, if the result is false
 /// @param before_open  called with the path of each file before it is opened, a glTF's buffers among them
 /// @returns false if the file cannot be read, ends early, has no triangle, a NaN or infinite vertex (the first is
-///          named), a face that uses a vertex that does not exist, or, in an OBJ, texture coordinates that are not
-///          finite. A mesh without the UV set that was asked for is read: the caller decides whether it needs one.
+///          named), a face that uses a vertex that does not exist, in an OBJ a statement that cannot be read (its line
+///          is named) or texture coordinates that are not finite, or in a PLY a face that has texture coordinates for
+///          other than all of its corners. A mesh without the UV set that was asked for is read: the caller decides
+///          whether it needs one.
 VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                            const std::function<void(const std::string& path)>& before_open = {});
 
