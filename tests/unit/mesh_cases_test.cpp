@@ -28,6 +28,9 @@ void PrintTo(const Case& c, std::ostream* stream)
 constexpr float kHalf8Bits = 0.5f / 255, kHalf12Bits = 0.5f / 4095, kRounding = 1e-6f;
 
 const Case kCases[] = {
+    { "bl_box_nonorm.obj", 0, 0, 1 },
+    { "box_fuv.ply", 0, 0, 1 },
+    { "box_fuv_le.ply", 0, 0, 1 },
     { "draco_16.glb", 0, kHalf12Bits, 1 },
     { "draco_32.glb", 0, kHalf12Bits, 1 },
     { "g_bom.gltf", 0, 0, 1 },
@@ -45,6 +48,10 @@ const Case kCases[] = {
     { "g_uv1.glb", 1, 0, 1 },
     { "g_uv16.glb", 0, 0.5f / 65535, 1 },
     { "g_uv8.glb", 0, kHalf8Bits, 1 },
+    { "o_novn.obj", 0, 0, 1 },
+    { "o_soff.obj", 0, 0, 1 },
+    { "q_cst.obj", 0, 0, 1 },
+    { "r_comment.obj", 0, 0, 1 },
 };
 
 // How far apart corners are, in units of their tolerances.
