@@ -22,7 +22,7 @@ using scene::pixels;
 
 namespace {
 
-struct Scene
+struct NamedBake
 {
     std::string name;
     Mesh mesh;
@@ -30,11 +30,11 @@ struct Scene
 };
 
 // Smooth normals on few triangles lean off their facets by up to 37 degrees.
-std::vector<Scene> scenes_of_few_triangles()
+std::vector<NamedBake> scenes_of_few_triangles()
 {
-    std::vector<Scene> all { { "a ball of 20 triangles", scenes::icosphere(0), {} },
-                             { "a ball of 80 triangles", scenes::icosphere(1), {} } };
-    Scene leaning { "normals that lean", {}, {} };
+    std::vector<NamedBake> all { { "a ball of 20 triangles", scenes::icosphere(0), {} },
+                                 { "a ball of 80 triangles", scenes::icosphere(1), {} } };
+    NamedBake leaning { "normals that lean", {}, {} };
     for (int i = 0; i < 5; ++i) {
         const double angle[] = { 40, 60, 75, 85, 89 };
         scenes::add_quad(leaning.mesh, V3d(2 * i, 0, 0), V3d(2 * i + 1, 0, 0), V3d(2 * i + 1, 1, 0), V3d(2 * i, 1, 0),
@@ -45,25 +45,25 @@ std::vector<Scene> scenes_of_few_triangles()
     }
     all.push_back(leaning);
     // Balls on a plane, and a street between boxes.
-    Scene balls { "balls on a plane", scenes::placed(scenes::icosphere(0), 0.5, V3d(0, 0, 0.45)), {} };
+    NamedBake balls { "balls on a plane", scenes::placed(scenes::icosphere(0), 0.5, V3d(0, 0, 0.45)), {} };
     balls.occluders.push_back(scenes::floor_facing_z(9));
     for (int i = 0; i < 12; ++i)
         balls.occluders.push_back(scenes::placed(scenes::icosphere(0), 0.3 + 0.03 * i,
                                                  V3d(1.2 * std::cos(i * 2.4), 1.2 * std::sin(i * 2.4), 0.3)));
     all.push_back(balls);
-    Scene city { "a city", scenes::floor_facing_z(1), {} };
+    NamedBake city { "a city", scenes::floor_facing_z(1), {} };
     for (int i = 0; i < 9; ++i)
         city.occluders.push_back(
             scenes::box(V3d(i % 3 - 1.3, i / 3 - 1.3, 0), V3d(i % 3 - 0.8, i / 3 - 0.8, 0.4 + 0.2 * i), false));
     all.push_back(city);
     // All but a hole above.
-    Scene well { "a deep well", scenes::floor_facing_z(0.02), {} };
+    NamedBake well { "a deep well", scenes::floor_facing_z(0.02), {} };
     well.occluders.push_back(scenes::tube(0.2, 1, 60));
     all.push_back(well);
     return all;
 }
 
-ImageBuf vismap_of(const Scene& scene, const std::string& basis, int samples, const std::string& measure = "cosine")
+ImageBuf vismap_of(const NamedBake& scene, const std::string& basis, int samples, const std::string& measure = "cosine")
 {
     VismapParams params = map_params(48, 48, samples);
     params.channels = { "normal" };
@@ -108,7 +108,7 @@ TEST(Light, ASmallSunOnABallOfFewTriangles)
          { 30, 3 * 128 + 90, 20 * 128 + 17, 31 * 128 + 64, 45 * 128 + 99, 31 * 128 + 32, 31 * 128 + 40 })
         stacks.push_back(filtered_stack(sun(place), 128));
     double most = 0;
-    const auto check = [&](const Scene& scene, const ModelEntry& entry, int samples) {
+    const auto check = [&](const NamedBake& scene, const ModelEntry& entry, int samples) {
         const ImageBuf map = vismap_of(scene, *entry.basis ? entry.basis : "vector", samples);
         for (const std::vector<ImageBuf>& stack : stacks) {
             const ImageBuf image = lit(map, stack, scene::model(entry.name));
@@ -121,7 +121,7 @@ TEST(Light, ASmallSunOnABallOfFewTriangles)
             }
         }
     };
-    for (const Scene& scene : scenes_of_few_triangles())
+    for (const NamedBake& scene : scenes_of_few_triangles())
         for (const ModelEntry& entry : model_entries())
             for (const int samples : { 16, 256 })
                 check(scene, entry, samples);
@@ -133,7 +133,7 @@ TEST(Light, NoSurfaceSeesLessOfTheSkyThanACap)
 {
     HardCase row("|B| of the same bakes, and of the measure `uniform`");
     row.naive("up to 0.8 for V = 1 where normals lean, though no surface can have more than 2/3 (measured)");
-    for (const Scene& scene : scenes_of_few_triangles())
+    for (const NamedBake& scene : scenes_of_few_triangles())
         for (const int samples : { 1, 16, 256 })
             for (const char* const measure : { "cosine", "uniform" }) {
                 const ImageBuf map = vismap_of(scene, "vector", samples, measure);

@@ -30,10 +30,10 @@ OIIO::ImageBuf filled(std::vector<float> pixel, int side)
 }
 
 // A ball above a floor, under a sky that is bright on one side.
-class Scene
+class Measurement
 {
 public:
-    explicit Scene(const TemporaryFolder& folder)
+    explicit Measurement(const TemporaryFolder& folder)
     {
         const Mesh floor = floor_facing_z(1);
         auto scene = std::make_shared<BakeScene>();
@@ -191,7 +191,7 @@ TEST(CostHeatMap, IsTheSignedErrorInPartsOfTheMeanAndZeroOutside)
 TEST(CostMeasure, AnotherRunAgreesWithinTheIntervals)
 {
     const TemporaryFolder folder;
-    Scene scene(folder);
+    Measurement scene(folder);
     const std::vector<Setting> settings = settings_of({ 16, 64 });
     const std::vector<Row> first = scene.rows(settings, 1, 64), second = scene.rows(settings, 2, 1024);
     ASSERT_EQ(first.size(), settings.size());
@@ -213,7 +213,7 @@ TEST(CostMeasure, AnotherRunAgreesWithinTheIntervals)
 TEST(CostMeasure, TracingErrsByItsOwnNoiseAlone)
 {
     const TemporaryFolder folder;
-    Scene scene(folder);
+    Measurement scene(folder);
     const std::vector<Setting> settings = settings_of({ 16, 64 });
     const std::vector<Row> rows = scene.rows(settings, 3, 512);
     const Row &few = rows[6], &many = rows[7];
@@ -229,7 +229,7 @@ TEST(CostMeasure, TracingErrsByItsOwnNoiseAlone)
 TEST(CostMeasure, RowsAreTakenFromTheJournalUntilAnInputChanges)
 {
     const TemporaryFolder folder;
-    Scene scene(folder);
+    Measurement scene(folder);
     const std::vector<Setting> settings = settings_of({ 16, 32 });
     const int count = int(settings.size());
     const std::vector<Row> first = scene.rows(settings, 1, 16), again = scene.rows(settings, 1, 16);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Scenes, the error that a bake of them says it has, and the one it has.
+/// What is baked, the error that a bake says it has, and the one it has.
 #pragma once
 
 #include "baked_map.h"
@@ -19,7 +19,7 @@ namespace vmlight::scenes {
 /// chance, since both errors are of some thousand texels.
 constexpr double kHonest = 0.1;
 
-struct Scene
+struct BakeInput
 {
     Mesh mesh;
     std::vector<Mesh> occluders;
@@ -34,19 +34,19 @@ inline Mesh test_mesh(const std::string& name)
     return mesh;
 }
 
-inline Scene ball_over_floor()
+inline BakeInput ball_over_floor()
 {
     return { floor_facing_z(1), { sphere(V3d(0.2, 0.1, 0.7), 0.4, 24) } };
 }
 
-inline Scene spot()
+inline BakeInput spot()
 {
     return { test_mesh("spot.obj"), {} };
 }
 
-inline Scene spot_on_the_ground()
+inline BakeInput spot_on_the_ground()
 {
-    Scene scene = spot();
+    BakeInput scene = spot();
     double low = 1e9;
     for (const V3d& p : scene.mesh.positions)
         low = std::min(low, p.y);
@@ -89,7 +89,7 @@ inline double true_rms(const BakedMap& map, const BakedMap& reference)
     return rms(map, [&](const float* texel, int x, int y) { return texel[0] - reference.at(x, y).visibility; });
 }
 
-inline BakedMap reference_of(const Scene& scene, int side, int samples)
+inline BakedMap reference_of(const BakeInput& scene, int side, int samples)
 {
     VismapParams params = map_params(side, side, 64 * samples);
     params.seed = 1234;

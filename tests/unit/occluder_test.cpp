@@ -17,9 +17,9 @@ namespace {
 
 const float kNoLimit = std::numeric_limits<float>::infinity();
 
-struct Scene
+struct TracedMeshes
 {
-    explicit Scene(const std::vector<Mesh>& meshes, const SceneFrame& frame = {})
+    explicit TracedMeshes(const std::vector<Mesh>& meshes, const SceneFrame& frame = {})
     {
         std::vector<const Mesh*> casters;
         for (const Mesh& mesh : meshes)
@@ -43,7 +43,7 @@ struct Scene
 
 TEST(Occluder, ARayIsBlockedByWhatItMeetsFromEitherSide)
 {
-    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)) });
+    const TracedMeshes scene({ floor_facing_z(1, V3d(0, 0, 2)) });
     EXPECT_TRUE(scene.blocked(V3f(0.3f, 0.2f, 0), V3f(0, 0, 1)));
     EXPECT_TRUE(scene.blocked(V3f(0.3f, 0.2f, 4), V3f(0, 0, -1)));
     EXPECT_FALSE(scene.blocked(V3f(0.3f, 0.2f, 0), V3f(0, 0, -1)));
@@ -52,14 +52,14 @@ TEST(Occluder, ARayIsBlockedByWhatItMeetsFromEitherSide)
 
 TEST(Occluder, LengthLimitsARay)
 {
-    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)) });
+    const TracedMeshes scene({ floor_facing_z(1, V3d(0, 0, 2)) });
     EXPECT_FALSE(scene.blocked(V3f(0), V3f(0, 0, 1), 1.999f));
     EXPECT_TRUE(scene.blocked(V3f(0), V3f(0, 0, 1), 2.001f));
 }
 
 TEST(Occluder, AllMeshesCast)
 {
-    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)), Mesh(), floor_facing_z(1, V3d(5, 0, 2)) });
+    const TracedMeshes scene({ floor_facing_z(1, V3d(0, 0, 2)), Mesh(), floor_facing_z(1, V3d(5, 0, 2)) });
     EXPECT_TRUE(scene.blocked(V3f(0), V3f(0, 0, 1)));
     EXPECT_TRUE(scene.blocked(V3f(5, 0, 0), V3f(0, 0, 1)));
     EXPECT_FALSE(scene.blocked(V3f(3, 0, 0), V3f(0, 0, 1)));
@@ -67,13 +67,13 @@ TEST(Occluder, AllMeshesCast)
 
 TEST(Occluder, NothingBlocksInAnEmptyScene)
 {
-    EXPECT_FALSE(Scene({}).blocked(V3f(0), V3f(0, 0, 1)));
-    EXPECT_FALSE(Scene({ Mesh() }).blocked(V3f(0), V3f(0, 0, 1)));
+    EXPECT_FALSE(TracedMeshes({}).blocked(V3f(0), V3f(0, 0, 1)));
+    EXPECT_FALSE(TracedMeshes({ Mesh() }).blocked(V3f(0), V3f(0, 0, 1)));
 }
 
 TEST(Occluder, DeadLanesStayDeadAndLiveOnesAreAskedAloneOrTogether)
 {
-    const Scene scene({ floor_facing_z(1, V3d(0, 0, 2)) });
+    const TracedMeshes scene({ floor_facing_z(1, V3d(0, 0, 2)) });
     std::mt19937 random(1);
     RayFan fan(40);
     for (int i = 0; i < 40; ++i) {
@@ -95,7 +95,7 @@ TEST(Occluder, DeadLanesStayDeadAndLiveOnesAreAskedAloneOrTogether)
 TEST(Occluder, NoRayLeaksThroughTheSidesAndCornersOfABall)
 {
     const Mesh ball = icosphere(3);
-    const Scene scene({ ball });
+    const TracedMeshes scene({ ball });
     const auto expect_closed = [&](const V3d& target) {
         for (const V3d& origin : { V3d(0), V3d(0.3, -0.2, 0.1) })
             ASSERT_TRUE(scene.blocked(V3f(origin), V3f((target - origin).normalized()))) << target;
@@ -181,7 +181,7 @@ TEST(Occluder, NearASurfaceTheSideOfItIsWorkedOutInDouble)
         add_quad(mesh, a, b, b + side * std::pow(10.0, -7 * std::abs(any().x)), a);
         const SceneFrame frame;
         const SurfacePoint point = Surface(mesh, frame).at(0, 0.3f, 0.6f);
-        const Scene scene({ mesh }, frame);
+        const TracedMeshes scene({ mesh }, frame);
         for (int ray = 0; ray < 8; ++ray) {
             V3f direction(any().normalized());
             if (direction.dot(point.geometric_normal) < 0)

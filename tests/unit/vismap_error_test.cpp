@@ -13,35 +13,35 @@ using namespace vmlight::scenes;
 
 namespace {
 
-Scene low_wall()
+BakeInput low_wall()
 {
     return { floor_facing_z(1), { rectangle(V3d(-0.3, -5, 0), V3d(1, 10, 0), V3d(0, 0, 0.5)) } };
 }
 
-Scene disc_overhead()
+BakeInput disc_overhead()
 {
     return { floor_facing_z(1), { disc(V3d(0.1, 0, 0.5), 0.6, 200) } };
 }
 
-Scene boxes_in_a_row()
+BakeInput boxes_in_a_row()
 {
-    Scene scene { floor_facing_z(1), {} };
+    BakeInput scene { floor_facing_z(1), {} };
     for (double x : { -0.7, 0.0, 0.7 })
         scene.occluders.push_back(box(V3d(x - 0.2, -0.8, 0), V3d(x + 0.2, 0.7, 0.6), false));
     return scene;
 }
 
-Scene pit()
+BakeInput pit()
 {
     return { floor_facing_z(0.6), { tube(1, 1.2, 100) } };
 }
 
-Scene gazebo()
+BakeInput gazebo()
 {
     return { test_mesh("gazebo.obj"), {} };
 }
 
-void expect_honest(const Scene& scene)
+void expect_honest(const BakeInput& scene)
 {
     for (const auto& [samples, side] : { std::pair(16, 100), { 64, 64 }, { 256, 40 } }) {
         const BakedMap reference = reference_of(scene, side, samples);
@@ -100,7 +100,7 @@ TEST(VismapError, IsHonestOnACowOnTheGround)
 
 TEST(VismapError, OfAFewRaysIsHonestToo)
 {
-    const Scene scene = ball_over_floor();
+    const BakeInput scene = ball_over_floor();
     const BakedMap reference = reference_of(scene, 64, 32);
     for (int samples : { 2, 5, 8, 9, 15 }) {
         const BakedMap map(scene.mesh, scene.occluders, error_params(64, samples));
@@ -112,7 +112,7 @@ TEST(VismapError, OfAFewRaysIsHonestToo)
 
 TEST(VismapError, OfUniformDirectionsIsHonestToo)
 {
-    const Scene scene = boxes_in_a_row();
+    const BakeInput scene = boxes_in_a_row();
     VismapParams params = map_params(64, 64, 64 * 32);
     params.measure = "uniform";
     params.seed = 9;
@@ -148,7 +148,7 @@ TEST(VismapError, OfATexelIsItsRaysScatter)
 // Measured: 0.5 on the cow, 0.4 on the building.
 TEST(VismapError, OfTexelsTellsWhereItIsLarge)
 {
-    for (const Scene& scene : { spot(), gazebo() }) {
+    for (const BakeInput& scene : { spot(), gazebo() }) {
         const BakedMap reference = reference_of(scene, 64, 64);
         const BakedMap map(scene.mesh, scene.occluders, error_params(64, 64));
         std::vector<std::pair<double, double>> said_and_true;
@@ -166,7 +166,7 @@ TEST(VismapError, OfTexelsTellsWhereItIsLarge)
 
 TEST(VismapError, IsZeroWhereAllRaysAgreeAndLargeAtAnEdge)
 {
-    const Scene scene { floor_facing_z(1), { rectangle(V3d(0.5, -1e4, 0.1), V3d(1e4, 0, 0), V3d(0, 2e4, 0)) } };
+    const BakeInput scene { floor_facing_z(1), { rectangle(V3d(0.5, -1e4, 0.1), V3d(1e4, 0, 0), V3d(0, 2e4, 0)) } };
     const BakedMap map(scene.mesh, scene.occluders, error_params(64, 64));
     float open[6], edge[6];
     map.image().getpixel(0, 32, 0, open, 6);
@@ -179,7 +179,7 @@ TEST(VismapError, IsZeroWhereAllRaysAgreeAndLargeAtAnEdge)
 
 TEST(VismapError, OfTheMarginIsFilledLikeV)
 {
-    Scene scene = ball_over_floor();
+    BakeInput scene = ball_over_floor();
     for (V2f& uv : scene.mesh.uvs)
         uv = V2f(0.25f, 0.25f) + uv * 0.5f;
     VismapParams params = error_params(32, 16);
@@ -221,7 +221,7 @@ TEST(VismapError, OfAnEmptyMapIsNone)
 
 TEST(VismapError, MeasuringItIsInterruptedLikeABake)
 {
-    const Scene scene = ball_over_floor();
+    const BakeInput scene = ball_over_floor();
     int calls = 0;
     OIIO::ImageBuf image;
     EXPECT_FALSE(make_vismap(image, scene.mesh, scene.occluders, error_params(64, 512), nullptr, 2, [&](double done) {

@@ -14,7 +14,7 @@ using namespace vmlight::scenes;
 
 TEST(VismapError, AnErrorThatIsAskedForIsReachedWithAsFewRaysAsItTakes)
 {
-    const Scene scene = ball_over_floor();
+    const BakeInput scene = ball_over_floor();
     for (double target : { 0.1, 0.03, 0.006 }) {
         SCOPED_TRACE(target);
         VismapParams params = map_params(64, 64, 7);
@@ -64,7 +64,8 @@ TEST(VismapError, FewTexelsThatDoNotScatterTake64Rays)
 TEST(VismapError, AZeroOfFewRaysIsChanceWhereManyScatter)
 {
     // A speck that one ray in ten thousand meets: a few rays a texel pass it by everywhere, both times.
-    const Scene scene { floor_facing_z(1), { rectangle(V3d(-0.015, -0.015, 2), V3d(0.03, 0, 0), V3d(0, 0.03, 0)) } };
+    const BakeInput scene { floor_facing_z(1),
+                            { rectangle(V3d(-0.015, -0.015, 2), V3d(0.03, 0, 0), V3d(0, 0.03, 0)) } };
     VismapParams params = error_params(16, 7);
     params.target_error = 0.005;
     const BakedMap map(scene.mesh, scene.occluders, params);
@@ -76,7 +77,7 @@ TEST(VismapError, AZeroOfFewRaysIsChanceWhereManyScatter)
 
 TEST(VismapError, AnErrorOutOfReachIsRefusedWithWhatIsReached)
 {
-    const Scene scene = ball_over_floor();
+    const BakeInput scene = ball_over_floor();
     VismapParams params = map_params(8, 8, 1);
     params.target_error = 1e-9;
     OIIO::ImageBuf image;
@@ -90,7 +91,7 @@ TEST(VismapError, AnErrorOutOfReachIsRefusedWithWhatIsReached)
 
 TEST(VismapError, AndTheRaysChosenAreTheSameForAnyNumberOfThreads)
 {
-    const Scene scene = spot_on_the_ground();
+    const BakeInput scene = spot_on_the_ground();
     VismapParams params = error_params(100, 1);
     params.target_error = 0.04;
     const BakedMap one(scene.mesh, scene.occluders, params, 1);
@@ -111,7 +112,7 @@ TEST(VismapError, AndTheRaysChosenAreTheSameForAnyNumberOfThreads)
 
 TEST(VismapError, ATimeIsTurnedIntoRaysAndTheirErrorIsTold)
 {
-    const Scene parts = ball_over_floor();
+    const BakeInput parts = ball_over_floor();
     auto scene = std::make_shared<BakeScene>();
     std::string error;
     ASSERT_TRUE(scene->build(non_owning(parts.mesh), parts.occluders, 0, error)) << error;

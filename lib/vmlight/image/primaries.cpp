@@ -3,59 +3,35 @@
 
 #include <vmlight/image/color_space.h>
 
+#include <Imath/ImathMatrix.h>
+#include <Imath/ImathVec.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace vmlight {
 namespace {
 
-using Vector = std::array<double, 3>;
-using Matrix = std::array<double, 9>; // row by row
+using Imath::M33d; // here of column vectors
+using Imath::V3d;
 
-Vector operator*(const Matrix& m, const Vector& v)
+V3d product(const M33d& m, const V3d& v)
 {
-    Vector product {};
-    for (size_t i = 0; i < 3; ++i)
-        product[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
-    return product;
+    return v * m.transposed();
 }
 
-Matrix operator*(const Matrix& a, const Matrix& b)
+M33d diagonal(const V3d& v)
 {
-    Matrix product {};
-    for (size_t i = 0; i < 3; ++i)
-        for (size_t j = 0; j < 3; ++j)
-            for (size_t k = 0; k < 3; ++k)
-                product[3 * i + j] += a[3 * i + k] * b[3 * k + j];
-    return product;
-}
-
-Matrix inverse(const Matrix& m)
-{
-    const auto minor = [&](size_t i, size_t j) {
-        const size_t a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-        return m[3 * a + c] * m[3 * b + d] - m[3 * a + d] * m[3 * b + c];
-    };
-    const double determinant = m[0] * minor(0, 0) + m[1] * minor(0, 1) + m[2] * minor(0, 2);
-    Matrix result;
-    for (size_t i = 0; i < 3; ++i)
-        for (size_t j = 0; j < 3; ++j)
-            result[3 * i + j] = minor(j, i) / determinant;
-    return result;
-}
-
-Matrix diagonal(const Vector& v)
-{
-    return { v[0], 0, 0, 0, v[1], 0, 0, 0, v[2] };
+    return { v.x, 0, 0, 0, v.y, 0, 0, 0, v.z };
 }
 
 // XYZ of the chromaticity xy, with Y = 1.
-Vector xyz_of(double x, double y)
+V3d xyz_of(double x, double y)
 {
     return { x / y, 1, (1 - x - y) / y };
 }
 
-const Vector kD65 = xyz_of(0.3127, 0.329);
+const V3d kD65 = xyz_of(0.3127, 0.329);
 
 bool is_xyz(const LinearSpace& space)
 {
@@ -63,23 +39,24 @@ bool is_xyz(const LinearSpace& space)
 }
 
 // XYZ is of a D65 white, whatever white makes its matrix the identity.
-Vector white_of(const LinearSpace& space)
+V3d white_of(const LinearSpace& space)
 {
     return is_xyz(space) ? kD65 : xyz_of(space.chromaticities[6], space.chromaticities[7]);
 }
 
-Matrix to_xyz(const LinearSpace& space)
+M33d to_xyz(const LinearSpace& space)
 {
     if (is_xyz(space))
-        return diagonal({ 1, 1, 1 });
+        return {};
     const auto& xy = space.chromaticities;
-    Matrix primaries; // its columns are of Y = y, not 1: blue of AP0 has a negative y, and none may be divided by
-    for (size_t c = 0; c < 3; ++c) {
-        primaries[c] = xy[2 * c];
-        primaries[3 + c] = xy[2 * c + 1];
-        primaries[6 + c] = 1.0 - xy[2 * c] - xy[2 * c + 1];
+    M33d primaries; // its columns are of Y = y, not 1: blue of AP0 has a negative y, and none may be divided by
+    for (int c = 0; c < 3; ++c) {
+        const double x = xy[size_t(2 * c)], y = xy[size_t(2 * c + 1)];
+        primaries[0][c] = x;
+        primaries[1][c] = y;
+        primaries[2][c] = 1.0 - x - y;
     }
-    return primaries * diagonal(inverse(primaries) * white_of(space));
+    return primaries * diagonal(product(primaries.inverse(), white_of(space)));
 }
 
 } // namespace
@@ -129,16 +106,18 @@ const LinearSpace* linear_space_with(const std::array<float, 8>& chromaticities)
 
 std::array<double, 9> matrix_between(const LinearSpace& from, const LinearSpace& to)
 {
-    const Matrix bradford { 0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296 };
-    const Vector source = bradford * white_of(from), target = bradford * white_of(to);
-    const Vector gain { target[0] / source[0], target[1] / source[1], target[2] / source[2] };
-    return inverse(to_xyz(to)) * (inverse(bradford) * diagonal(gain) * bradford) * to_xyz(from);
+    const M33d bradford(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296);
+    const V3d gain = product(bradford, white_of(to)) / product(bradford, white_of(from));
+    const M33d m = to_xyz(to).inverse() * (bradford.inverse() * diagonal(gain) * bradford) * to_xyz(from);
+    std::array<double, 9> rows;
+    std::copy_n(m.getValue(), rows.size(), rows.begin());
+    return rows;
 }
 
 std::array<double, 3> luminance_of_primaries(const LinearSpace& space)
 {
-    const Matrix xyz = to_xyz(space);
-    return { xyz[3], xyz[4], xyz[5] };
+    const M33d xyz = to_xyz(space);
+    return { xyz[1][0], xyz[1][1], xyz[1][2] };
 }
 
 } // namespace vmlight
