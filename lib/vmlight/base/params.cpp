@@ -181,6 +181,11 @@ bool parse_value(std::vector<std::string>& dst, string_view text, const Paths&, 
     return true;
 }
 
+bool parse_value(std::vector<std::string>& dst, string_view text, const Names&, std::string& error)
+{
+    return parse_value(dst, text, Paths {}, error);
+}
+
 bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
 {
     std::string spaced(text);
@@ -253,6 +258,11 @@ std::string value_text(const std::vector<std::string>& value, const Paths&)
     return OIIO::Strutil::join(value, "\n");
 }
 
+std::string value_text(const std::vector<std::string>& value, const Names&)
+{
+    return OIIO::Strutil::join(value, "\n");
+}
+
 std::string value_text(const std::vector<double>& value, const Numbers&)
 {
     std::string text;
@@ -300,6 +310,11 @@ std::string allowed_text(const Path&)
 std::string allowed_text(const Paths&)
 {
     return "FILE";
+}
+
+std::string allowed_text(const Names&)
+{
+    return "NAME";
 }
 
 std::string allowed_text(const Numbers& allowed)
