@@ -101,9 +101,8 @@ TEST_F(Materials, ARecipeKeepsTheNames)
 
 TEST_F(Materials, WhatIsNotThereIsRefused)
 {
-    refused(1, "\"room.obj\": no material \"Stome\"; did you mean \"Stone\"?",
-            "makevismap room.obj --material Stome -o x.exr");
-    refused(1, "\"room.obj\": no node \"Hose\"; did you mean \"House\"?", "makevismap room.obj --node Hose -o x.exr");
+    refused(1, "; did you mean \"Stone\"?", "makevismap room.obj --material Stome -o x.exr");
+    refused(1, "\"room.obj\": no node \"Hose\"; the file has ", "makevismap room.obj --node Hose -o x.exr");
     refused(1, "no triangle has the material and is below the node \"Ground\"",
             "makevismap room.obj --material Brick --node Ground -o x.exr");
     refused(2, "--material has an empty value", "makevismap room.obj --material '' -o x.exr");
@@ -130,7 +129,7 @@ TEST_F(Materials, OneMapAMaterialAndTile)
 {
     // The lid, and with it Stone, is in tile 1002 too.
     write("room.obj",
-          replace(room_obj(), "vt 0 .5\nvt .5 .5\nvt .5 1\nvt 0 1\nvn", "vt 1 .5\nvt 2 .5\nvt 2 1\nvt 1 1\nvn"));
+          replace(room_obj(), "vt 0 0.5\nvt 0.5 0.5\nvt 0.5 1\nvt 0 1\nvn", "vt 1 0.5\nvt 2 0.5\nvt 2 1\nvt 1 1\nvn"));
     const std::string printed = done("makevismap room.obj -o 'vm_<MATERIAL>.<UDIM>.exr'" + small);
     EXPECT_THAT(names("vm"), ElementsAre("vm_Brick.1001.exr", "vm_Stone.1001.exr", "vm_Stone.1002.exr"));
     EXPECT_THAT(printed, HasSubstr("material Stone: tile 1002: bake: "));

@@ -66,7 +66,7 @@ TEST_F(Files, NamesOfMaterials)
     };
     EXPECT_EQ(bake("../a", "a b").code, 0);
     EXPECT_EQ(bake(".", "100%").code, 0);
-    EXPECT_THAT(names("", "maps"), testing::ElementsAre("100_.exr", "_.exr", "_._a.exr", "a_b.exr"));
+    EXPECT_THAT(names("", "maps"), testing::ElementsAre("100_.exr", "_._a.exr", "_.exr", "a_b.exr"));
     const std::string before = read("maps/a_b.exr");
     expect_one_error(bake("a/b", "a_b"), 1, "would both be \"a_b\" in file names");
     EXPECT_EQ(read("maps/a_b.exr"), before);

@@ -66,18 +66,21 @@ TEST(Selection, AStarStandsForAnyTextIfNothingHasThatName)
     EXPECT_EQ(chosen({ { "B*y*" }, {} }), "0134");
     EXPECT_EQ(chosen({ { "*" }, {} }), "01234");
     EXPECT_EQ(chosen({ {}, { "*a*d" } }), "3");
-    EXPECT_EQ(chosen({ {}, { "*e" } }),
-              "node: \"hero.glb\": no node \"*e\"; the file has \"root\", \"arm\", \"leg\", "
-              "\"hand\" and \"node_4\"");
+    EXPECT_EQ(
+        chosen({ {}, { "*e" } }),
+        "node: \"hero.glb\": no node \"*e\"; the file has \"root\", \"arm\", \"leg\", \"hand\" and \"node_4\"; did "
+        "you mean \"leg\"?");
 }
 
 TEST(Selection, AnUnknownNameIsRefusedWithTheNearest)
 {
     EXPECT_EQ(chosen({ { "Bdy" }, {} }),
-              "material: \"hero.glb\": no material \"Bdy\"; did you mean \"Body\"?; the file has \"Body\", \"Body*\", "
-              "\"material_2\" and \"Unused\"");
-    EXPECT_EQ(chosen({ {}, { "root", "AN" } }).substr(0, 63),
-              "node: \"hero.glb\": no node \"AN\"; did you mean \"hand\"?; the file ");
+              "material: \"hero.glb\": no material \"Bdy\"; the file has \"Body\", \"Body*\", \"material_2\" and "
+              "\"Unused\"; did you mean \"Body\"?");
+    EXPECT_EQ(
+        chosen({ {}, { "root", "AN" } }),
+        "node: \"hero.glb\": no node \"AN\"; the file has \"root\", \"arm\", \"leg\", \"hand\" and \"node_4\"; did "
+        "you mean \"hand\"?");
     EXPECT_EQ(chosen({ { "Unused" }, {} }), "material: \"hero.glb\": no triangle has the material \"Unused\"");
     EXPECT_EQ(chosen({ { "Body" }, { "leg" } }),
               "node: \"hero.glb\": no triangle has the material and is below the node \"leg\"");

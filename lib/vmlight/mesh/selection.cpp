@@ -82,12 +82,9 @@ std::string unknown_name(const char* kind, const std::string& name, const std::v
 {
     const std::vector<std::string> known = without_duplicates(names);
     const std::vector<std::string> near = near_names(name, known);
-    std::string text = format("no {} \"{}\"", kind, shortened_line(name));
-    if (!near.empty())
-        text += format("; did you mean {}?", quoted_list(near, kMostSuggested, "or"));
-    return text
-        + (known.empty() ? "; this file has none"
-                         : format("; the file has {}", quoted_list(known, kMostListed, "and")));
+    std::string text = format("no {} \"{}\"; ", kind, shortened_line(name));
+    text += known.empty() ? "this file has none" : format("the file has {}", quoted_list(known, kMostListed, "and"));
+    return near.empty() ? text : text + format("; did you mean {}?", quoted_list(near, kMostSuggested, "or"));
 }
 
 // Mark the elements of `names` that one of `wanted` names. False, with the reason in `error`, if one names none.

@@ -25,11 +25,20 @@ double percent(int64_t part, int64_t whole)
     return whole ? 100.0 * double(part) / double(whole) : 0.0;
 }
 
-// The percentage of texels that several triangles share; -1 if the mesh covers none.
-double measure_overlap(const Mesh& mesh, const VismapParams& params)
+// Triangles that no map of the tile shows.
+int64_t lost_triangles(const UvReport& uv)
+{
+    return uv.without_uv + uv.degenerate_uv + uv.fully_outside;
+}
+
+// The percentage of texels that several triangles share; -1 if the mesh covers none, or loses more than `most_lost`
+// triangles.
+double measure_overlap(const Mesh& mesh, const VismapParams& params, int64_t most_lost)
 {
     const Size size = params.size();
     const UvRaster raster(mesh, std::min(size.width, kMostTexels), std::min(size.height, kMostTexels), params.udim);
+    if (lost_triangles(raster.report()) > most_lost)
+        return -1;
     const auto cover = std::make_unique<TileCover>();
     int64_t covered = 0, overlapping = 0;
     for (int tile = 0; tile < raster.tiles_across() * raster.tiles_down(); ++tile) {
@@ -45,20 +54,23 @@ std::string percent_text(double percent)
     return format("{:.{}f} %", percent, percent > 0 && percent < 10 ? 1 : 0);
 }
 
-std::string better_uv_set(double now, const VismapRecipe& recipe)
+std::string better_uv_set(const VismapReport& report, const VismapRecipe& recipe)
 {
     int best = -1;
     double least = kHeavy;
+    // A set of a few decals is none for all.
+    const int64_t most_lost = lost_triangles(report.uv) + report.uv.triangles / 100;
     for_each_other_uv_set(recipe, [&](int set, const Mesh& part) {
-        const double overlap = measure_overlap(part, recipe.vismap_params);
+        const double overlap = measure_overlap(part, recipe.vismap_params, most_lost);
         if (overlap >= 0 && overlap < least) {
             least = overlap;
             best = set;
         }
     });
-    return best < 0 ? ""
-                    : format("UV set {} overlaps {}, set {} {}: try --uv-set {}", best, percent_text(least),
-                             recipe.mesh_params.uv_set, percent_text(now), best);
+    return best < 0
+        ? ""
+        : format("UV set {} overlaps {}, set {} {}: try --uv-set {}", best, percent_text(least),
+                 recipe.mesh_params.uv_set, percent_text(percent(report.overlapping, report.covered)), best);
 }
 
 std::string better_by_material(const Mesh& mesh, const VismapRecipe& recipe)
@@ -72,7 +84,8 @@ std::string better_by_material(const Mesh& mesh, const VismapRecipe& recipe)
         std::string at, error;
         if (!choose_triangles(chosen, mesh, { { material }, {} }, at, error))
             return "";
-        most = std::max(most, measure_overlap(mesh_part(mesh, chosen), recipe.vismap_params));
+        most = std::max(most,
+                        measure_overlap(mesh_part(mesh, chosen), recipe.vismap_params, int64_t(mesh.triangles.size())));
     }
     if (most >= kHeavy)
         return "";
@@ -93,7 +106,7 @@ bool has_heavy_overlap(const VismapReport& report)
 
 std::string overlap_hint(const VismapReport& report, const Mesh& mesh, const VismapRecipe& recipe)
 {
-    const std::string by_set = better_uv_set(percent(report.overlapping, report.covered), recipe);
+    const std::string by_set = better_uv_set(report, recipe);
     const std::string by_material = better_by_material(mesh, recipe);
     return by_set + (by_set.empty() || by_material.empty() ? "" : "; or ") + by_material;
 }
