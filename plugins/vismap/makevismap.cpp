@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
+#include <vmlight/stage/mesh_list.h>
 #include <vmlight/vismap/basis.h>
 
 using namespace vmlight;
@@ -12,6 +13,9 @@ int main(int argc, const char** argv)
                     "  makevismap hero.obj -o hero_vismap.exr --resolution 2048 --samples 256\n"
                     "  makevismap hero.obj -o 'hero_vismap.<UDIM>.exr'\n"
                     "  makevismap hero.glb --occluder ground.obj --occluder tree.ply -o hero_vismap.exr\n"
+                    "  makevismap hero.glb --list\n"
+                    "  makevismap hero.glb --material Body --material Face -o hero_vismap.exr\n"
+                    "  makevismap hero.glb -o 'hero_<MATERIAL>.exr'\n"
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
     UdimRun tiles(stage, recipe);
@@ -24,6 +28,10 @@ int main(int argc, const char** argv)
                      error = "time_budget: " + error;
                      return false;
                  });
+    stage.group("Mesh:");
+    stage.answer("list", "Print the UV sets, materials and nodes of the mesh, and make no image",
+                 [&](std::string& text, std::string& error) { return list_mesh(text, recipe, error); });
+    stage.params("Mesh:", recipe.selection);
     stage.params("Mesh:", recipe.mesh_params);
     const auto unsavable = [&] {
         return recipe.time_budget > 0 ? "--time-budget cannot be saved in a recipe: it depends on the machine"

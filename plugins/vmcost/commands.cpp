@@ -76,6 +76,10 @@ std::string command_text(const Setting& setting, const CommandInputs& inputs)
     std::string bake = "makevismap " + quoted(inputs.mesh.mesh) + flags(inputs.mesh.mesh_params) + flags(map);
     for (const std::string& occluder : inputs.mesh.occluder)
         bake += flag("occluder", occluder);
+    for (const std::string& material : inputs.mesh.selection.material)
+        bake += flag("material", material);
+    for (const std::string& node : inputs.mesh.selection.node)
+        bake += flag("node", node);
     if (setting.storage == "half")
         bake += flag("format", setting.storage);
     const CfemRecipe& given = inputs.light;

@@ -23,6 +23,7 @@ int main(int argc, const char** argv)
                     "An interrupted run resumes where it stopped.",
                     OutputKind::Folder);
     stage.params("Measure:", params);
+    stage.params("Mesh:", mesh.selection);
     stage.params("Mesh:", mesh.mesh_params);
     stage.group("Inputs:");
     stage.option("occluder", "FILE", "Mesh that occludes but is not baked; may be repeated", [&](auto text, auto&) {

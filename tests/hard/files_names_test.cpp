@@ -53,6 +53,29 @@ TEST_F(Files, Names)
     row.ours("the same image");
 }
 
+TEST_F(Files, NamesOfMaterials)
+{
+    HardCase row(
+        "Materials named `../a`, `a b`, `.`, `a/b` beside `a_b`, `100%`, or by 300 bytes, with `<MATERIAL>` in `-o`");
+    fs::create_directory("maps");
+    const auto bake = [&](const std::string& a, const std::string& b) {
+        write("two.obj",
+              OIIO::Strutil::replace(kQuad, "f 1", "usemtl " + a + "\nf 1") + "usemtl " + b
+                  + "\nf 1/1/1 2/2/1 3/3/1\n");
+        return run("makevismap two.obj -o 'maps/<MATERIAL>.exr'" + small);
+    };
+    EXPECT_EQ(bake("../a", "a b").code, 0);
+    EXPECT_EQ(bake(".", "100%").code, 0);
+    EXPECT_THAT(names("", "maps"), testing::ElementsAre("100_.exr", "_._a.exr", "_.exr", "a_b.exr"));
+    const std::string before = read("maps/a_b.exr");
+    expect_one_error(bake("a/b", "a_b"), 1, "would both be \"a_b\" in file names");
+    EXPECT_EQ(read("maps/a_b.exr"), before);
+    expect_one_error(bake("a", std::string(300, 'x')), 1, "File name too long");
+    EXPECT_EQ(names("", "maps").size(), 4u);
+    row.naive("files in other folders; one map overwrites the other");
+    row.ours("`_` replaces what is not safe; two materials of one file name are refused before any work");
+}
+
 TEST_F(Files, QuestionMarks)
 {
     HardCase row("A `?` in the name of a folder or a file, before a recipe's ?query, and in the query");

@@ -80,6 +80,10 @@ void randomise(Random& random, std::vector<std::string>& value, const Paths&)
     for (int i = int(random() % 4); i > 0; --i)
         value.push_back(random_text(random, false));
 }
+void randomise(Random& random, std::vector<std::string>& value, const Names&)
+{
+    randomise(random, value, Paths {});
+}
 void randomise(Random& random, std::vector<double>& value, const Numbers& allowed)
 {
     value.resize(allowed.count);

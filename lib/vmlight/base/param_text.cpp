@@ -79,6 +79,11 @@ std::string value_text(const std::vector<std::string>& value, const Paths&)
     return OIIO::Strutil::join(value, "\n");
 }
 
+std::string value_text(const std::vector<std::string>& value, const Names&)
+{
+    return OIIO::Strutil::join(value, "\n");
+}
+
 std::string value_text(const std::vector<double>& value, const Numbers&)
 {
     std::string text;
@@ -126,6 +131,11 @@ std::string allowed_text(const Path&)
 std::string allowed_text(const Paths&)
 {
     return "FILE";
+}
+
+std::string allowed_text(const Names&)
+{
+    return "NAME";
 }
 
 std::string allowed_text(const Numbers& allowed)

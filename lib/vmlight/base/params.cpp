@@ -152,6 +152,11 @@ bool parse_value(std::vector<std::string>& dst, string_view text, const Paths&, 
     return true;
 }
 
+bool parse_value(std::vector<std::string>& dst, string_view text, const Names&, std::string& error)
+{
+    return parse_value(dst, text, Paths {}, error);
+}
+
 bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allowed, std::string& error)
 {
     std::string spaced(text);

@@ -9,6 +9,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace vmlight {
@@ -58,6 +59,11 @@ struct Path
 /// ?query key that is repeated adds a name each time.
 struct Paths
 { };
+/// Names of things in a file. As text, and when repeated, as Paths.
+struct Names
+{ };
+/// Whether a parameter takes one value per line.
+template <class Allowed> constexpr bool kTakesLines = std::is_same_v<Allowed, Paths> || std::is_same_v<Allowed, Names>;
 /// Exactly `count` finite numbers, separated by commas or spaces; or nothing.
 struct Numbers
 {
@@ -98,6 +104,8 @@ VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Tex
 VMLIGHT_API bool parse_value(std::string& dst, OIIO::string_view text, const Path& allowed, std::string& error);
 VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const Paths& allowed,
                              std::string& error);
+VMLIGHT_API bool parse_value(std::vector<std::string>& dst, OIIO::string_view text, const Names& allowed,
+                             std::string& error);
 VMLIGHT_API bool parse_value(std::vector<double>& dst, OIIO::string_view text, const Numbers& allowed,
                              std::string& error);
 VMLIGHT_API bool parse_value(bool& dst, OIIO::string_view text, const Flag& allowed, std::string& error);
@@ -111,6 +119,7 @@ VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const 
 VMLIGHT_API std::string value_text(const std::string& value, const Text& allowed);
 VMLIGHT_API std::string value_text(const std::string& value, const Path& allowed);
 VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Paths& allowed);
+VMLIGHT_API std::string value_text(const std::vector<std::string>& value, const Names& allowed);
 VMLIGHT_API std::string value_text(const std::vector<double>& value, const Numbers& allowed);
 VMLIGHT_API std::string value_text(bool value, const Flag& allowed);
 
@@ -122,6 +131,7 @@ VMLIGHT_API std::string allowed_text(const ChoiceSet& allowed);
 VMLIGHT_API std::string allowed_text(const Text& allowed);
 VMLIGHT_API std::string allowed_text(const Path& allowed);
 VMLIGHT_API std::string allowed_text(const Paths& allowed);
+VMLIGHT_API std::string allowed_text(const Names& allowed);
 VMLIGHT_API std::string allowed_text(const Numbers& allowed);
 VMLIGHT_API std::string allowed_text(const Flag& allowed);
 

@@ -6,6 +6,7 @@
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/cli/material_files.h>
 #include <vmlight/cli/progress_line.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/uv/udim.h>
@@ -76,6 +77,15 @@ void StageMain::option(const std::string& name, const std::string& metavar, cons
     });
 }
 
+void StageMain::answer(const std::string& name, const Help& help,
+                       std::function<bool(std::string& text, std::string& error)> print)
+{
+    option(name, "", help, [this, print = std::move(print)](OIIO::string_view, std::string&) {
+        m_command.print = print;
+        return true;
+    });
+}
+
 void StageMain::check(std::function<std::string()> fault)
 {
     m_command.checks.push_back(std::move(fault));
@@ -99,7 +109,7 @@ bool StageMain::do_work(const std::function<bool(std::string& error)>& work, std
 {
     settle_threads();
     catch_interrupts(m_command.line.name, int(ExitCode::Failed));
-    if (!has_udim_pattern(m_command.output)) // otherwise each tile's file is checked
+    if (!has_udim_pattern(output()) && !has_material_pattern(output())) // otherwise each file is checked
         error = m_command.output_fault();
     if (interrupted()) // deferred while the output folder was checked
         error = "interrupted";
@@ -120,7 +130,9 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
     ExitCode exit = ExitCode::Failed;
     try {
         exit = m_command.parse(argc, argv, answer, error);
-        const bool only_prints = !answer.empty() || m_command.prints_recipe; // a recipe of defaults is empty
+        const bool only_prints = !answer.empty() || !m_command.makes_image(); // a recipe of defaults is empty
+        if (exit == ExitCode::Done && m_command.print && !m_command.print(answer, error))
+            exit = ExitCode::Failed;
         if (exit == ExitCode::Done && !only_prints)
             exit = do_work(work, error) ? ExitCode::Done : ExitCode::Failed;
         else if (exit == ExitCode::Done)

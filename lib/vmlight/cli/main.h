@@ -69,6 +69,10 @@ public:
     void option(const std::string& name, const std::string& metavar, const Help& help, Take take);
     /// Add a flag that stores its text in `dst`, which must outlive run().
     void option(const std::string& name, const std::string& metavar, const Help& help, std::string& dst);
+    /// Add a flag that prints a text instead of making an image. `print` returns false, with the reason in `error`, on
+    /// failure.
+    void answer(const std::string& name, const Help& help,
+                std::function<bool(std::string& text, std::string& error)> print);
     /// Add a check of the whole command line. `fault` returns what is wrong (exit code 2), or "". Skipped if only a
     /// recipe is printed or saved.
     void check(std::function<std::string()> fault);

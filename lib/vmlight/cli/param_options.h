@@ -20,7 +20,7 @@ std::vector<CommandLine::Option> options_of(const std::string& heading, Params& 
     Params defaults = params;
     defaults.visit([&](const char* field, auto& value, const auto& allowed, const Help& help) {
         using Allowed = std::decay_t<decltype(allowed)>;
-        constexpr bool kIsFlag = std::is_same_v<Allowed, Flag>, kIsList = std::is_same_v<Allowed, Paths>;
+        constexpr bool kIsFlag = std::is_same_v<Allowed, Flag>, kIsList = kTakesLines<Allowed>;
         const std::string name = field, text = value_text(value, allowed);
         CommandLine::Option& option = options.emplace_back();
         option.heading = heading;

@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/utf8.h>
+#include <vmlight/cli/material_files.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/paths.h>
 #include <vmlight/stage/recipe/recipe.h>
@@ -18,7 +19,7 @@ std::string StageCommand::output_fault() const
 
 bool StageCommand::saves_recipe() const
 {
-    return !line.stage.empty() && stage_of_extension(output) == line.stage;
+    return !print && !line.stage.empty() && stage_of_extension(output) == line.stage;
 }
 
 std::string StageCommand::image_name_fault() const
@@ -41,6 +42,8 @@ std::string StageCommand::unsavable() const
     if (saves_recipe() && has_udim_pattern(output))
         return format("\"{}\": use <UDIM> in the paths of the recipe instead of its name: one recipe makes all tiles",
                       output);
+    if (saves_recipe() && has_material_pattern(output))
+        return format("\"{}\": <MATERIAL> is for the maps, not for the recipe that makes them", output);
     return recipe.unsavable();
 }
 
@@ -68,12 +71,12 @@ ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
 std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
 {
     std::string fault;
-    const bool only_recipe = prints_recipe || saves_recipe();
-    if (only_recipe)
+    const bool works = makes_image();
+    if (prints_recipe || saves_recipe())
         fault = unsavable();
-    else if (output.empty())
+    else if (works && output.empty())
         fault = format("-o {} is missing", line.output_metavar);
-    else if (output_kind == OutputKind::Image)
+    else if (works && output_kind == OutputKind::Image)
         fault = image_name_fault();
     if (fault.empty() && (saves_recipe() || recipe.fault() != fault_of_recipe))
         fault = recipe.fault();
@@ -81,7 +84,7 @@ std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
         if (const std::string reason = recipe.unused_reason(option->name); fault.empty() && !reason.empty())
             fault = format("{}{}: {}", option->flag(), option->metavar.empty() ? "" : " " + text, reason);
     for (const auto& check : checks)
-        if (fault.empty() && !only_recipe)
+        if (fault.empty() && works)
             fault = check();
     return fault;
 }

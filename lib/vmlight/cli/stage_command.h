@@ -71,6 +71,8 @@ struct StageCommand
     std::string output;
     /// --print-recipe; see saves_recipe().
     bool prints_recipe = false;
+    /// Set by a flag that asks for something else than an image: makes the text to print. See StageMain::answer().
+    std::function<bool(std::string& text, std::string& error)> print;
     FileParams file;
     RunParams common;
 
@@ -80,6 +82,9 @@ struct StageCommand
     ///                 print or save
     /// @returns Done, or the exit code with the reason in `error`
     ExitCode parse(int argc, const char** argv, std::string& answer, std::string& error);
+
+    /// Whether an image is to be made.
+    bool makes_image() const { return !prints_recipe && !saves_recipe() && !print; }
 
     /// Whether -o names a recipe of this stage: the command line is saved as that, and no image is made.
     bool saves_recipe() const;

@@ -2,6 +2,8 @@
 #include <vmlight/cli/udim_run.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/cli/material_files.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/uv/udim.h>
@@ -21,13 +23,13 @@ bool is_vismap_recipe(const std::string& name)
     return recipe_stage(name) == VismapRecipe::kStage;
 }
 
-void name_tile(MakeOptions& options, int udim)
+// Start all messages of `options` with `name`.
+void prefix_messages(MakeOptions& options, const std::string& name)
 {
-    const std::string tile = format("tile {}: ", udim);
-    options.say = [tile, say = options.say](const std::string& line) { say(tile + line); };
-    options.warn = [tile, warn = options.warn](const std::string& line) { warn(tile + line); };
-    options.progress = [tile, progress = options.progress](const std::string& step, int64_t texels) {
-        return progress(tile + step, texels);
+    options.say = [name, say = options.say](const std::string& line) { say(name + line); };
+    options.warn = [name, warn = options.warn](const std::string& line) { warn(name + line); };
+    options.progress = [name, progress = options.progress](const std::string& step, int64_t texels) {
+        return progress(name + step, texels);
     };
 }
 
@@ -64,11 +66,26 @@ template <class Recipe> auto UdimRun<Recipe>::inputs() const -> std::vector<Inpu
     return found;
 }
 
+template <class Recipe> std::string UdimRun<Recipe>::material_fault() const
+{
+    const std::string& output = m_stage.output();
+    if (!has_material_pattern(output))
+        return "";
+    if constexpr (std::is_same_v<Recipe, VismapRecipe>)
+        return has_udim_pattern(m_recipe.mesh) && !is_single_tile()
+            ? format("\"{}\": <MATERIAL> needs one mesh for all tiles, or --udim; \"{}\" is one for each", output,
+                     m_recipe.mesh)
+            : "";
+    return format("\"{}\": <MATERIAL> is for visibility maps: only makevismap knows the materials of a mesh", output);
+}
+
 // What is wrong with the command line, or "". Sets the tiles, unless they depend on a mesh.
 template <class Recipe> std::string UdimRun<Recipe>::fault()
 {
     const std::string& output = m_stage.output();
     const std::vector<Input> patterns = inputs();
+    if (const std::string reason = material_fault(); !reason.empty())
+        return reason;
     if (m_udim_flag && !m_udims.empty())
         return "give only one of udim and udims";
     if (!m_udims.empty() && !has_udim_pattern(output) && patterns.empty())
@@ -111,24 +128,82 @@ template <class Recipe> std::string UdimRun<Recipe>::find_tiles_by_files()
     return format("\"{}\": which tiles? No input contains <UDIM>: pass --udim or --udims", m_stage.output());
 }
 
-template <class Recipe> bool UdimRun<Recipe>::find_tiles(const MakeOptions& options, std::string& error)
+template <class Recipe>
+bool UdimRun<Recipe>::find_tiles(Part& dst, const MakeOptions& options, std::string& error) const
 {
-    if (!m_tiles.empty())
+    dst.udims = m_tiles;
+    if (!dst.udims.empty())
         return true;
     VismapRecipe recipe;
     MakeOptions inner = options;
     if constexpr (std::is_same_v<Recipe, VismapRecipe>)
-        recipe = m_recipe;
+        recipe = dst.recipe;
     else if (const std::string name = udim_path(m_vismap, kFirstUdim); read_recipe(recipe, name, error))
         inner.chain.push_back(name);
     else
         return false;
     if (!has_udim_pattern(recipe.mesh))
-        return vismap_udims(m_tiles, recipe, inner, error);
-    m_tiles = existing_udims(recipe.mesh);
-    if (m_tiles.empty())
+        return vismap_udims(dst.udims, recipe, inner, error);
+    dst.udims = existing_udims(recipe.mesh);
+    if (dst.udims.empty())
         error = format("\"{}\": mesh: \"{}\": no files match", m_vismap, recipe.mesh);
-    return !m_tiles.empty();
+    return !dst.udims.empty();
+}
+
+template <class Recipe>
+bool UdimRun<Recipe>::find_parts(std::vector<Part>& dst, const MakeOptions& options, std::string& error) const
+{
+    if (!has_material_pattern(m_stage.output()))
+        dst.push_back({ m_recipe, "", m_stage.output(), {} });
+    if constexpr (std::is_same_v<Recipe, VismapRecipe>)
+        if (dst.empty()) {
+            std::vector<std::string> materials;
+            if (!vismap_materials(materials, m_recipe, options, error))
+                return false;
+            error = same_file_fault(materials);
+            if (!error.empty()) {
+                error = format("\"{}\": {}", m_recipe.mesh, error);
+                return false;
+            }
+            for (const std::string& material : materials) {
+                dst.push_back({ m_recipe, material, material_path(m_stage.output(), material), {} });
+                dst.back().recipe.selection.material = { material };
+            }
+        }
+    for (Part& part : dst) {
+        if (!find_tiles(part, options, error))
+            return false;
+        for (const int udim : part.udims) {
+            error = output_fault(udim_path(part.output, udim));
+            if (!error.empty())
+                return false;
+        }
+    }
+    return true;
+}
+
+template <class Recipe>
+bool UdimRun<Recipe>::make_part(const Part& part, const Make& make, const MakeOptions& options,
+                                std::string& error) const
+{
+    const bool named = !is_single_tile() || m_recipe.udim_given;
+    for (const int udim : part.udims) {
+        Recipe recipe = part.recipe;
+        MakeOptions tile = options;
+        udim_of(recipe) = udim;
+        recipe.udim_given = named;
+        tile.repeated_inputs = udim != part.udims.front();
+        std::string name = part.material.empty() ? "" : format("material {}: ", printable_line(part.material));
+        if (named)
+            name += format("tile {}: ", udim);
+        if (!name.empty())
+            prefix_messages(tile, name);
+        if (!make(recipe, udim_path(part.output, udim), tile, error)) {
+            error = name + error;
+            return false;
+        }
+    }
+    return true;
 }
 
 template <class Recipe> bool UdimRun<Recipe>::make_tiles(const Make& make, std::string& error)
@@ -136,27 +211,14 @@ template <class Recipe> bool UdimRun<Recipe>::make_tiles(const Make& make, std::
     std::shared_ptr<const BakeScene> scene; // shared by all tiles of a mesh
     MakeOptions options = m_stage.make_options();
     options.scene = &scene;
-    if (!find_tiles(options, error))
+    std::vector<Part> parts;
+    if (!find_parts(parts, options, error))
         return false;
-    const bool named = !is_single_tile() || m_recipe.udim_given;
-    for (const int udim : m_tiles) {
-        error = output_fault(udim_path(m_stage.output(), udim));
-        if (!error.empty())
+    const std::shared_ptr<const BakeScene> whole = scene; // shared by all materials
+    for (const Part& part : parts) {
+        options.repeated_mesh = &part != &parts.front();
+        if (!make_part(part, make, options, error))
             return false;
-    }
-    for (const int udim : m_tiles) {
-        Recipe recipe = m_recipe;
-        MakeOptions tile = options;
-        udim_of(recipe) = udim;
-        recipe.udim_given = named;
-        tile.repeated_inputs = udim != m_tiles.front();
-        if (named)
-            name_tile(tile, udim);
-        if (!make(recipe, udim_path(m_stage.output(), udim), tile, error)) {
-            if (named)
-                error = format("tile {}: {}", udim, error);
-            return false;
-        }
     }
     return true;
 }

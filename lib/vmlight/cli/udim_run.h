@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// UDIM tiles in executables: --udim, --udims and <UDIM> in file names, and the loop over the tiles that they select.
+/// UDIM tiles in executables: --udim, --udims and <UDIM> in file names, and the loop over the tiles that they select;
+/// for a vismap also <MATERIAL> in -o, and the loop over materials.
 #pragma once
 
 #include <vmlight/cli/main.h>
@@ -28,8 +29,9 @@ public:
     /// Makes one tile, `recipe` with its udim, and writes it to `output`.
     using Make = std::function<bool(const Recipe& recipe, const std::string& output, const MakeOptions& options,
                                     std::string& error)>;
-    /// Call `make` for each tile in ascending order; its messages are prefixed with the tile's number. Stops at the
-    /// first failure: returns false, with the tile and the reason in `error`. Files of earlier tiles stay.
+    /// Call `make` for each material in the file's order, and for each of its tiles in ascending order; its messages
+    /// are prefixed with the material's name and the tile's number. Stops at the first failure: returns false, with
+    /// these and the reason in `error`. Files of earlier tiles stay.
     bool make_tiles(const Make& make, std::string& error);
 
 private:
@@ -37,20 +39,30 @@ private:
     {
         std::string key, name;
     };
+    /// What is made of one material, or of all.
+    struct Part
+    {
+        Recipe recipe;
+        std::string material, output; // "" for all; with <UDIM>
+        std::vector<int> udims;
+    };
     std::vector<Input> inputs() const;
     bool is_single_tile() const
     {
         return m_udims.empty() && (m_recipe.udim_given || !has_udim_pattern(m_stage.output()));
     }
     std::string fault();
+    std::string material_fault() const;
     std::string find_tiles_by_files();
-    bool find_tiles(const MakeOptions& options, std::string& error);
+    bool find_tiles(Part& dst, const MakeOptions& options, std::string& error) const;
+    bool find_parts(std::vector<Part>& dst, const MakeOptions& options, std::string& error) const;
+    bool make_part(const Part& part, const Make& make, const MakeOptions& options, std::string& error) const;
 
     StageMain& m_stage;
     Recipe& m_recipe;
     bool m_udim_flag = false;
     std::vector<int> m_udims; // from --udims
-    std::vector<int> m_tiles; // to make; empty until find_tiles() if they depend on a mesh
+    std::vector<int> m_tiles; // to make; empty if they depend on a mesh
     std::string m_vismap; // the recipe whose mesh they depend on; "" for m_recipe
 };
 

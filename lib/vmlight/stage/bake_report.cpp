@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/stage/overlap_hint.h>
 
 #include <algorithm>
 
@@ -50,6 +51,30 @@ void report_lost(const MakeOptions& options, const VismapReport& report)
                             plural(report.tiny, "is", "are"), plural(report.tiny, "it", "them")));
 }
 
+// What the mesh's file and those of its occluders say.
+void report_files(const MakeOptions& options, const VismapReport& report)
+{
+    if (options.repeated_inputs || options.repeated_mesh)
+        return;
+    if (!report.normals_from.empty())
+        options.report("normals: " + report.normals_from);
+    for (const std::string& warning : report.warnings)
+        options.report_warning(warning);
+}
+
+void report_overlap(const MakeOptions& options, const VismapReport& report, const VismapRecipe& recipe,
+                    const Mesh& mesh)
+{
+    if (report.overlapping == 0 || !options.warn)
+        return;
+    const std::string hint
+        = has_heavy_overlap(report) && !options.repeated_inputs ? overlap_hint(report, mesh, recipe) : "";
+    options.warn(format(
+        "{} ({:.2f} % of the covered ones) {} to more than one triangle: the first triangle in the file wins{}{}",
+        count_text(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
+        plural(report.overlapping, "belongs", "belong"), hint.empty() ? "" : ". ", hint));
+}
+
 // From where rounding is as large as the smallest gap that separates two surfaces.
 void report_rounding(const MakeOptions& options, const VismapReport& report)
 {
@@ -74,12 +99,13 @@ std::string error_line(const VismapReport& report)
 } // namespace
 
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
-                 const VismapRecipe& recipe)
+                 const VismapRecipe& recipe, const Mesh& mesh)
 {
     const auto say = [&](const std::string& line) { options.report(line); };
     const auto warn = [&](const std::string& line) { options.report_warning(line); };
     const UvReport& uv = report.uv;
     const std::string tile = recipe.udim_given ? format("tile {}", recipe.vismap_params.udim) : "[0,1]";
+    report_files(options, report);
     say(format(
         "uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach outside {}, {} in other tiles, {} mirrored, "
         "{} without area in UV, {} in space, {} without UVs",
@@ -97,11 +123,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         warn(format("time_budget: even {} per texel, the minimum, {} about {:.2g} s, more than {:.6g}",
                     count_text(report.samples, "ray", "rays"), plural(report.samples, "takes", "take"),
                     report.expected_seconds, recipe.time_budget));
-    if (report.overlapping > 0)
-        warn(format(
-            "{} ({:.2f} % of the covered ones) {} to more than one triangle: the first triangle in the file wins",
-            count_text(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
-            plural(report.overlapping, "belongs", "belong")));
+    report_overlap(options, report, recipe, mesh);
     report_outside(options, uv, recipe);
     if (uv.without_uv > 0 && !options.repeated_inputs)
         warn(format("{} of {} {}", uv.without_uv, count_text(uv.triangles, "triangle", "triangles"),

@@ -9,9 +9,10 @@
 
 namespace vmlight {
 
-/// Report what was baked, and warn of overlap, triangles outside the tile or without UVs, islands that cover no texel,
-/// triangles too small to start rays from, and a map that is empty or mostly dark.
+/// Report what was baked of `mesh`, and warn of what its file says, of overlap and what would overlap less, of
+/// triangles outside the tile or without UVs, islands that cover no texel, triangles too small to start rays from, and
+/// a map that is empty or mostly dark.
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
-                 const VismapRecipe& recipe);
+                 const VismapRecipe& recipe, const Mesh& mesh);
 
 } // namespace vmlight

@@ -29,6 +29,8 @@ struct MakeOptions
     std::shared_ptr<const BakeScene>* scene = nullptr;
     /// The same inputs were made for another UDIM tile before: do not repeat what holds for all tiles.
     bool repeated_inputs = false;
+    /// The same for another part of the mesh.
+    bool repeated_mesh = false;
 
     /// progress() for an image of `width` x `height` texels; empty if there is no listener.
     Progress step(const char* name, int64_t width, int64_t height) const

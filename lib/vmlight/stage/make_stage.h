@@ -29,10 +29,15 @@ VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, c
 VMLIGHT_API bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
                              std::string& error);
 
-/// The UDIM tiles that the mesh of `recipe` covers, see mesh_udims(). Reads the mesh; with `options.scene` a later bake
-/// shares it. False, with the reason in `error`, if the mesh cannot be read or baked, or covers no tile.
+/// The UDIM tiles that what `recipe` bakes of its mesh covers, see mesh_udims(). Reads the mesh; with `options.scene` a
+/// later bake shares it. False, with the reason in `error`, if the mesh cannot be read or baked, or covers no tile.
 VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe, const MakeOptions& options,
                               std::string& error);
+
+/// The names of the materials that `recipe` bakes, see baked_materials(). Reads the mesh as vismap_udims() does. False,
+/// with the reason in `error`, if the mesh cannot be read or baked, or has no materials.
+VMLIGHT_API bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                                  std::string& error);
 
 /// The inputs of a lightmap, ready for make_lightmap(), so that several lightmaps can share them.
 struct LightmapInputs

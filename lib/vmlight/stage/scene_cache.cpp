@@ -4,7 +4,10 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/uv_sets.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -64,33 +67,121 @@ const char* key_of(size_t index)
     return index ? "occluder" : "mesh";
 }
 
-bool build(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, double& seconds,
-           std::string& at, std::string& error)
+// A part with its scale this many times that of the whole gets a scene of its own.
+constexpr double kSmallPart = 64;
+
+// Read one of the recipe's files, and note all that it opens in `files`.
+bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& recipe, const SceneStamps& stamps,
+               size_t index, std::string& at, std::string& error)
+{
+    at = key_of(index);
+    ++work_counts().meshes_read;
+    return read_mesh(dst, path_of(recipe, index), recipe.mesh_params, error,
+                     [&](const std::string& path) {
+                         FileStamp file { path, "" };
+                         std::string ignored;
+                         if (stamp_file(file.stamp, path, ignored))
+                             files.push_back(std::move(file));
+                     })
+        && check_stamp(stamps.files[index], path_of(recipe, index), error);
+}
+
+bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
+                 double& seconds, std::string& at, std::string& error)
 {
     auto mesh = std::make_shared<Mesh>();
     std::vector<Mesh> occluders(recipe.occluder.size());
     auto scene = std::make_shared<BakeScene>();
-    const auto keep_stamp = [&](const std::string& path) {
-        FileStamp file { path, "" };
-        std::string ignored;
-        if (stamp_file(file.stamp, path, ignored))
-            scene->files.push_back(std::move(file));
-    };
-    for (size_t i = 0; i < stamps.files.size(); ++i) {
-        at = key_of(i);
-        if (!read_mesh(i ? occluders[i - 1] : *mesh, path_of(recipe, i), recipe.mesh_params, error, keep_stamp)
-            || !check_stamp(stamps.files[i], path_of(recipe, i), error))
+    for (size_t i = 0; i < stamps.files.size(); ++i)
+        if (!read_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at, error))
             return false;
-    }
-    work_counts().meshes_read += int64_t(stamps.files.size());
-    const Stopwatch timer;
     at = key_of(0);
+    if (mesh->uvs.empty()) {
+        error = no_uvs_error(recipe);
+        return false;
+    }
+    const Stopwatch timer;
     if (!scene->build(std::move(mesh), occluders, nthreads, error))
         return false;
     ++work_counts().scenes_built;
     seconds = timer();
     dst = std::move(scene);
     return true;
+}
+
+// The rest of the mesh is one more occluder. The others are read again: `whole` has not kept them.
+bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<const Mesh> part, Mesh rest,
+                      const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, std::string& at,
+                      std::string& error)
+{
+    std::vector<Mesh> occluders(1 + recipe.occluder.size());
+    std::vector<FileStamp> again;
+    occluders[0] = std::move(rest);
+    for (size_t i = 1; i < stamps.files.size(); ++i)
+        if (!read_file(occluders[i], again, recipe, stamps, i, at, error))
+            return false;
+    at = key_of(0);
+    dst.files = whole.files;
+    ++work_counts().scenes_built;
+    return dst.build(std::move(part), occluders, nthreads, error);
+}
+
+bool build_part(BakeScenePointer& dst, const BakeScenePointer& whole, const VismapRecipe& recipe,
+                const SceneStamps& stamps, int nthreads, double& seconds, std::string& at, std::string& error)
+{
+    const Stopwatch timer;
+    std::vector<bool> chosen;
+    if (!choose_triangles(chosen, whole->mesh(), recipe.selection, at, error))
+        return false;
+    if (std::find(chosen.begin(), chosen.end(), false) == chosen.end()) {
+        dst = whole;
+        return true;
+    }
+    auto part = std::make_shared<Mesh>(mesh_part(whole->mesh(), chosen));
+    at = key_of(0);
+    if (part->uvs.empty()) {
+        error = no_uvs_error(recipe);
+        return false;
+    }
+    chosen.flip();
+    Mesh rest = mesh_part(whole->mesh(), chosen);
+    auto scene = std::make_shared<BakeScene>();
+    const bool is_small = SceneFrame::around(*part).scale >= kSmallPart * whole->frame().scale;
+    if (is_small) {
+        part->warnings = whole->mesh().warnings;
+        if (!build_small_part(*scene, *whole, std::move(part), std::move(rest), recipe, stamps, nthreads, at, error))
+            return false;
+    } else if (!scene->build_part(whole, std::move(part), rest, error)) {
+        return false;
+    }
+    seconds += timer();
+    dst = std::move(scene);
+    return true;
+}
+
+using Build = std::function<bool(BakeScenePointer& dst)>;
+
+// The scene of this key, from whoever holds it or else from `build`.
+bool share(BakeScenePointer& dst, const std::string& key, const Build& build)
+{
+    const std::shared_ptr<Slot> slot = slots().find(key);
+    const std::lock_guard<std::mutex> lock(slot->mutex);
+    dst = slot->scene.lock();
+    if (dst && !are_unchanged(dst->files)) // e.g. a buffer file that a glTF names
+        dst = nullptr;
+    if (!dst && !build(dst))
+        return false;
+    slot->scene = dst;
+    return true;
+}
+
+std::string selection_key(MeshSelection selection)
+{
+    std::string key;
+    selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        key += std::string(name) + "=" + value_text(value, allowed) + "\n";
+    });
+    return key;
 }
 
 } // namespace
@@ -117,14 +208,15 @@ bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
                  double* built, std::string& at, std::string& error)
 {
     double seconds = 0;
-    const std::shared_ptr<Slot> slot = slots().find(stamps.key);
-    const std::lock_guard<std::mutex> lock(slot->mutex);
-    dst = slot->scene.lock();
-    if (dst && !are_unchanged(dst->files)) // e.g. a buffer file that a glTF names
-        dst = nullptr;
-    if (!dst && !build(dst, recipe, stamps, nthreads, seconds, at, error))
+    const Build whole
+        = [&](BakeScenePointer& scene) { return build_whole(scene, recipe, stamps, nthreads, seconds, at, error); };
+    const Build part = [&](BakeScenePointer& scene) {
+        BakeScenePointer all;
+        return share(all, stamps.key, whole) && build_part(scene, all, recipe, stamps, nthreads, seconds, at, error);
+    };
+    if (!(recipe.selection.is_all() ? share(dst, stamps.key, whole)
+                                    : share(dst, stamps.key + selection_key(recipe.selection), part)))
         return false;
-    slot->scene = dst;
     if (built)
         *built = seconds;
     return true;

@@ -15,7 +15,7 @@ struct SceneStamps
 {
     /// stamp_file() of the mesh, then of each occluder.
     std::vector<std::string> files;
-    /// Equal keys, equal scenes.
+    /// Equal keys, equal scenes of whole meshes.
     std::string key;
 };
 
@@ -25,9 +25,14 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
 /// Get the scene of a recipe whose paths contain no "<UDIM>": shared while anyone holds it, whatever their UDIM tile,
 /// resolution and samples; otherwise read and built. Callable from any thread; concurrent callers wait for one build.
 ///
+/// A part that the recipe's selection chooses shares the scene of the whole mesh, in its frame, so that its texels get
+/// the same bits as in a bake of the whole; unless the part is less than 1/64 as large, where that would cost it
+/// precision: then it has a scene of its own.
+///
 /// @param stamps   of the files when the caller decided to read them
 /// @param built    nullptr, or set to the seconds spent building, without reading files; 0 if the scene was shared
-/// @returns false if a file has changed since, or cannot be used, or memory runs out: `at` and `error` as for
+/// @returns false if a file has changed since, or cannot be used, the selection chooses nothing, or memory runs out:
+/// `at` and `error` as for
 ///          stamp_scene(). The next call tries again.
 bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
                  double* built, std::string& at, std::string& error);

@@ -21,6 +21,17 @@
 namespace vmlight {
 namespace {
 
+// The parameters of the recipe's mesh.
+void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
+{
+    append_params(spec, recipe.mesh_params);
+    MeshSelection selection = recipe.selection;
+    selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        if (!value.empty()) // a map of the whole mesh has the metadata that it always had
+            spec.attribute(metadata_name(name), value_text(value, allowed));
+    });
+}
+
 class VismapSource : public PixelSource
 {
 public:
@@ -31,7 +42,7 @@ public:
     {
         // No mesh hash: computing it would mean reading the mesh in open().
         m_spec = describe_vismap(OIIO::Filesystem::filename(recipe.mesh), recipe.vismap_params);
-        append_params(m_spec, recipe.mesh_params);
+        append_mesh(m_spec, recipe);
     }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
@@ -63,8 +74,8 @@ public:
             return false;
         }
         report.build_seconds += build_seconds;
-        append_params(map.specmod(), m_recipe.mesh_params);
-        report_bake(options, report, map.spec(), m_recipe);
+        append_mesh(map.specmod(), m_recipe);
+        report_bake(options, report, map.spec(), m_recipe, scene->mesh());
         return true;
     }
 
@@ -103,6 +114,32 @@ private:
     std::atomic<size_t> m_bytes { 0 }; // set last: nonzero means that everything else is ready
 };
 
+// What the recipe bakes of its mesh. Shares the scene of the whole mesh.
+bool share_mesh(std::shared_ptr<const Mesh>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                std::string& error)
+{
+    error = recipe_fault(recipe, options.chain);
+    VismapRecipe whole = recipe;
+    whole.selection = {};
+    SceneStamps stamps;
+    BakeScenePointer scene;
+    std::vector<bool> chosen;
+    std::string at;
+    if (!error.empty())
+        return false;
+    if (!stamp_scene(stamps, whole, at, error)
+        || !share_scene(scene, whole, stamps, options.threads, nullptr, at, error)
+        || !choose_triangles(chosen, scene->mesh(), recipe.selection, at, error)) {
+        error = with_location(recipe, at, options.chain, error);
+        return false;
+    }
+    if (options.scene)
+        *options.scene = scene;
+    dst = recipe.selection.is_all() ? std::shared_ptr<const Mesh>(scene, &scene->mesh())
+                                    : std::make_shared<const Mesh>(mesh_part(scene->mesh(), chosen));
+    return true;
+}
+
 } // namespace
 
 PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain, Sharing sharing)
@@ -128,23 +165,27 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
 bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
 {
     const VismapRecipe recipe = resolve_udim(given);
-    error = recipe_fault(recipe, options.chain);
-    SceneStamps stamps;
-    BakeScenePointer scene;
-    std::string at;
-    if (!error.empty())
+    std::shared_ptr<const Mesh> mesh;
+    if (!share_mesh(mesh, recipe, options, error))
         return false;
-    if (!stamp_scene(stamps, recipe, at, error)
-        || !share_scene(scene, recipe, stamps, options.threads, nullptr, at, error)) {
-        error = with_location(recipe, at, options.chain, error);
-        return false;
-    }
-    if (options.scene)
-        *options.scene = scene;
-    dst = mesh_udims(scene->mesh());
+    dst = mesh_udims(*mesh);
     if (dst.empty())
         error = with_location(recipe, "mesh", options.chain,
                               format("\"{}\": its texture coordinates are outside all UDIM tiles", recipe.mesh));
+    return !dst.empty();
+}
+
+bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& given, const MakeOptions& options,
+                      std::string& error)
+{
+    const VismapRecipe recipe = resolve_udim(given);
+    std::shared_ptr<const Mesh> mesh;
+    if (!share_mesh(mesh, recipe, options, error))
+        return false;
+    dst = baked_materials(*mesh);
+    if (dst.empty())
+        error = with_location(recipe, "mesh", options.chain,
+                              format("\"{}\": no materials, so that <MATERIAL> in -o stands for nothing", recipe.mesh));
     return !dst.empty();
 }
 

@@ -57,21 +57,32 @@ double rounding_of(const Mesh& mesh, const SceneFrame& frame)
     return reach * frame.scale * std::numeric_limits<float>::epsilon() / 4;
 }
 
+// What is wrong with the mesh to bake, or "".
+std::string bake_fault(const Mesh& mesh)
+{
+    const std::string& path = mesh.path.empty() ? mesh.name : mesh.path;
+    if (mesh.triangles.empty())
+        return format("\"{}\": no triangles", path);
+    return mesh.uvs.empty()
+        ? format("\"{}\": no texture coordinates in this UV set: unwrap the mesh, or choose another uv_set", path)
+        : "";
+}
+
 } // namespace
+
+void BakeScene::measure()
+{
+    m_tiny = count_tiny(*m_mesh, m_frame);
+    m_rounding = rounding_of(*m_mesh, m_frame);
+    m_mesh_hash = vmlight::mesh_hash(*m_mesh);
+}
 
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
                       std::string& error)
 {
-    const std::string& path = mesh->path.empty() ? mesh->name : mesh->path;
-    if (mesh->triangles.empty()) {
-        error = format("\"{}\": no triangles", path);
+    error = bake_fault(*mesh);
+    if (!error.empty())
         return false;
-    }
-    if (mesh->uvs.empty()) {
-        error
-            = format("\"{}\": no texture coordinates in this UV set: unwrap the mesh, or choose another uv_set", path);
-        return false;
-    }
     std::vector<const Mesh*> casters { mesh.get() };
     for (const Mesh& occluder : occluders)
         casters.push_back(&occluder);
@@ -82,23 +93,46 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     for (const Mesh* caster : casters)
         if (!check_reach(*caster, m_frame, error))
             return false;
-    m_tiny = count_tiny(*mesh, m_frame);
-    m_rounding = rounding_of(*mesh, m_frame);
-    if (!m_occluder.build(casters, m_frame, nthreads, error))
+    const auto occluder = std::make_shared<Occluder>();
+    if (!occluder->build(casters, m_frame, nthreads, error))
         return false;
-    m_mesh_hash = vmlight::mesh_hash(*mesh);
-    for (const Mesh& occluder : occluders)
-        m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(occluder);
-    for (const Mesh* caster : casters)
+    m_occluder = occluder;
+    for (const Mesh& caster : occluders)
+        m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
+    for (const Mesh* caster : casters) {
         m_triangles += int64_t(caster->triangles.size());
+        for (const std::string& warning : caster->warnings)
+            m_warnings.push_back(format("\"{}\": {}", caster->path.empty() ? caster->name : caster->path, warning));
+    }
     m_mesh = std::move(mesh);
+    measure();
+    return true;
+}
+
+bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,
+                           std::string& error)
+{
+    error = bake_fault(*part);
+    if (!error.empty())
+        return false;
+    m_frame = whole->m_frame;
+    m_occluder = whole->m_occluder;
+    m_occluder_hashes
+        = vmlight::mesh_hash(rest) + (whole->m_occluder_hashes.empty() ? "" : ",") + whole->m_occluder_hashes;
+    m_triangles = whole->m_triangles;
+    m_warnings = whole->m_warnings;
+    files = whole->files;
+    m_mesh = std::move(part);
+    m_whole = std::move(whole);
+    measure();
     return true;
 }
 
 size_t BakeScene::bytes() const
 {
     // Embree needs about 100 bytes per triangle.
-    return 100 * size_t(m_triangles) + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
+    return (m_whole ? m_whole->bytes() : 100 * size_t(m_triangles)) + 20 * m_mesh->triangles.size()
+        + 48 * m_mesh->positions.size();
 }
 
 } // namespace vmlight

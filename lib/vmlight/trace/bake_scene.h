@@ -24,10 +24,17 @@ public:
     ///          is too far away to be traced, or memory runs out
     bool build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads, std::string& error);
 
+    /// A scene that bakes `part` of the mesh of `whole`, which is kept alive: all of `whole` occludes, in the same
+    /// frame, so that the part's texels get the same bits as those of the whole mesh.
+    /// @param rest     the other triangles, for occluder_hashes()
+    /// @returns as for build()
+    bool build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,
+                    std::string& error);
+
     // After build().
     const Mesh& mesh() const { return *m_mesh; }
     const SceneFrame& frame() const { return m_frame; }
-    const Occluder& occluder() const { return m_occluder; }
+    const Occluder& occluder() const { return *m_occluder; }
     /// mesh_hash() of the mesh, and of each occluder, separated by commas.
     const std::string& mesh_hash() const { return m_mesh_hash; }
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
@@ -37,6 +44,8 @@ public:
     int64_t tiny_triangles() const { return m_tiny; }
     /// See VismapReport::rounding.
     double rounding() const { return m_rounding; }
+    /// Mesh::warnings of the mesh and its occluders, after their paths.
+    const std::vector<std::string>& warnings() const { return m_warnings; }
     /// Approximate memory use.
     size_t bytes() const;
 
@@ -44,10 +53,14 @@ public:
     std::vector<FileStamp> files;
 
 private:
+    void measure();
+
     std::shared_ptr<const Mesh> m_mesh;
+    std::shared_ptr<const BakeScene> m_whole; // of which this is a part, or nullptr
     SceneFrame m_frame;
-    Occluder m_occluder;
+    std::shared_ptr<const Occluder> m_occluder;
     std::string m_mesh_hash, m_occluder_hashes;
+    std::vector<std::string> m_warnings;
     int64_t m_triangles = 0, m_tiny = 0;
     double m_rounding = 0;
 };

@@ -57,6 +57,8 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (!pixels)
         return fail_with(dst, format("out of memory for {}x{} texels", spec.width, spec.height));
     counts.uv = baker.uv_report();
+    counts.normals_from = scene->mesh().normals_from;
+    counts.warnings = scene->warnings();
     counts.tiny = scene->tiny_triangles();
     counts.rounding = scene->rounding();
     if (report)

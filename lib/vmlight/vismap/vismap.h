@@ -109,6 +109,8 @@ VMLIGHT_API bool holds_whole_numbers(const std::string& channel);
 struct VismapReport
 {
     UvReport uv;
+    std::string normals_from; ///< Mesh::normals_from of the mesh
+    std::vector<std::string> warnings; ///< Mesh::warnings of the mesh and its occluders, after their paths
     int64_t texels = 0; ///< of the whole map
     int64_t covered = 0; ///< texels that a triangle covers
     int64_t overlapping = 0; ///< texels that several triangles cover

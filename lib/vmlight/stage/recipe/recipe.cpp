@@ -93,12 +93,12 @@ bool split_name(std::string& path, Overrides& overrides, const std::string& name
     return true;
 }
 
-// A key with several paths takes one per line.
+// A key with several paths or names takes one per line.
 template <class Recipe> bool takes_lines(Recipe recipe, const std::string& key)
 {
     bool lines = false;
     recipe.visit([&](const char* name, auto&, const auto& allowed, const char*) {
-        lines = lines || (key == name && std::is_same_v<std::decay_t<decltype(allowed)>, Paths>);
+        lines = lines || (key == name && kTakesLines<std::decay_t<decltype(allowed)>>);
     });
     return lines;
 }

@@ -17,6 +17,7 @@
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/mesh/selection.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -32,6 +33,8 @@ struct VismapRecipe
     std::string mesh;
     std::vector<std::string> occluder;
     MeshParams mesh_params;
+    /// Of `mesh`; occluders are all there.
+    MeshSelection selection;
     VismapParams vismap_params;
     /// Seconds that the bake may take; 0 is no limit. Set by a command line only: machines differ, recipes do not.
     double time_budget = 0;
@@ -42,6 +45,7 @@ struct VismapRecipe
     {
         field("mesh", mesh, Path {}, "Mesh to bake");
         field("occluder", occluder, Paths {}, "Mesh that occludes but is not baked");
+        selection.visit(field);
         vismap_params.visit(field);
         mesh_params.visit(field);
     }
@@ -146,7 +150,7 @@ template <class Recipe> int& udim_of(Recipe& recipe)
 
 /// Read a recipe: the file before '?', then the overrides after it ("hero.lightmap?rotate=0,45,0&exposure=1").
 /// The first '?' behind the recipe's extension starts the overrides, '&' separates them, and nothing is %-decoded: a
-/// value with '&' must be in the file. Only a key that takes several paths may repeat. The file must exist.
+/// value with '&' must be in the file. Only a key that takes several paths or names may repeat. The file must exist.
 ///
 /// @param error    set to one line that names file, key and line number, if the result is false
 /// @returns false if the file cannot be read, is empty, larger than 1 MiB or not TOML, a key is unknown (the error

@@ -54,12 +54,22 @@ std::string toml_text(const std::vector<std::string>& value, const ChoiceSet& al
     return words.empty() ? "[]" : "[" + OIIO::Strutil::replace(quoted(words), ",", "\", \"", true) + "]";
 }
 
-std::string toml_text(const std::vector<std::string>& value, const Paths&)
+std::string lines_toml(const std::vector<std::string>& value)
 {
     std::string text;
-    for (const std::string& path : value)
-        text += "    " + quoted(path) + ",\n";
+    for (const std::string& line : value)
+        text += "    " + quoted(line) + ",\n";
     return text.empty() ? "[]" : "[\n" + text + "]";
+}
+
+std::string toml_text(const std::vector<std::string>& value, const Paths&)
+{
+    return lines_toml(value);
+}
+
+std::string toml_text(const std::vector<std::string>& value, const Names&)
+{
+    return lines_toml(value);
 }
 
 // Choices, texts, paths and sizes.

@@ -68,6 +68,26 @@ bool string_text(std::string& text, const toml::node& node, const char* wanted, 
     return true;
 }
 
+// One line for each string of an array, or for a string alone.
+bool lines_text(std::string& text, const toml::node& node, const char* noun, std::string& reason)
+{
+    const std::string wanted = format("an array of {}s in quotes", noun);
+    const toml::array* elements = node.as_array();
+    if (!elements)
+        return string_text(text, node, wanted.c_str(), reason);
+    for (const toml::node& element : *elements) {
+        std::string line;
+        if (!string_text(line, element, format("a {} in quotes", noun).c_str(), reason))
+            return false;
+        if (line.empty() || line.find('\n') != std::string::npos) {
+            reason = line.empty() ? "one of the names is empty" : "a name in a list cannot contain a line break";
+            return false;
+        }
+        text += (text.empty() ? "" : "\n") + line;
+    }
+    return true;
+}
+
 } // namespace
 
 bool parse_toml(toml::table& dst, OIIO::string_view text, const std::string& path, std::string& error)
@@ -150,21 +170,13 @@ bool node_text(std::string& text, const toml::node& node, const std::string&, co
 bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Paths&,
                std::string& reason)
 {
-    const char* wanted = "an array of paths in quotes";
-    const toml::array* paths = node.as_array();
-    if (!paths)
-        return string_text(text, node, wanted, reason);
-    for (const toml::node& element : *paths) {
-        std::string path;
-        if (!string_text(path, element, "a path in quotes", reason))
-            return false;
-        if (path.empty() || path.find('\n') != std::string::npos) {
-            reason = path.empty() ? "one of the names is empty" : "a name in a list cannot contain a line break";
-            return false;
-        }
-        text += (text.empty() ? "" : "\n") + path;
-    }
-    return true;
+    return lines_text(text, node, "path", reason);
+}
+
+bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Names&,
+               std::string& reason)
+{
+    return lines_text(text, node, "name", reason);
 }
 
 bool node_text(std::string& text, const toml::node& node, const std::vector<double>&, const Numbers& allowed,

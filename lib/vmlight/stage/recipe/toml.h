@@ -52,6 +52,8 @@ bool node_text(std::string& text, const toml::node& node, const std::string&, co
 bool node_text(std::string& text, const toml::node& node, const std::string&, const Path&, std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Paths&,
                std::string& reason);
+bool node_text(std::string& text, const toml::node& node, const std::vector<std::string>&, const Names&,
+               std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const std::vector<double>&, const Numbers& allowed,
                std::string& reason);
 bool node_text(std::string& text, const toml::node& node, const bool&, const Flag&, std::string& reason);
