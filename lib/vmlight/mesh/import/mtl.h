@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The materials of OBJ files.
-/// Source: Wavefront, "MTL material format (Lightwave, OBJ)", Advanced Visualizer Manual, appendix B2; `norm` is of
-/// Blender and "Extending the MTL format" (exocortex, 2015).
+/// Sources: Wavefront, "MTL material format (Lightwave, OBJ)", Advanced Visualizer Manual, appendix B2; `norm`:
+/// Exocortex, "Extending the Wavefront MTL format to support PBR", 2015.
 #pragma once
 
 #include <vmlight/mesh/material.h>

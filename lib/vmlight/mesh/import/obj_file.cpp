@@ -167,7 +167,7 @@ int32_t Parser::index(string_view word, const Statement& statement, size_t count
                          what, quoted(statement));
     else if (is_negative && number > int64_t(count))
         m_error = format("cannot read as OBJ: line {}: a face uses {} -{}, but there are only {} before it: {}",
-                         statement.line, what, std::string(digits), count, quoted(statement));
+                         statement.line, what, number, count, quoted(statement));
     const int64_t result = is_negative ? int64_t(count) - number : number - 1;
     return int32_t(std::min<int64_t>(result, std::numeric_limits<int32_t>::max())); // check_faces() finds it
 }
