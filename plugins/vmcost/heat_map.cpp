@@ -14,7 +14,7 @@
 namespace vmlight::cost {
 namespace {
 
-constexpr int kCoverage = 6; // channel of a reference
+constexpr int kCoverageChannel = 6; // channel of a reference
 constexpr float kUncovered = 0.55f; // grey
 
 } // namespace
@@ -29,14 +29,14 @@ OIIO::ImageBuf heat_map(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& re
     double sum = 0;
     int64_t count = 0;
     for (OIIO::ImageBuf::ConstIterator<float> truth(reference); !truth.done(); ++truth)
-        if (truth[kCoverage] > 0) {
+        if (truth[kCoverageChannel] > 0) {
             sum += (double(truth[0]) + truth[1] + truth[2]) / 3;
             ++count;
         }
     const double scale = sum > 0 ? double(count) / sum : 0;
     OIIO::ImageBuf::ConstIterator<float> truth(reference), model(lightmap);
     for (OIIO::ImageBuf::Iterator<float> texel(map); !texel.done(); ++texel, ++truth, ++model) {
-        const bool covered = truth[kCoverage] > 0;
+        const bool covered = truth[kCoverageChannel] > 0;
         for (int c = 0; c < 3; ++c)
             texel[c] = covered ? float((model[c] - truth[c]) * scale) : 0;
         texel[3] = covered;
