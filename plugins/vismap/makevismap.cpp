@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/output_file.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
+#include <vmlight/mesh/export/write_mesh.h>
+#include <vmlight/trace/bake_scene.h>
 #include <vmlight/vismap/basis.h>
 
 using namespace vmlight;
@@ -12,6 +15,7 @@ int main(int argc, const char** argv)
                     "  makevismap hero.obj -o hero_vismap.exr --resolution 2048 --samples 256\n"
                     "  makevismap hero.obj -o 'hero_vismap.<UDIM>.exr'\n"
                     "  makevismap hero.glb --occluder ground.obj --occluder tree.ply -o hero_vismap.exr\n"
+                    "  makevismap scan.ply --unwrap --write-mesh scan_uv.glb -o scan_vismap.exr\n"
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
     UdimRun tiles(stage, recipe);
@@ -24,9 +28,13 @@ int main(int argc, const char** argv)
                      error = "time_budget: " + error;
                      return false;
                  });
+    std::string write_path;
     stage.params("Mesh:", recipe.mesh_params);
+    stage.option("write_mesh", "PATH", "Also write the mesh as baked, with the UVs of the map, to this .glb or .obj",
+                 write_path);
     const auto unsavable = [&] {
         return recipe.time_budget > 0 ? "--time-budget cannot be saved in a recipe: it depends on the machine"
+            : !write_path.empty()     ? "--write-mesh cannot be saved in a recipe"
                                       : tiles.unsavable();
     };
     stage.recipe(
@@ -39,11 +47,25 @@ int main(int argc, const char** argv)
             : std::string();
     });
 
+    stage.check([&] { return write_path.empty() ? "" : mesh_name_fault(write_path); });
+    stage.check([&] {
+        return !write_path.empty() && has_udim_pattern(recipe.mesh) && !has_udim_pattern(write_path)
+            ? "--write-mesh: <UDIM> in the mesh's path needs <UDIM> in this one too: each tile has a mesh"
+            : std::string();
+    });
+
+    std::string written; // one mesh for all tiles, unless each has its own
     const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
+        const std::string path = udim_path(write_path, tile.vismap_params.udim);
+        if (!path.empty() && !(error = output_file_fault(path)).empty())
+            return false;
         OIIO::ImageBuf vismap;
         if (!make_image(vismap, tile, options))
             error = vismap.geterror();
-        return error.empty() && stage.write(vismap, output, error);
+        if (!error.empty() || !stage.write(vismap, output, error) || path == written)
+            return error.empty();
+        written = path;
+        return write_mesh((*options.scene)->mesh(), path, error);
     };
     return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/scene_cache.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/uv/unwrap.h>
 
 #include <map>
 #include <memory>
@@ -64,6 +66,24 @@ const char* key_of(size_t index)
     return index ? "occluder" : "mesh";
 }
 
+UnwrapParams unwrap_params(const VismapRecipe& recipe, int nthreads)
+{
+    const Size size = recipe.vismap_params.size();
+    return { size.width, size.height, recipe.vismap_params.margin, nthreads };
+}
+
+bool unwrap(BakeScene& dst, Mesh& mesh, const VismapRecipe& recipe, int nthreads, std::string& error)
+{
+    const UnwrapParams params = unwrap_params(recipe, nthreads);
+    UnwrapReport report;
+    if (!unwrap_mesh(mesh, params, &report, error))
+        return false;
+    dst.remarks.push_back(unwrap_line(report, params));
+    if (const std::string warning = unwrap_warning(report); !warning.empty())
+        dst.warnings.push_back(warning);
+    return true;
+}
+
 bool build(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, double& seconds,
            std::string& at, std::string& error)
 {
@@ -82,6 +102,9 @@ bool build(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps&
             || !check_stamp(stamps.files[i], path_of(recipe, i), error))
             return false;
     }
+    at = recipe.unwrap ? "unwrap" : key_of(0);
+    if (recipe.unwrap && !unwrap(*scene, *mesh, recipe, nthreads, error))
+        return false;
     work_counts().meshes_read += int64_t(stamps.files.size());
     const Stopwatch timer;
     at = key_of(0);
@@ -103,6 +126,10 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
     params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         stamps.key += std::string(name) + "=" + value_text(value, allowed) + "\n";
     });
+    if (recipe.unwrap) {
+        const UnwrapParams atlas = unwrap_params(recipe, 0);
+        stamps.key += format("unwrap={}x{},{}\n", atlas.width, atlas.height, atlas.margin);
+    }
     for (size_t i = 0; i < stamps.files.size(); ++i) {
         at = key_of(i);
         if (!stamp_file(stamps.files[i], path_of(recipe, i), error))

@@ -31,7 +31,7 @@ public:
     {
         // No mesh hash: computing it would mean reading the mesh in open().
         m_spec = describe_vismap(OIIO::Filesystem::filename(recipe.mesh), recipe.vismap_params);
-        append_params(m_spec, recipe.mesh_params);
+        tag_mesh(m_spec);
     }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
@@ -63,7 +63,13 @@ public:
             return false;
         }
         report.build_seconds += build_seconds;
-        append_params(map.specmod(), m_recipe.mesh_params);
+        tag_mesh(map.specmod());
+        if (!options.repeated_inputs) {
+            for (const std::string& remark : scene->remarks)
+                options.report(remark);
+            for (const std::string& warning : scene->warnings)
+                options.report_warning(warning);
+        }
         report_bake(options, report, map.spec(), m_recipe);
         return true;
     }
@@ -77,6 +83,12 @@ public:
     }
 
 private:
+    void tag_mesh(OIIO::ImageSpec& spec) const
+    {
+        append_params(spec, m_recipe.mesh_params);
+        spec.attribute(metadata_name("unwrap"), value_text(m_recipe.unwrap, Flag {}));
+    }
+
     bool prepare(std::string& error)
     {
         std::string at;

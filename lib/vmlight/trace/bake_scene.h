@@ -42,6 +42,8 @@ public:
 
     /// The files that the caller read to build the scene, for those who share it.
     std::vector<FileStamp> files;
+    /// What the caller did to the mesh before, and what may surprise about it, one sentence each.
+    std::vector<std::string> remarks, warnings;
 
 private:
     std::shared_ptr<const Mesh> m_mesh;

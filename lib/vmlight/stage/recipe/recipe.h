@@ -31,6 +31,8 @@ struct VismapRecipe
     static constexpr const char* kStage = "vismap";
     std::string mesh;
     std::vector<std::string> occluder;
+    /// Replace the UVs of the mesh by an atlas for this resolution and margin: see unwrap_mesh(). Only tile 1001.
+    bool unwrap = false;
     MeshParams mesh_params;
     VismapParams vismap_params;
     /// Seconds that the bake may take; 0 is no limit. Set by a command line only: machines differ, recipes do not.
@@ -42,6 +44,8 @@ struct VismapRecipe
     {
         field("mesh", mesh, Path {}, "Mesh to bake");
         field("occluder", occluder, Paths {}, "Mesh that occludes but is not baked");
+        field("unwrap", unwrap, Flag {},
+              "Replace the mesh's UVs, if any, by an atlas made for this resolution and margin");
         vismap_params.visit(field);
         mesh_params.visit(field);
     }
