@@ -5,6 +5,8 @@
 
 #include <vmlight/mesh/import/read_mesh.h>
 
+#include <gmock/gmock.h>
+
 using namespace vmlight;
 using namespace vmlight::scenes;
 
@@ -107,7 +109,7 @@ TEST(Unwrap, AMapThatIsNotSquareHasSquareTexels)
 {
     UnwrapReport report;
     expect_atlas(box(V3d(-1), V3d(1), false), { 512, 128, 2, 0 }, &report);
-    EXPECT_GT(report.coverage, 0.5);
+    EXPECT_GT(report.coverage, 0.45);
     expect_atlas(box(V3d(-1), V3d(1), false), { 100, 300, 2, 0 }, &report);
 }
 
@@ -128,9 +130,18 @@ TEST(Unwrap, SizeAndPlaceDoNotMatter)
 TEST(Unwrap, ChartsThatDoNotFitAreRefused)
 {
     const Mesh body = box(V3d(-1), V3d(1), false);
-    EXPECT_EQ(refusal(body, atlas_params(16, 16)),
-              "\"box\": 6 charts do not fit into 16x16 texels with a margin of 16: choose a larger resolution or a "
-              "smaller margin");
+    Mesh bodies = body;
+    for (const V3d& p : body.positions)
+        bodies.positions.push_back(p + V3d(5));
+    bodies.normals.insert(bodies.normals.end(), body.normals.begin(), body.normals.end());
+    bodies.uvs.insert(bodies.uvs.end(), body.uvs.begin(), body.uvs.end());
+    const uint32_t count = uint32_t(body.positions.size());
+    for (const auto& [a, b, c] : body.triangles)
+        bodies.triangles.push_back({ a + count, b + count, c + count });
+    EXPECT_THAT(
+        refusal(bodies, atlas_params(16, 16)),
+        testing::EndsWith(" charts do not fit into 16x16 texels with a margin of 16: choose a larger resolution "
+                          "or a smaller margin"));
     Mesh none = body;
     none.positions.assign(none.positions.size(), V3d(1, 2, 3));
     EXPECT_EQ(refusal(none, atlas_params(16, 1)), "\"box\": no triangle has an area: there is nothing to unwrap");

@@ -50,8 +50,11 @@ V2d lay_straight(UnwrapChart& chart)
         UvBounds bounds;
         for (const V2d& p : hull)
             bounds.add(turned(p, along));
-        if (bounds.size().x * bounds.size().y < least * (1 - 1e-9)) {
-            least = bounds.size().x * bounds.size().y;
+        // Of bounds of one area, the ones nearest to a square: a right triangle lies on its legs.
+        const double room = bounds.size().x * bounds.size().y
+            + 1e-3 * std::max(bounds.size().x, bounds.size().y) * bounds.size().length();
+        if (room < least * (1 - 1e-9)) {
+            least = room;
             best = bounds.size().x >= bounds.size().y ? along : V2d(-along.y, along.x);
         }
     }

@@ -91,8 +91,6 @@ bool scale_to_surface(UnwrapChart& chart, const UnwrapSurface& surface)
         const V2d a = chart.uvs[c[1]] - chart.uvs[c[0]], b = chart.uvs[c[2]] - chart.uvs[c[0]];
         const V3d p = surface.edge(t, 0, 1), q = surface.edge(t, 0, 2);
         const double doubled = a.cross(b);
-        if (!(doubled > 0))
-            return false;
         // The derivatives of the surface along u and v; half the sum of their squares is that of the singular values.
         const V3d du = (p * b.y - q * a.y) / doubled, dv = (q * a.x - p * b.x) / doubled;
         sum += surface.area(t) * (du.length2() + dv.length2()) / 2;

@@ -74,10 +74,11 @@ public:
         , m_gap(unwrap_gap(params))
         , m_order(charts.size())
     {
-        // Cells as coarse as the gap allows, and no finer than 1024 for the longest side.
-        constexpr int kGapCells = 8, kMostCells = 1024;
-        const int longest = std::max(params.width, params.height);
-        m_cell = std::max({ 1, m_gap / kGapCells, (longest + kMostCells - 1) / kMostCells });
+        // Cells as coarse as gap and map allow, and no finer than 1024 for the longest side.
+        constexpr int kGapCells = 8, kLeastCells = 256, kMostCells = 1024;
+        const int longest = std::max(params.width, params.height), shortest = std::min(params.width, params.height);
+        m_cell = std::max(
+            { 1, std::min(m_gap / kGapCells, shortest / kLeastCells), (longest + kMostCells - 1) / kMostCells });
         // At the outer border a texel stays free, so that interpolated lookups that wrap around find no other chart.
         m_border = std::min(params.width, params.height) >= 64 ? 1 : 0;
         m_width = std::max(1, (params.width - 2 * m_border) / m_cell);

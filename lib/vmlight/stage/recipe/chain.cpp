@@ -77,9 +77,9 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
     if (recipe.mesh.empty())
         return missing("mesh", chain);
     if (recipe.unwrap && recipe.vismap_params.udim != kFirstUdim)
-        return with_location(
-            recipe, "unwrap", chain,
-            format("unwrap: the atlas is tile {}, and tile {} is empty", kFirstUdim, recipe.vismap_params.udim));
+        return with_location(recipe, "unwrap", chain,
+                             format("{}the atlas is tile {}, and tile {} is empty", chain.empty() ? "unwrap: " : "",
+                                    kFirstUdim, recipe.vismap_params.udim));
     return "";
 }
 
