@@ -18,7 +18,7 @@ protected:
 TEST_F(Unwrap, AMeshWithoutUvsIsBaked)
 {
     write("bare.obj", m_bare);
-    refused(1, "let --unwrap make some", "makevismap bare.obj -o x.exr");
+    refused(1, "unwrap the mesh with makevismap --unwrap", "makevismap bare.obj -o x.exr");
     const std::string said = done("makevismap bare.obj --unwrap -o x.exr --resolution 64 --samples 4 --margin 2");
     EXPECT_THAT(said, HasSubstr("unwrap: "));
     EXPECT_THAT(said, HasSubstr("% of 64x64 texels, 2 texels apart"));

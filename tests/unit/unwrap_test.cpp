@@ -4,6 +4,7 @@
 #include "baked_map.h"
 
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/unwrap_report.h>
 
 #include <gmock/gmock.h>
 

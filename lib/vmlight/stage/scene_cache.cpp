@@ -5,6 +5,7 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/unwrap_report.h>
 #include <vmlight/uv/unwrap.h>
 
 #include <map>

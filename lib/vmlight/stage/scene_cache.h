@@ -23,7 +23,8 @@ struct SceneStamps
 bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error);
 
 /// Get the scene of a recipe whose paths contain no "<UDIM>": shared while anyone holds it, whatever their UDIM tile,
-/// samples and, unless the mesh is unwrapped, resolution; otherwise read and built. Callable from any thread; concurrent callers wait for one build.
+/// samples and, unless the mesh is unwrapped, resolution; otherwise read and built. Callable from any thread;
+/// concurrent callers wait for one build.
 ///
 /// @param stamps   of the files when the caller decided to read them
 /// @param built    nullptr, or set to the seconds spent building, without reading files; 0 if the scene was shared

@@ -68,8 +68,9 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
         return false;
     }
     if (mesh->uvs.empty()) {
-        error = format(
-            "\"{}\": no texture coordinates in this UV set: choose another uv_set, or let --unwrap make some", path);
+        error = format("\"{}\": no texture coordinates in this UV set: choose another uv_set, or unwrap the mesh with "
+                       "makevismap --unwrap",
+                       path);
         return false;
     }
     std::vector<const Mesh*> casters { mesh.get() };

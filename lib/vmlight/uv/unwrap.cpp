@@ -72,11 +72,10 @@ double expected_gap(const std::vector<UnwrapChart>& charts, const UnwrapParams& 
 class AtlasWriter
 {
 public:
-    AtlasWriter(const Mesh& mesh, const UnwrapSurface& surface)
+    explicit AtlasWriter(const Mesh& mesh)
         : m_mesh(mesh)
         , m_uvs(3 * mesh.triangles.size(), V2f(0))
         , m_is_done(mesh.triangles.size(), 0)
-        , m_surface(surface)
     {
     }
 
@@ -144,7 +143,6 @@ private:
     const Mesh& m_mesh;
     std::vector<V2f> m_uvs; // of each corner
     std::vector<char> m_is_done;
-    const UnwrapSurface& m_surface;
 };
 
 } // namespace
@@ -180,7 +178,7 @@ bool unwrap_mesh(Mesh& mesh, const UnwrapParams& params, UnwrapReport* report, s
         return false;
     }
     counts.density /= surface.unit();
-    AtlasWriter writer(mesh, surface);
+    AtlasWriter writer(mesh);
     for (const UnwrapChart& chart : charts)
         writer.add(chart, params, counts);
     writer.drop_the_rest(counts);
@@ -189,22 +187,6 @@ bool unwrap_mesh(Mesh& mesh, const UnwrapParams& params, UnwrapReport* report, s
     if (report)
         *report = counts;
     return true;
-}
-
-std::string unwrap_line(const UnwrapReport& report, const UnwrapParams& params)
-{
-    return format("unwrap: {} {} {:.1f} % of {}x{} texels, {} apart; {:.4g} texels per unit, stretch {:.3f}; {:.2f} s",
-                  count_text(report.charts, "chart", "charts"), plural(report.charts, "covers", "cover"),
-                  100 * report.coverage, params.width, params.height, count_text(unwrap_gap(params), "texel", "texels"),
-                  report.density, report.stretch, report.seconds);
-}
-
-std::string unwrap_warning(const UnwrapReport& report)
-{
-    const int64_t lost = report.without_area + report.too_thin;
-    return lost == 0 ? ""
-                     : format("unwrap: {} no area in the atlas: {} without area in space, {} thinner than UVs can tell",
-                              count_text(lost, "triangle has", "triangles have"), report.without_area, report.too_thin);
 }
 
 } // namespace vmlight

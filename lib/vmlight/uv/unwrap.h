@@ -50,9 +50,4 @@ struct UnwrapReport
 ///          or if the charts do not fit into the map with that margin
 VMLIGHT_API bool unwrap_mesh(Mesh& mesh, const UnwrapParams& params, UnwrapReport* report, std::string& error);
 
-/// What an atlas is like, for the user.
-std::string unwrap_line(const UnwrapReport& report, const UnwrapParams& params);
-/// Which triangles have no place in it, or "".
-std::string unwrap_warning(const UnwrapReport& report);
-
 } // namespace vmlight

@@ -8,10 +8,17 @@
 
 namespace vmlight {
 
+/// A file, whole.
+struct MeshFile
+{
+    std::string path, bytes;
+};
+
 /// One entry of the table of formats.
 struct MeshWriter
 {
     const char* extension;
+    /// The files of a mesh, the one called `path` last.
     std::vector<MeshFile> (*write)(const Mesh& mesh, const std::string& path);
 };
 

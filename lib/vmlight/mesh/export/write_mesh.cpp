@@ -34,17 +34,12 @@ std::string mesh_name_fault(const std::string& path)
     return format("\"{}\": a mesh is written as {}", path, known);
 }
 
-std::vector<MeshFile> mesh_files(const Mesh& mesh, const std::string& path)
-{
-    return find_writer(path)->write(mesh, path);
-}
-
 bool write_mesh(const Mesh& mesh, const std::string& path, std::string& error)
 {
     error = mesh_name_fault(path);
     if (!error.empty() || !check_mesh(mesh, error))
         return false;
-    for (const MeshFile& file : mesh_files(mesh, path))
+    for (const MeshFile& file : find_writer(path)->write(mesh, path))
         if (!write_file(file.path, file.bytes, error))
             return false;
     return true;

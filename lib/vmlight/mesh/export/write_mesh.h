@@ -6,26 +6,16 @@
 #include <vmlight/mesh/mesh.h>
 
 #include <string>
-#include <vector>
 
 namespace vmlight {
-
-/// A file, whole.
-struct MeshFile
-{
-    std::string path, bytes;
-};
 
 /// "" if the extension of `path` is that of a format that write_mesh() knows, else the reason why not.
 VMLIGHT_API std::string mesh_name_fault(const std::string& path);
 
-/// The files of a mesh, the one called `path` last: an OBJ has its materials in a second one beside it.
-std::vector<MeshFile> mesh_files(const Mesh& mesh, const std::string& path);
-
 /// Write a mesh as OBJ or binary glTF (.glb), as the extension says: triangles in their order (in a glTF, of each
 /// material in turn), positions, normals, UVs, names of materials and their base colours; not their textures. An OBJ
-/// has every bit of every coordinate. A glTF has floats, and where those do not hold the positions, a node that moves
-/// and scales them to where they do.
+/// has every bit of every coordinate, and its materials in a second file, .mtl, beside it. A glTF has floats, and where
+/// those do not hold the positions, a node that moves and scales them to where they do.
 ///
 /// Files are replaced atomically, each for itself.
 /// @returns false, with the reason in `error`, if the format is unknown, the mesh fails check_mesh(), or a file cannot
