@@ -18,7 +18,7 @@ END
 packages=(
     ca-certificates cmake g++ ninja-build
     libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
-    libpugixml-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
+    libpugixml-dev libeigen3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
     libgmock-dev libgtest-dev libbenchmark-dev
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/output_file.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
+#include <vmlight/mesh/export/write_mesh.h>
 #include <vmlight/stage/mesh_list.h>
+#include <vmlight/trace/bake_scene.h>
 #include <vmlight/vismap/basis.h>
 
 using namespace vmlight;
@@ -16,6 +19,7 @@ int main(int argc, const char** argv)
                     "  makevismap hero.glb --list\n"
                     "  makevismap hero.glb --material Body --material Face -o hero_vismap.exr\n"
                     "  makevismap hero.glb -o 'hero_<MATERIAL>.exr'\n"
+                    "  makevismap scan.ply --unwrap --write-mesh scan_uv.glb -o scan_vismap.exr\n"
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
     UdimRun tiles(stage, recipe);
@@ -32,9 +36,13 @@ int main(int argc, const char** argv)
     stage.answer("list", "Print the UV sets, materials and nodes of the mesh, and make no image",
                  [&](std::string& text, std::string& error) { return list_mesh(text, recipe, error); });
     stage.params("Mesh:", recipe.selection);
+    std::string write_path;
     stage.params("Mesh:", recipe.mesh_params);
+    stage.option("write_mesh", "PATH", "Also write the mesh as baked, with the UVs of the map, to this .glb or .obj",
+                 write_path);
     const auto unsavable = [&] {
         return recipe.time_budget > 0 ? "--time-budget cannot be saved in a recipe: it depends on the machine"
+            : !write_path.empty()     ? "--write-mesh cannot be saved in a recipe"
                                       : tiles.unsavable();
     };
     stage.recipe(
@@ -47,11 +55,25 @@ int main(int argc, const char** argv)
             : std::string();
     });
 
+    stage.check([&] { return write_path.empty() ? "" : mesh_name_fault(write_path); });
+    stage.check([&] {
+        return !write_path.empty() && has_udim_pattern(recipe.mesh) && !has_udim_pattern(write_path)
+            ? "--write-mesh: <UDIM> in the mesh's path needs <UDIM> in this one too: each tile has a mesh"
+            : std::string();
+    });
+
+    std::string written; // one mesh for all tiles, unless each has its own
     const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
+        const std::string path = udim_path(write_path, tile.vismap_params.udim);
+        if (!path.empty() && !(error = output_file_fault(path)).empty())
+            return false;
         OIIO::ImageBuf vismap;
         if (!make_image(vismap, tile, options))
             error = vismap.geterror();
-        return error.empty() && stage.write(vismap, output, error);
+        if (!error.empty() || !stage.write(vismap, output, error) || path == written)
+            return error.empty();
+        written = path;
+        return write_mesh((*options.scene)->mesh(), path, error);
     };
     return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });
 }

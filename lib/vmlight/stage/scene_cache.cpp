@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/scene_cache.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/unwrap_report.h>
 #include <vmlight/stage/uv_sets.h>
+#include <vmlight/uv/unwrap.h>
 
 #include <algorithm>
 #include <functional>
@@ -86,6 +89,24 @@ bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& rec
         && check_stamp(stamps.files[index], path_of(recipe, index), error);
 }
 
+UnwrapParams unwrap_params(const VismapRecipe& recipe, int nthreads)
+{
+    const Size size = recipe.vismap_params.size();
+    return { size.width, size.height, recipe.vismap_params.margin, nthreads };
+}
+
+bool unwrap(BakeScene& dst, Mesh& mesh, const VismapRecipe& recipe, int nthreads, std::string& error)
+{
+    const UnwrapParams params = unwrap_params(recipe, nthreads);
+    UnwrapReport report;
+    if (!unwrap_mesh(mesh, params, &report, error))
+        return false;
+    dst.remarks.push_back(unwrap_line(report, params));
+    if (const std::string warning = unwrap_warning(report); !warning.empty())
+        mesh.warnings.push_back(warning);
+    return true;
+}
+
 bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
                  double& seconds, std::string& at, std::string& error)
 {
@@ -95,6 +116,9 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     for (size_t i = 0; i < stamps.files.size(); ++i)
         if (!read_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at, error))
             return false;
+    at = recipe.unwrap ? "unwrap" : key_of(0);
+    if (recipe.unwrap && !unwrap(*scene, *mesh, recipe, nthreads, error))
+        return false;
     at = key_of(0);
     if (mesh->uvs.empty()) {
         error = no_uvs_error(recipe);
@@ -146,6 +170,7 @@ bool build_part(BakeScenePointer& dst, const BakeScenePointer& whole, const Vism
     chosen.flip();
     Mesh rest = mesh_part(whole->mesh(), chosen);
     auto scene = std::make_shared<BakeScene>();
+    scene->remarks = whole->remarks;
     const bool is_small = SceneFrame::around(*part).scale >= kSmallPart * whole->frame().scale;
     if (is_small) {
         part->warnings = whole->mesh().warnings;
@@ -194,6 +219,10 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
     params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         stamps.key += std::string(name) + "=" + value_text(value, allowed) + "\n";
     });
+    if (recipe.unwrap) {
+        const UnwrapParams atlas = unwrap_params(recipe, 0);
+        stamps.key += format("unwrap={}x{},{}\n", atlas.width, atlas.height, atlas.margin);
+    }
     for (size_t i = 0; i < stamps.files.size(); ++i) {
         at = key_of(i);
         if (!stamp_file(stamps.files[i], path_of(recipe, i), error))

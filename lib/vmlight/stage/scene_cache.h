@@ -23,7 +23,8 @@ struct SceneStamps
 bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error);
 
 /// Get the scene of a recipe whose paths contain no "<UDIM>": shared while anyone holds it, whatever their UDIM tile,
-/// resolution and samples; otherwise read and built. Callable from any thread; concurrent callers wait for one build.
+/// samples and, unless the mesh is unwrapped, resolution; otherwise read and built. Callable from any thread;
+/// concurrent callers wait for one build.
 ///
 /// A part that the recipe's selection chooses shares the scene of the whole mesh, in its frame, so that its texels get
 /// the same bits as in a bake of the whole; unless the part is less than 1/64 as large, where that would cost it

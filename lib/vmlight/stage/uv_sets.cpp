@@ -58,7 +58,7 @@ std::string no_uvs_error(const VismapRecipe& recipe)
     std::vector<int> sets;
     for_each_other_uv_set(recipe, [&](int set, const Mesh&) { sets.push_back(set); });
     if (sets.empty())
-        return format("\"{}\": no texture coordinates: unwrap the mesh", recipe.mesh);
+        return format("\"{}\": no texture coordinates: unwrap the mesh with makevismap --unwrap", recipe.mesh);
     return format("\"{}\": no texture coordinates in UV set {}; {} has {}", recipe.mesh, recipe.mesh_params.uv_set,
                   recipe.selection.is_all() ? "the mesh" : "the part to bake", sets_text(sets));
 }

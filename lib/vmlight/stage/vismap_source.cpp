@@ -25,6 +25,7 @@ namespace {
 void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
 {
     append_params(spec, recipe.mesh_params);
+    spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
     MeshSelection selection = recipe.selection;
     selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         if (!value.empty()) // a map of the whole mesh has the metadata that it always had
@@ -75,6 +76,9 @@ public:
         }
         report.build_seconds += build_seconds;
         append_mesh(map.specmod(), m_recipe);
+        if (!options.repeated_inputs)
+            for (const std::string& remark : scene->remarks)
+                options.report(remark);
         report_bake(options, report, map.spec(), m_recipe, scene->mesh());
         return true;
     }

@@ -63,9 +63,10 @@ std::string bake_fault(const Mesh& mesh)
     const std::string& path = mesh.path.empty() ? mesh.name : mesh.path;
     if (mesh.triangles.empty())
         return format("\"{}\": no triangles", path);
-    return mesh.uvs.empty()
-        ? format("\"{}\": no texture coordinates in this UV set: unwrap the mesh, or choose another uv_set", path)
-        : "";
+    return mesh.uvs.empty() ? format("\"{}\": no texture coordinates in this UV set: choose another uv_set, or unwrap "
+                                     "the mesh with makevismap --unwrap",
+                                     path)
+                            : "";
 }
 
 } // namespace

@@ -51,6 +51,8 @@ public:
 
     /// The files that the caller read to build the scene, for those who share it.
     std::vector<FileStamp> files;
+    /// What the caller did to the mesh before, for the user, one sentence each.
+    std::vector<std::string> remarks;
 
 private:
     void measure();

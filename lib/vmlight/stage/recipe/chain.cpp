@@ -74,7 +74,13 @@ std::string with_location(const Recipe& recipe, const std::string& key, const Re
 
 std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
 {
-    return recipe.mesh.empty() ? missing("mesh", chain) : "";
+    if (recipe.mesh.empty())
+        return missing("mesh", chain);
+    if (recipe.unwrap && recipe.vismap_params.udim != kFirstUdim)
+        return with_location(recipe, "unwrap", chain,
+                             format("{}the atlas is tile {}, and tile {} is empty", chain.empty() ? "unwrap: " : "",
+                                    kFirstUdim, recipe.vismap_params.udim));
+    return "";
 }
 
 std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)

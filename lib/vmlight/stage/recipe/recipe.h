@@ -32,6 +32,8 @@ struct VismapRecipe
     static constexpr const char* kStage = "vismap";
     std::string mesh;
     std::vector<std::string> occluder;
+    /// Replace the UVs of the mesh by an atlas for this resolution and margin: see unwrap_mesh(). Only tile 1001.
+    bool unwrap = false;
     MeshParams mesh_params;
     /// Of `mesh`; occluders are all there.
     MeshSelection selection;
@@ -46,6 +48,8 @@ struct VismapRecipe
         field("mesh", mesh, Path {}, "Mesh to bake");
         field("occluder", occluder, Paths {}, "Mesh that occludes but is not baked");
         selection.visit(field);
+        field("unwrap", unwrap, Flag {},
+              "Replace the mesh's UVs, if any, by an atlas made for this resolution and margin");
         vismap_params.visit(field);
         mesh_params.visit(field);
     }

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/text_format.h>
+#include <vmlight/base/utf8.h>
+#include <vmlight/mesh/export/exporter.h>
+#include <vmlight/mesh/tinygltf.h>
+
+#include <Imath/ImathBox.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <sstream>
+
+namespace vmlight {
+namespace {
+
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+
+// Where floats hold the positions: (p - origin) / scale.
+struct Frame
+{
+    V3d origin { 0 };
+    double scale = 1;
+};
+
+Frame frame_of(const Mesh& mesh)
+{
+    Imath::Box3d bounds;
+    bool are_floats = true;
+    for (const V3d& p : mesh.positions) {
+        bounds.extendBy(p);
+        are_floats = are_floats && V3d(V3f(p)) == p;
+    }
+    Frame frame;
+    if (are_floats)
+        return frame;
+    frame.origin = bounds.center();
+    const V3d size = bounds.size();
+    const double longest = std::max({ size.x, size.y, size.z });
+    if (longest > 1e30 || longest < 1e-30)
+        frame.scale = std::exp2(std::ilogb(longest)); // exact
+    return frame;
+}
+
+/// Appends arrays to one buffer, each with its view and accessor.
+class Arrays
+{
+public:
+    explicit Arrays(tinygltf::Model& model)
+        : m_model(model)
+    {
+        m_model.buffers.resize(1);
+    }
+
+    template <class Element> int add(const std::vector<Element>& elements, int component, int type, int target)
+    {
+        std::vector<unsigned char>& bytes = m_model.buffers[0].data;
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        view.byteOffset = bytes.size();
+        view.byteLength = elements.size() * sizeof(Element);
+        view.target = target;
+        bytes.resize(bytes.size() + view.byteLength);
+        std::memcpy(bytes.data() + view.byteOffset, elements.data(), view.byteLength);
+        m_model.bufferViews.push_back(view);
+        tinygltf::Accessor accessor;
+        accessor.bufferView = int(m_model.bufferViews.size()) - 1;
+        accessor.componentType = component;
+        accessor.count = elements.size();
+        accessor.type = type;
+        m_model.accessors.push_back(accessor);
+        return int(m_model.accessors.size()) - 1;
+    }
+
+private:
+    tinygltf::Model& m_model;
+};
+
+int add_positions(tinygltf::Model& model, Arrays& arrays, const Mesh& mesh, const Frame& frame)
+{
+    std::vector<V3f> positions;
+    V3f low(INFINITY), high(-INFINITY);
+    for (const V3d& p : mesh.positions) {
+        positions.push_back(V3f((p - frame.origin) / frame.scale));
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], positions.back()[axis]);
+            high[axis] = std::max(high[axis], positions.back()[axis]);
+        }
+    }
+    const int index
+        = arrays.add(positions, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    model.accessors[size_t(index)].minValues = { low.x, low.y, low.z };
+    model.accessors[size_t(index)].maxValues = { high.x, high.y, high.z };
+    return index;
+}
+
+int add_normals(Arrays& arrays, const Mesh& mesh)
+{
+    std::vector<V3f> normals = mesh.normals;
+    for (V3f& normal : normals)
+        if (is_missing_normal(normal))
+            normal = V3f(0, 1, 0); // of triangles without area: glTF wants one of unit length
+    return arrays.add(normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+}
+
+bool has_uv(const Mesh& mesh, uint32_t vertex)
+{
+    return !mesh.uvs.empty() && std::isfinite(mesh.uvs[vertex].x) && std::isfinite(mesh.uvs[vertex].y);
+}
+
+int add_uvs(Arrays& arrays, const Mesh& mesh)
+{
+    std::vector<V2f> uvs;
+    for (uint32_t vertex = 0; vertex < mesh.uvs.size(); ++vertex) {
+        const V2f& uv = mesh.uvs[vertex];
+        uvs.push_back(has_uv(mesh, vertex) ? V2f(uv.x, 1 - uv.y) : V2f(0)); // v is down in glTF
+    }
+    return arrays.add(uvs, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
+}
+
+std::string utf8_name(const std::string& name)
+{
+    return is_utf8(name) ? name : printable_line(name);
+}
+
+tinygltf::Material gltf_material(const Material& material)
+{
+    tinygltf::Material result;
+    result.name = utf8_name(material.name);
+    const Imath::Color4f& color = material.base_color;
+    result.pbrMetallicRoughness.baseColorFactor = { color.r, color.g, color.b, color.a };
+    result.pbrMetallicRoughness.metallicFactor = 0;
+    result.doubleSided = material.is_double_sided;
+    if (material.alpha_mode != AlphaMode::opaque)
+        result.alphaMode = material.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
+    result.alphaCutoff = double(material.alpha_cutoff);
+    return result;
+}
+
+// Corners by material, and whether they have UVs: those that have none are a primitive without.
+std::map<std::pair<uint32_t, bool>, std::vector<uint32_t>> indices_of(const Mesh& mesh)
+{
+    std::map<std::pair<uint32_t, bool>, std::vector<uint32_t>> indices;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& triangle = mesh.triangles[t];
+        const bool with_uv
+            = std::all_of(triangle.begin(), triangle.end(), [&](uint32_t vertex) { return has_uv(mesh, vertex); });
+        const uint32_t material = t < mesh.triangle_materials.size() ? mesh.triangle_materials[t] : 0;
+        std::vector<uint32_t>& corners = indices[{ material, !with_uv }];
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    }
+    return indices;
+}
+
+} // namespace
+
+std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path)
+{
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = "vmlight";
+    Arrays arrays(model);
+    const Frame frame = frame_of(mesh);
+    const int positions = add_positions(model, arrays, mesh, frame), normals = add_normals(arrays, mesh);
+    const int uvs = mesh.uvs.empty() ? -1 : add_uvs(arrays, mesh);
+    for (const Material& material : mesh.materials)
+        model.materials.push_back(gltf_material(material));
+
+    tinygltf::Mesh& parts = model.meshes.emplace_back();
+    parts.name = utf8_name(mesh.name);
+    for (const auto& [kind, corners] : indices_of(mesh)) {
+        tinygltf::Primitive& part = parts.primitives.emplace_back();
+        part.mode = TINYGLTF_MODE_TRIANGLES;
+        part.attributes = { { "POSITION", positions }, { "NORMAL", normals } };
+        if (!kind.second)
+            part.attributes["TEXCOORD_0"] = uvs;
+        part.indices = arrays.add(corners, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        part.material = kind.first < model.materials.size() ? int(kind.first) : -1;
+    }
+    tinygltf::Node& node = model.nodes.emplace_back();
+    node.name = parts.name;
+    node.mesh = 0;
+    if (frame.origin != V3d(0))
+        node.translation = { frame.origin.x, frame.origin.y, frame.origin.z };
+    if (frame.scale != 1)
+        node.scale = { frame.scale, frame.scale, frame.scale };
+    model.scenes.emplace_back().nodes = { 0 };
+    model.defaultScene = 0;
+
+    std::ostringstream stream;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    return { { path, stream.str() } };
+}
+
+} // namespace vmlight
