@@ -27,13 +27,6 @@ bool is_far_from_origin(const std::vector<Imath::V3d>& positions);
 /// STL: starts with "solid", or has the size that the triangle count of a binary file asks for.
 bool is_stl(const FileHead& head);
 
-/// glTF: starts as a GLB does, or as a JSON object with "asset" near its start.
-bool is_gltf(const FileHead& head);
-/// MeshFormat::read of glTF 2.0, .gltf and .glb: see gltf/. Shows the default scene, in the pose of its nodes and of the
-/// default weights of morph targets. Normals that it lacks are flat. Refuses extensions that it does not read, if the
-/// file requires them.
-bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& error);
-
 /// Collada: XML, in 8 or 16 bits, with "<collada" near its start, in any case.
 bool is_collada(const FileHead& head);
 /// Refuses elements nested more than 100000 deep, through which assimp recurses; a scene of more than a million nodes

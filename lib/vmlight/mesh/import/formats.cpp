@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/import/assimp_importer.h>
 #include <vmlight/mesh/import/format_checks.h>
+#include <vmlight/mesh/import/gltf.h>
 #include <vmlight/mesh/import/importer.h>
 #include <vmlight/mesh/import/obj.h>
 #include <vmlight/mesh/import/ply.h>

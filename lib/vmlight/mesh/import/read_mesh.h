@@ -17,8 +17,11 @@ namespace vmlight {
 /// without area are kept (they occlude nothing).
 ///
 /// Normals are of unit length. One that is missing, zero or not finite is computed: in an OBJ as its `s` statements say
-/// (flat where they are off, and before the first of them; smooth within a group; smooth if there are none), in a PLY
-/// and an STL smooth. Mesh::normals_from tells.
+/// (flat where they are off, and before the first of them; smooth within a group; smooth if there are none), in a glTF
+/// flat, in other formats smooth. Mesh::normals_from tells.
+///
+/// A glTF is read in the pose that its nodes have: skins, morph targets by their default weights, instances, hidden nodes
+/// left out. One that requires an extension that is not read is refused.
 ///
 /// Texture coordinates of face corners, in an OBJ or PLY, split vertices where they differ. Materials and textures come
 /// along as far as the format has them: MTL files beside an OBJ, TextureFile comments of a PLY. One that is not there

@@ -3,6 +3,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/format_checks.h>
+#include <vmlight/mesh/import/gltf.h>
 #include <vmlight/mesh/import/gltf/document.h>
 #include <vmlight/mesh/import/gltf/hierarchy.h>
 #include <vmlight/mesh/import/gltf/instances.h>
