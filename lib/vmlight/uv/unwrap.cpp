@@ -68,6 +68,26 @@ double expected_gap(const std::vector<UnwrapChart>& charts, const UnwrapParams& 
     return high;
 }
 
+// Charts that are joined have fewer margins; but a few large ones may pack better as they are.
+bool join_and_pack(std::vector<UnwrapChart>& charts, const UnwrapSurface& surface, JoinedEdges& joined,
+                   std::vector<uint32_t>& place, const UnwrapParams& params, double& density)
+{
+    constexpr size_t kFew = 256;
+    std::vector<UnwrapChart> apart;
+    if (charts.size() <= kFew)
+        apart = charts;
+    merge_charts(charts, surface, joined, place, expected_gap(charts, params), params.nthreads);
+    const bool fits = pack_charts(charts, params, density);
+    double density_apart = 0;
+    if (apart.size() == charts.size() || apart.empty() || !pack_charts(apart, params, density_apart))
+        return fits;
+    if (!fits || density_apart > density) {
+        charts = std::move(apart);
+        density = density_apart;
+    }
+    return true;
+}
+
 // Gives each corner of a mesh its UV.
 class AtlasWriter
 {
@@ -161,8 +181,8 @@ bool unwrap_mesh(Mesh& mesh, const UnwrapParams& params, UnwrapReport* report, s
         error = format("\"{}\": no triangle has an area: there is nothing to unwrap", name);
         return false;
     }
-    merge_charts(charts, surface, joined, place, expected_gap(charts, params), params.nthreads);
     UnwrapReport counts;
+    const bool fits = join_and_pack(charts, surface, joined, place, params, counts.density);
     counts.charts = int64_t(charts.size());
     double area = 0, stretch = 0;
     for (const UnwrapChart& chart : charts) {
@@ -170,7 +190,7 @@ bool unwrap_mesh(Mesh& mesh, const UnwrapParams& params, UnwrapReport* report, s
         stretch += chart.area * chart.stretch * chart.stretch;
     }
     counts.stretch = std::sqrt(stretch / area);
-    if (!pack_charts(charts, params, counts.density)) {
+    if (!fits) {
         error = format("\"{}\": {} do not fit into {}x{} texels with a margin of {}: choose a larger resolution or a "
                        "smaller margin",
                        name, count_text(counts.charts, "chart", "charts"), params.width, params.height,
