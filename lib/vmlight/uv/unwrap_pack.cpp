@@ -18,6 +18,8 @@ namespace {
 
 // What a rasterizer that rounds, and the steps of the UVs, may add to a chart, in texels.
 constexpr double kRounding = 1.0 / 128;
+// Each chart is a point, in cells per unit.
+constexpr double kLeastScale = 1e-9;
 
 // The cells that a triangle touches.
 void touch(UnwrapBitmap& dst, const std::array<V2d, 3>& corners, double rounding)
@@ -101,9 +103,10 @@ public:
         for (double share = 0.85; share > 0.01 && best.empty(); share *= 0.85)
             if (low = scale_for(share); !place_all(best, low))
                 high = low;
-        if (best.empty() && !place_all(best, low = 1e-9))
+        if (best.empty() && !place_all(best, low = kLeastScale))
             return false;
-        for (int step = 0; step < 5; ++step) {
+        constexpr double kPrecision = 0.005;
+        while (high - low > kPrecision * high) {
             const double middle = (low + high) / 2;
             std::vector<Piece> pieces;
             if (place_all(pieces, middle)) {
@@ -139,7 +142,7 @@ private:
         const double wanted = share * (m_width + gap) * (m_height + gap);
         for (int step = 0; step < 40; ++step)
             (taken((low + high) / 2) < wanted ? low : high) = (low + high) / 2;
-        return low;
+        return std::max(low, kLeastScale);
     }
 
     Piece make_piece(const UnwrapChart& chart, double scale) const
