@@ -13,7 +13,7 @@ using namespace vmlight::scenes;
 
 namespace {
 
-Mesh read(const std::string& name)
+Mesh read_data(const std::string& name)
 {
     Mesh mesh;
     std::string error;
@@ -31,7 +31,7 @@ VismapParams bake_params(const UnwrapParams& atlas)
     return params;
 }
 
-std::string refusal(Mesh mesh, const UnwrapParams& params)
+std::string atlas_refusal(Mesh mesh, const UnwrapParams& params)
 {
     const std::vector<Imath::V2f> uvs = mesh.uvs;
     std::string error;
@@ -57,10 +57,10 @@ TEST(Unwrap, ASphereAndMeshesOfTheRealWorld)
     expect_atlas(sphere(V3d(1, 2, 3), 2, 24), atlas_params(256, 4), &report);
     EXPECT_LT(report.stretch, 1.25);
     EXPECT_GT(report.coverage, 0.5);
-    expect_atlas(read("spot.obj"), atlas_params(256, 2), &report);
+    expect_atlas(read_data("spot.obj"), atlas_params(256, 2), &report);
     EXPECT_LT(report.stretch, 1.25);
     EXPECT_GT(report.coverage, 0.55);
-    expect_atlas(read("gazebo.obj"), atlas_params(512, 2), &report);
+    expect_atlas(read_data("gazebo.obj"), atlas_params(512, 2), &report);
     EXPECT_GT(report.coverage, 0.55);
 }
 
@@ -84,7 +84,7 @@ TEST(Unwrap, ConvexBodiesSeeEverythingInTheirAtlas)
 
 TEST(Unwrap, TheSameForAnyNumberOfThreads)
 {
-    Mesh one = read("spot.obj"), many = one;
+    Mesh one = read_data("spot.obj"), many = one;
     std::string error;
     ASSERT_TRUE(unwrap_mesh(one, atlas_params(256, 4, 1), nullptr, error));
     ASSERT_TRUE(unwrap_mesh(many, atlas_params(256, 4, 5), nullptr, error));
@@ -140,14 +140,14 @@ TEST(Unwrap, ChartsThatDoNotFitAreRefused)
     for (const auto& [a, b, c] : body.triangles)
         bodies.triangles.push_back({ a + count, b + count, c + count });
     EXPECT_THAT(
-        refusal(bodies, atlas_params(16, 16)),
+        atlas_refusal(bodies, atlas_params(16, 16)),
         testing::EndsWith(" charts do not fit into 16x16 texels with a margin of 16: choose a larger resolution "
                           "or a smaller margin"));
     Mesh none = body;
     none.positions.assign(none.positions.size(), V3d(1, 2, 3));
-    EXPECT_EQ(refusal(none, atlas_params(16, 1)), "\"box\": no triangle has an area: there is nothing to unwrap");
+    EXPECT_EQ(atlas_refusal(none, atlas_params(16, 1)), "\"box\": no triangle has an area: there is nothing to unwrap");
     none.triangles[0][0] = 1000;
-    EXPECT_NE(refusal(none, atlas_params(16, 1)).find("uses vertex 1000"), std::string::npos);
+    EXPECT_NE(atlas_refusal(none, atlas_params(16, 1)).find("uses vertex 1000"), std::string::npos);
 }
 
 TEST(Unwrap, TheReportSaysWhatTheAtlasIsLike)

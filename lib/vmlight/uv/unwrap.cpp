@@ -22,7 +22,7 @@ using Imath::V2f;
 
 namespace {
 
-constexpr double kMostStretch = 1.3;
+constexpr double kMostChartStretch = 1.3;
 // UVs are whole numbers of these steps: exact in float, all over [0, 1].
 constexpr double kSteps = 1 << 24;
 
@@ -38,7 +38,7 @@ std::vector<UnwrapChart> flat_charts(const UnwrapSurface& surface, JoinedEdges& 
         parallel_items(int64_t(pieces.size()), nthreads, [&](int64_t item, int) {
             const size_t i = size_t(item);
             build_chart(charts[i], surface, std::move(pieces[i]), joined, place);
-            if (!flatten_chart(charts[i], surface, kMostStretch))
+            if (!flatten_chart(charts[i], surface, kMostChartStretch))
                 parts[i] = split_chart(charts[i], surface, joined, place);
         });
         pieces.clear();

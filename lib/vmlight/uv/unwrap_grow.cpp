@@ -12,8 +12,6 @@ using Imath::V3d;
 
 namespace {
 
-constexpr uint32_t kNone = UnwrapSurface::kNone;
-
 // A triangle that may be next, the one of the least cost first; of equal ones, the one found first.
 struct Candidate
 {
@@ -32,7 +30,7 @@ class Growth
 public:
     Growth(const UnwrapSurface& surface)
         : m_surface(surface)
-        , m_chart(surface.triangle_count(), kNone)
+        , m_chart(surface.triangle_count(), UnwrapSurface::kNone)
     {
     }
 
@@ -46,12 +44,12 @@ public:
         std::priority_queue<Candidate> queue;
         uint64_t order = 0;
         V3d sum(0), axis = m_surface.normal(seed);
-        queue.push({ 0, 0, seed, kNone });
+        queue.push({ 0, 0, seed, UnwrapSurface::kNone });
         while (!queue.empty()) {
             const Candidate candidate = queue.top();
             queue.pop();
             const uint32_t t = candidate.triangle;
-            if (m_chart[t] != kNone)
+            if (m_chart[t] != UnwrapSurface::kNone)
                 continue;
             const double cosine = m_surface.normal(t).dot(axis);
             if (cosine < kLeastCosine && !is_sliver(t))
@@ -66,7 +64,7 @@ public:
             axis = sum.normalized();
             for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
                 const uint32_t twin = m_surface.twin(h);
-                if (twin != kNone && m_chart[twin / 3] == kNone)
+                if (twin != UnwrapSurface::kNone && m_chart[twin / 3] == UnwrapSurface::kNone)
                     queue.push({ cost_of(twin / 3, axis), ++order, twin / 3, t });
             }
         }
@@ -105,7 +103,7 @@ public:
     /// For each triangle, the source that is nearest; `distance` is set to how far.
     std::vector<uint32_t> nearest(const std::vector<uint32_t>& sources, std::vector<double>& distance) const
     {
-        std::vector<uint32_t> source_of(m_chart.triangles.size(), kNone);
+        std::vector<uint32_t> source_of(m_chart.triangles.size(), UnwrapSurface::kNone);
         distance.assign(source_of.size(), 0);
         std::priority_queue<Candidate> queue;
         uint64_t order = 0;
@@ -115,7 +113,7 @@ public:
         while (!queue.empty()) {
             const Candidate at = queue.top();
             queue.pop();
-            if (source_of[at.triangle] != kNone)
+            if (source_of[at.triangle] != UnwrapSurface::kNone)
                 continue;
             source_of[at.triangle] = at.source;
             distance[at.triangle] = at.cost;
@@ -124,7 +122,7 @@ public:
                 if (!m_joined[h])
                     continue;
                 const uint32_t other = m_surface.twin(h) / 3;
-                if (source_of[m_place[other]] != kNone)
+                if (source_of[m_place[other]] != UnwrapSurface::kNone)
                     continue;
                 const double step = (m_surface.centroid(other) - m_surface.centroid(t)).length()
                     + bend * (1 - m_surface.normal(t).dot(m_surface.normal(other)));
@@ -158,10 +156,10 @@ std::vector<std::vector<uint32_t>> grow_charts(const UnwrapSurface& surface, Joi
     Growth growth(surface);
     std::vector<std::vector<uint32_t>> charts;
     for (uint32_t seed : seeds)
-        if (surface.has_area(seed) && growth.chart_of(seed) == kNone)
+        if (surface.has_area(seed) && growth.chart_of(seed) == UnwrapSurface::kNone)
             charts.push_back(growth.grow(seed, uint32_t(charts.size())));
     for (uint32_t h = 0; h < 3 * count; ++h)
-        if (surface.twin(h) != kNone)
+        if (surface.twin(h) != UnwrapSurface::kNone)
             joined[h] = growth.chart_of(h / 3) == growth.chart_of(surface.twin(h) / 3);
     return charts;
 }

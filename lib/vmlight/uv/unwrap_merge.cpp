@@ -14,9 +14,8 @@ using Imath::V3d;
 
 namespace {
 
-constexpr uint32_t kNone = UnwrapSurface::kNone;
 // More, and the charts that are saved are not worth the texels that the stretched surface lacks.
-constexpr double kMostStretch = 1.2;
+constexpr double kMostJoinedStretch = 1.2;
 // How often, on average, a triangle may be laid flat anew.
 constexpr int64_t kMostEffort = 30;
 // A point that a joint would close, and whose triangles turn by this much more or less than once, is left open: nothing
@@ -55,7 +54,7 @@ public:
         , m_place(place)
         , m_gap(gap)
         , m_nthreads(nthreads)
-        , m_chart_of(surface.triangle_count(), kNone)
+        , m_chart_of(surface.triangle_count(), UnwrapSurface::kNone)
         , m_turns(charts.size())
         , m_perimeters(charts.size())
         , m_rooms(charts.size())
@@ -125,12 +124,12 @@ private:
         return m_surface.edge(edge / 3, int(edge % 3), int(edge % 3 + 1) % 3).length();
     }
 
-    // The other chart at a half-edge of the border, or kNone.
+    // The other chart at a half-edge of the border, or UnwrapSurface::kNone.
     uint32_t neighbour(uint32_t c, uint32_t h) const
     {
         const uint32_t twin = m_surface.twin(m_charts[c].surface_edge(h));
-        const uint32_t other = twin == kNone ? kNone : m_chart_of[twin / 3];
-        return other == c ? kNone : other;
+        const uint32_t other = twin == UnwrapSurface::kNone ? UnwrapSurface::kNone : m_chart_of[twin / 3];
+        return other == c ? UnwrapSurface::kNone : other;
     }
 
     // Whether two half-edges of the border, one after the other, are next to one another in the other chart too, and
@@ -156,18 +155,18 @@ private:
             const auto at = [&](uint32_t i) { return chart.border[first + i % count]; };
             const auto is_joint_end = [&](uint32_t i) { // before half-edge i
                 const uint32_t before = at(i + count - 1);
-                return neighbour(c, before) != neighbour(c, at(i)) || neighbour(c, before) == kNone
+                return neighbour(c, before) != neighbour(c, at(i)) || neighbour(c, before) == UnwrapSurface::kNone
                     || !continues(c, before, at(i));
             };
             uint32_t start = 0;
             while (start < count && !is_joint_end(start))
                 ++start;
-            Joint joint { 0, c, kNone, {} };
+            Joint joint { 0, c, UnwrapSurface::kNone, {} };
             for (uint32_t i = start; i < start + count; ++i) {
                 if (is_joint_end(i))
                     joint.edges.clear();
                 joint.b = neighbour(c, at(i));
-                if (joint.b == kNone)
+                if (joint.b == UnwrapSurface::kNone)
                     continue;
                 joint.edges.push_back(chart.surface_edge(at(i)));
                 if (i + 1 == start + count || is_joint_end(i + 1))
@@ -219,7 +218,7 @@ private:
         triangles.insert(triangles.end(), others.begin(), others.end());
         set_joined(joint, 1);
         build_chart(dst, m_surface, std::move(triangles), m_joined, m_place);
-        return flatten_chart(dst, m_surface, kMostStretch) && room_of(dst) < m_rooms[joint.a] + m_rooms[joint.b];
+        return flatten_chart(dst, m_surface, kMostJoinedStretch) && room_of(dst) < m_rooms[joint.a] + m_rooms[joint.b];
     }
 
     std::vector<UnwrapChart>& m_charts;

@@ -106,11 +106,6 @@ int add_normals(Arrays& arrays, const Mesh& mesh)
     return arrays.add(normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-bool has_uv(const Mesh& mesh, uint32_t vertex)
-{
-    return !mesh.uvs.empty() && std::isfinite(mesh.uvs[vertex].x) && std::isfinite(mesh.uvs[vertex].y);
-}
-
 int add_uvs(Arrays& arrays, const Mesh& mesh)
 {
     std::vector<V2f> uvs;

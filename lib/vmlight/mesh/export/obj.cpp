@@ -66,11 +66,6 @@ std::string material_text(const Mesh& mesh, const std::vector<std::string>& word
     return text;
 }
 
-bool has_uv(const Mesh& mesh, uint32_t vertex)
-{
-    return !mesh.uvs.empty() && std::isfinite(mesh.uvs[vertex].x) && std::isfinite(mesh.uvs[vertex].y);
-}
-
 } // namespace
 
 std::vector<MeshFile> obj_files(const Mesh& mesh, const std::string& path)
