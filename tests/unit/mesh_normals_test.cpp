@@ -138,6 +138,44 @@ TEST(MeshNormals, FacesBackToBackKeepTheirOwn)
             EXPECT_LT((V3d(sheet.normals[v]) - triangle_area_normal(sheet, t).normalized()).length(), 1e-5);
 }
 
+TEST(MeshNormals, SharpSeamsOfUvsAreHardIfAsked)
+{
+    // Two triangles that meet in the edge from 0 to 1 (as vertices 3 and 4 with other uvs), at an angle.
+    const auto fold = [](double degrees) {
+        const double angle = degrees * latlong::pi / 180;
+        Mesh mesh;
+        mesh.positions = { V3d(0, 0, 0), V3d(1, 0, 0), V3d(0, -1, 0),
+                           V3d(0, 0, 0), V3d(1, 0, 0), V3d(0, std::cos(angle), std::sin(angle)) };
+        mesh.uvs = { V2f(0, 0), V2f(1, 0), V2f(0, 1), V2f(0.5f, 0), V2f(0.5f, 1), V2f(0, 0.5f) };
+        mesh.triangles = { { 0, 2, 1 }, { 3, 4, 5 } };
+        mesh.normals.assign(6, V3f(0));
+        return mesh;
+    };
+    const auto turn = [](const Mesh& mesh) {
+        double most = 0;
+        for (const auto& triangle : mesh.triangles)
+            for (const uint32_t vertex : triangle) {
+                const V3d flat = triangle_area_normal(mesh, triangle).normalized();
+                most = std::max(most, (V3d(mesh.normals[vertex]) - flat).length());
+            }
+        return most;
+    };
+    for (const double degrees : { 50.0, 70.0 }) {
+        Mesh mesh = fold(degrees);
+        fill_missing_normals(mesh, 180, {}, 60);
+        const double half = 2 * std::sin(degrees * latlong::pi / 720);
+        EXPECT_NEAR(turn(mesh), degrees > 60 ? 0 : half, 1e-6) << degrees;
+        mesh = fold(degrees);
+        fill_missing_normals(mesh, 180);
+        EXPECT_NEAR(turn(mesh), half, 1e-6) << "smooth unless asked";
+        mesh = fold(degrees);
+        mesh.uvs[3] = mesh.uvs[0];
+        mesh.uvs[4] = mesh.uvs[1];
+        fill_missing_normals(mesh, 180, {}, 60);
+        EXPECT_NEAR(turn(mesh), half, 1e-6) << "no seam";
+    }
+}
+
 TEST(MeshNormals, TrianglesWithoutAreaDoNotSpoilTheirNeighbours)
 {
     Mesh mesh = floor_facing_z(1);

@@ -109,7 +109,9 @@ constexpr uint32_t kFlatGroup = 0;
 /// As make_smooth_normals(), but only for vertices whose normal is zero.
 /// @param groups   a smoothing group for each triangle: normals are smooth across triangles of one group, and those of
 ///                 kFlatGroup flat; empty: all are of one group
-VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups = {});
+/// @param seam_angle   where triangles that meet differ in their uvs, edges sharper than this, in degrees, stay hard
+VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups = {},
+                                      double seam_angle = 180);
 
 /// Merge vertices whose position, normal and uv agree bit for bit, and order them by first use.
 VMLIGHT_API void merge_equal_vertices(Mesh& mesh);

@@ -55,8 +55,29 @@ double angle_between(const V3d& a, const V3d& b)
 
 struct Corner
 {
-    uint32_t triangle;
+    uint32_t triangle, vertex;
     float angle;
+};
+
+/// Across which edges normals are smooth: see fill_missing_normals().
+struct Smoothing
+{
+    Smoothing(double crease_angle, double seam_angle, const std::vector<uint32_t>& triangle_groups)
+        : groups(triangle_groups)
+        , least_cosine(least_cosine_of(crease_angle))
+        , least_cosine_at_seams(least_cosine_of(seam_angle))
+    {
+    }
+
+    const std::vector<uint32_t>& groups;
+    double least_cosine, least_cosine_at_seams; // beyond any cosine: -2
+
+private:
+    static double least_cosine_of(double angle)
+    {
+        constexpr double kRounding = 1e-6; // of a dot product of unit vectors
+        return angle >= 180 ? -2 : std::cos(angle * latlong::pi / 180) - kRounding;
+    }
 };
 
 /// The corners at each position, and the unit normal of each triangle (zero without area).
@@ -87,29 +108,31 @@ struct TriangleFans
                 const V3d to_next = mesh.positions[triangle[(k + 1) % 3]] - p;
                 const V3d to_last = mesh.positions[triangle[(k + 2) % 3]] - p;
                 corners[first_corner[position_of_vertex[triangle[k]] + 1]++]
-                    = { t, float(angle_between(to_next, to_last)) };
+                    = { t, triangle[k], float(angle_between(to_next, to_last)) };
             }
         }
         first_corner.pop_back();
     }
 
-    /// @param groups   see fill_missing_normals()
-    V3f smooth_normal(uint32_t vertex, uint32_t triangle, double crease_angle,
-                      const std::vector<uint32_t>& groups) const
+    V3f smooth_normal(const Mesh& mesh, uint32_t vertex, uint32_t triangle, const Smoothing& smoothing) const
     {
+        const std::vector<uint32_t>& groups = smoothing.groups;
         if (!groups.empty() && groups[triangle] == kFlatGroup)
             return triangle_normals[triangle];
         const uint32_t position = position_of_vertex[vertex];
         const V3f& own = triangle_normals[triangle];
-        const double least_cosine = std::cos(crease_angle * latlong::pi / 180);
+        const auto is_seam
+            = [&](const Corner& corner) { return !mesh.uvs.empty() && mesh.uvs[corner.vertex] != mesh.uvs[vertex]; };
         V3d sum(0);
         double weight = 0;
         for (uint32_t c = first_corner[position]; c < first_corner[position + 1]; ++c) {
             if (!groups.empty() && groups[corners[c].triangle] != groups[triangle])
                 continue;
             const V3f& other = triangle_normals[corners[c].triangle];
-            const bool joins = crease_angle >= 180 || corners[c].triangle == triangle || own.length2() == 0
-                || own.dot(other) >= least_cosine - 1e-6; // rounding of a dot product of unit vectors
+            double least = smoothing.least_cosine;
+            if (is_seam(corners[c]))
+                least = std::max(least, smoothing.least_cosine_at_seams);
+            const bool joins = corners[c].triangle == triangle || own.length2() == 0 || own.dot(other) >= least;
             if (joins) {
                 sum += V3d(other) * corners[c].angle;
                 weight += corners[c].angle;
@@ -134,17 +157,18 @@ void make_smooth_normals(Mesh& mesh, double crease_angle)
     fill_missing_normals(mesh, crease_angle);
 }
 
-void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups)
+void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups, double seam_angle)
 {
     if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_missing_normal)) {
         merge_equal_vertices(mesh);
         return;
     }
     const TriangleFans fans(mesh);
+    const Smoothing smoothing(crease_angle, seam_angle, groups);
     rebuild(mesh, [&](size_t t, const auto& triangle, int k) {
         const uint32_t vertex = triangle[k];
         const V3f& normal = mesh.normals[vertex];
-        return is_missing_normal(normal) ? fans.smooth_normal(vertex, uint32_t(t), crease_angle, groups) : normal;
+        return is_missing_normal(normal) ? fans.smooth_normal(mesh, vertex, uint32_t(t), smoothing) : normal;
     });
 }
 

@@ -140,11 +140,11 @@ void MeshBuilder::compute_normals()
     };
     add_rule(flat, "flat");
     add_rule(grouped, "smooth within smoothing groups");
-    add_rule(smooth, "smooth");
+    add_rule(smooth, m_seam_angle < 180 ? "smooth but for sharp UV seams" : "smooth");
     if (flat + smooth + grouped < count)
         rules.push_back(rules.empty() ? "from the file" : "else from the file");
     m_mesh.normals_from = OIIO::Strutil::join(rules, ", ");
-    fill_missing_normals(m_mesh, m_params.crease_angle, m_groups);
+    fill_missing_normals(m_mesh, m_params.crease_angle, m_groups, m_seam_angle);
 }
 
 bool MeshBuilder::finish(std::string& error)

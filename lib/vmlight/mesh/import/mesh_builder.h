@@ -58,6 +58,9 @@ public:
     ///                 different parts are different ones, unless both are kSmoothGroup
     void add_triangle(std::array<uint32_t, 3> corners, uint32_t material, uint32_t smoothing_group = kSmoothGroup);
 
+    /// Normals that the file lacks are hard where its UVs part along an edge sharper than this, in degrees.
+    void set_seam_angle(double degrees) { m_seam_angle = degrees; }
+
     /// The positions are the file's own, without rounding to float.
     void set_exact_positions() { m_mesh.has_exact_positions = true; }
 
@@ -76,6 +79,7 @@ private:
     bool m_is_mirrored = false, m_has_uvs = false;
     size_t m_first = 0; // vertex of the part
     uint32_t m_node = 0;
+    double m_seam_angle = 180;
     std::vector<uint32_t> m_groups; // of each triangle, unique across parts
     std::map<std::pair<size_t, uint32_t>, uint32_t> m_group_numbers; // by first vertex of the part and its group
 };

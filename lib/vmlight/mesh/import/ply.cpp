@@ -114,6 +114,10 @@ bool is_ply(const FileHead& head)
 
 bool append_ply(MeshBuilder& dst, const ply::File& file, const std::string& folder, std::string& error)
 {
+    // A PLY has no word for a hard edge. Programs that write UVs of corners cut them there.
+    constexpr double kSeamAngle = 60;
+    if (!file.corner_uvs.empty())
+        dst.set_seam_angle(kSeamAngle);
     add_materials(dst, file, folder);
     Appender appender(dst, file);
     return visit_triangles(

@@ -18,7 +18,8 @@ namespace vmlight {
 ///
 /// Normals are of unit length. One that is missing, zero or not finite is computed: in an OBJ as its `s` statements say
 /// (flat where they are off, and before the first of them; smooth within a group; smooth if there are none), in a glTF
-/// flat, in other formats smooth. Mesh::normals_from tells.
+/// flat, in other formats smooth, but in a PLY that has texture coordinates of face corners hard where those part along
+/// an edge sharper than 60 degrees. Mesh::normals_from says which.
 ///
 /// A glTF is read in the pose that its nodes have: skins, morph targets by their default weights, instances, hidden nodes
 /// left out. One that requires an extension that is not read is refused.
