@@ -113,17 +113,24 @@ TEST_F(PlyFiles, CornersHaveTextureCoordinates)
 
 TEST_F(PlyFiles, NormalsGoAcrossTheSeamsOfTexture)
 {
-    // A roof: without normals it is smooth, as before, and where it is split too.
-    std::string text = wedges("ascii", kTexcoord);
-    text = replace(replace(text, "\n2 0 0 \n", "\n1 0 -1 \n"), "\n2 1 0 \n", "\n1 1 -1 \n");
-    const Mesh mesh = read("a.ply", text);
-    for (size_t v = 0; v < mesh.positions.size(); ++v)
-        if (mesh.positions[v].x == 1 && mesh.positions[v].z == 0) {
-            EXPECT_NEAR(mesh.normals[v].x, std::sqrt(0.5), 0.2);
+    // Two squares that meet at an angle, and in a seam: smooth, but for a sharp edge.
+    for (const bool is_sharp : { false, true }) {
+        std::string text = wedges("ascii", kTexcoord);
+        const char* z = is_sharp ? "-1" : "-0.3"; // a right angle, or 17 degrees
+        text = replace(replace(text, "\n2 0 0 \n", format("\n1 0 {} \n", z)), "\n2 1 0 \n", format("\n1 1 {} \n", z));
+        if (!is_sharp)
+            text = replace(replace(text, "\n1 0 -0.3 \n", "\n2 0 -0.3 \n"), "\n1 1 -0.3 \n", "\n2 1 -0.3 \n");
+        const Mesh mesh = read("a.ply", text);
+        int shared = 0;
+        for (size_t v = 0; v < mesh.positions.size(); ++v)
             for (size_t w = 0; w < v; ++w)
-                EXPECT_TRUE(mesh.positions[w] != mesh.positions[v] || mesh.normals[w] == mesh.normals[v]);
-        }
-    EXPECT_EQ(mesh.normals_from, "smooth");
+                if (mesh.positions[w] == mesh.positions[v]) {
+                    ++shared;
+                    EXPECT_EQ(mesh.normals[w] == mesh.normals[v], !is_sharp);
+                }
+        EXPECT_GE(shared, 2) << "split where the UVs part";
+        EXPECT_EQ(mesh.normals_from, "smooth but for sharp UV seams");
+    }
 }
 
 TEST_F(PlyFiles, ATextureIsAMaterial)
