@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
+#include <vmlight/math/latlong.h>
+
 #include <gtest/gtest.h>
 
 #include <set>
