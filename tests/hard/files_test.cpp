@@ -49,7 +49,9 @@ template <class Recipe> std::string try_to_make(const Recipe& recipe)
 }
 
 // As a reader does.
-std::string try_to_read(const std::string& path)
+// @param whole     the file's blocks are as long as its header says: OpenEXR 3.1 leaves memory as it was where a
+//                  compressed block is shorter, so that any value may come of it
+std::string try_to_read(const std::string& path, bool whole = true)
 {
     std::string error;
     try {
@@ -60,8 +62,9 @@ std::string try_to_read(const std::string& path)
         roi.xend = std::min(roi.xend, roi.xbegin + 64);
         roi.yend = std::min(roi.yend, roi.ybegin + 64);
         std::vector<float> pixels(roi.npixels() * size_t(source->spec().nchannels));
-        return source->read(roi, pixels.data(), error) ? fault_of_pixels(pixels.data(), pixels.size())
-                                                       : fault_of_reason(error);
+        if (!source->read(roi, pixels.data(), error))
+            return fault_of_reason(error);
+        return whole ? fault_of_pixels(pixels.data(), pixels.size()) : "";
     } catch (const std::exception&) {
         return "";
     }
@@ -126,7 +129,7 @@ TEST_F(Files, HeadersThatClaimTooMuch)
                 flipped[byte] = char(flipped[byte] ^ (1 << bit));
                 damages.push_back({ format("bit {} of byte {} of {}", bit, byte, name), flipped });
             }
-        survive(damages, [&](const Damage& damage) { return try_to_read(write(name, damage.bytes)); });
+        survive(damages, [&](const Damage& damage) { return try_to_read(write(name, damage.bytes), false); });
         write(name, whole);
     }
     row.naive("OpenEXR 3.1 makes room for a string of 512 MiB in a file of 677 bytes, and reads it byte by byte: 9 s");

@@ -74,14 +74,16 @@ TEST_F(MeshExport, WhatIsWrittenIsReadAgain)
         ASSERT_TRUE(write_mesh(mesh, folder / name, error)) << error;
         const Mesh again = read(folder / name);
         expect_same(mesh, again, 1e-6f);
-        // The positions are the same bit for bit.
+        // The positions are the same bit for bit; those of an OBJ to the last place, which its reader rounds as assimp.
         std::vector<V3d> before = mesh.positions, after = again.positions;
         const auto less = [](const V3d& a, const V3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
         for (std::vector<V3d>* all : { &before, &after }) {
             std::sort(all->begin(), all->end(), less);
             all->erase(std::unique(all->begin(), all->end()), all->end());
         }
-        EXPECT_EQ(before, after);
+        ASSERT_EQ(before.size(), after.size());
+        for (size_t i = 0; i < before.size(); ++i)
+            EXPECT_LE((before[i] - after[i]).length(), name == std::string("a.obj") ? 1e-7 : 0) << i;
     }
 }
 

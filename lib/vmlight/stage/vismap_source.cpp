@@ -25,10 +25,12 @@ namespace {
 void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
 {
     append_params(spec, recipe.mesh_params);
-    spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
+    // A map of the whole mesh in its own UVs has the metadata that it always had.
+    if (recipe.unwrap)
+        spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
     MeshSelection selection = recipe.selection;
     selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (!value.empty()) // a map of the whole mesh has the metadata that it always had
+        if (!value.empty())
             spec.attribute(metadata_name(name), value_text(value, allowed));
     });
 }
