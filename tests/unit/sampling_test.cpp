@@ -15,7 +15,6 @@ using Imath::V3f;
 
 namespace {
 
-const char* const kSamplers[] = { "fibonacci", "sobol", "halton" };
 
 double fraction(uint32_t x)
 {
