@@ -23,8 +23,6 @@ template <class T> void expect_unit_uvs(const TemporaryFolder& folder, T one)
 
 using Triangle = std::array<uint32_t, 3>;
 
-const std::vector<V3d> kCorners { V3d(0, 0, 0), V3d(2, 0, 0), V3d(0, 3, 0) };
-
 } // namespace
 
 TEST_F(MeshFiles, NumbersOfAGltfMayBeOfAnyType)
@@ -69,13 +67,13 @@ TEST_F(MeshFiles, IndicesOfAGltfMayBeOfAnySize)
         file.primitive()["indices"] = accessor_of(file);
         return read("a.gltf", file.text()).positions;
     };
-    const std::vector<V3d> turned { kCorners[1], kCorners[2], kCorners[0] };
+    const std::vector<V3d> turned { kTriangleCorners[1], kTriangleCorners[2], kTriangleCorners[0] };
     EXPECT_EQ(corners_by([](GltfFile& file) { return file.add_accessor<uint8_t>({ 1, 2, 0 }, "SCALAR"); }), turned);
     EXPECT_EQ(corners_by([](GltfFile& file) { return file.add_accessor<uint16_t>({ 1, 2, 0 }, "SCALAR"); }), turned);
     EXPECT_EQ(corners_by([](GltfFile& file) { return file.add_accessor<uint32_t>({ 1, 2, 0 }, "SCALAR"); }), turned);
     GltfFile none = triangle_file();
     none.primitive().erase("indices");
-    EXPECT_EQ(read("a.gltf", none.text()).positions, kCorners);
+    EXPECT_EQ(read("a.gltf", none.text()).positions, kTriangleCorners);
 }
 
 TEST_F(MeshFiles, AttributesMayBeInterleaved)
@@ -95,7 +93,7 @@ TEST_F(MeshFiles, AttributesMayBeInterleaved)
     };
     file.primitive()["attributes"] = { { "POSITION", accessor(4, "VEC3") }, { "TEXCOORD_0", accessor(16, "VEC2") } };
     const Mesh mesh = read("a.gltf", file.text());
-    EXPECT_EQ(mesh.positions, kCorners);
+    EXPECT_EQ(mesh.positions, kTriangleCorners);
     EXPECT_EQ(mesh.uvs, (std::vector<V2f> { V2f(1, 0.5f), V2f(0, 0.75f), V2f(0.75f, 0.5f) }));
 }
 

@@ -12,8 +12,6 @@ using namespace mesh_files;
 
 namespace {
 
-const std::vector<V3d> kCorners { V3d(0, 0, 0), V3d(2, 0, 0), V3d(0, 3, 0) };
-
 std::string text_of(const std::vector<unsigned char>& bytes)
 {
     return std::string(bytes.begin(), bytes.end());
@@ -92,7 +90,7 @@ TEST_F(MeshFiles, MeshoptViewsAreDecompressed)
     const std::vector<uint32_t> turned { 2, 0, 1 };
     compress(file, 3, encode_sequence(turned, 3), "INDICES", 3, 2);
     mesh = read("a.gltf", with_placeholder(file));
-    EXPECT_EQ(mesh.positions[0], kCorners[2]);
+    EXPECT_EQ(mesh.positions[0], kTriangleCorners[2]);
 }
 
 TEST_F(MeshFiles, MeshoptViewsMayHaveBytesToFallBackOn)
@@ -101,7 +99,7 @@ TEST_F(MeshFiles, MeshoptViewsMayHaveBytesToFallBackOn)
     json root = json::parse(with_placeholder(file));
     folder.write("fallback.bin", std::string(1000, '\0')); // not looked at
     root["buffers"][1]["uri"] = "fallback.bin";
-    EXPECT_EQ(read("a.gltf", root.dump()).positions, kCorners);
+    EXPECT_EQ(read("a.gltf", root.dump()).positions, kTriangleCorners);
 }
 
 TEST_F(MeshFiles, MeshoptFiltersAreUndone)

@@ -88,6 +88,9 @@ public:
     }
 };
 
+/// Of triangle_file().
+const std::vector<V3d> kTriangleCorners { V3d(0, 0, 0), V3d(2, 0, 0), V3d(0, 3, 0) };
+
 /// A triangle (0,0,0) (2,0,0) (0,3,0) with normals +z, UVs (0,0) (0.5,0) (0,0.25) of v down, and indices; accessors 0
 /// to 3 in this order.
 inline GltfFile triangle_file()

@@ -7,8 +7,6 @@ using namespace mesh_files;
 
 namespace {
 
-const std::vector<V3d> kCorners { V3d(0, 0, 0), V3d(2, 0, 0), V3d(0, 3, 0) };
-
 std::vector<V3d> moved(const std::vector<V3d>& points, const V3d& by)
 {
     std::vector<V3d> result;
@@ -87,13 +85,13 @@ TEST_F(MeshFiles, MorphTargetsHaveTheirDefaultWeights)
                  wide = file.add_accessor<float>({ 0, 0, 0, 2, 0, 0, 0, 0, 0 }, "VEC3"),
                  uv = file.add_accessor<float>({ 0.5f, 0, 0.5f, 0, 0.5f, 0 }, "VEC2");
     file.primitive()["targets"] = { { { "POSITION", up }, { "TEXCOORD_0", uv } }, { { "POSITION", wide } } };
-    EXPECT_EQ(read("a.gltf", file.text()).positions, kCorners) << "no weights: none";
+    EXPECT_EQ(read("a.gltf", file.text()).positions, kTriangleCorners) << "no weights: none";
     file.root["meshes"][0]["weights"] = { 0.5, 1 };
     Mesh mesh = read("a.gltf", file.text());
     EXPECT_EQ(mesh.positions, (std::vector<V3d> { V3d(0, 0, 0.5), V3d(4, 0, 0.5), V3d(0, 3, 0.5) }));
     EXPECT_EQ(mesh.uvs[0], V2f(0.25f, 1));
     file.root["nodes"][0]["weights"] = { 2, 0 }; // the node's count
-    EXPECT_EQ(read("a.gltf", file.text()).positions, moved(kCorners, V3d(0, 0, 2)));
+    EXPECT_EQ(read("a.gltf", file.text()).positions, moved(kTriangleCorners, V3d(0, 0, 2)));
 }
 
 TEST_F(MeshFiles, InstancesAreAllBaked)
@@ -144,13 +142,13 @@ TEST_F(MeshFiles, TheDefaultSceneIsShown)
     file.root["nodes"] = { { { "mesh", 0 } }, { { "mesh", 0 }, { "translation", { 0, 0, 1 } } } };
     file.root["scenes"] = { { { "nodes", { 0 } } }, { { "nodes", { 1 } } } };
     file.root["scene"] = 1;
-    EXPECT_EQ(read("a.gltf", file.text()).positions, moved(kCorners, V3d(0, 0, 1)));
+    EXPECT_EQ(read("a.gltf", file.text()).positions, moved(kTriangleCorners, V3d(0, 0, 1)));
     file.root.erase("scene");
-    EXPECT_EQ(read("a.gltf", file.text()).positions, kCorners) << "the first";
+    EXPECT_EQ(read("a.gltf", file.text()).positions, kTriangleCorners) << "the first";
     file.root.erase("scenes");
     EXPECT_EQ(read("a.gltf", file.text()).triangles.size(), 2u) << "all nodes";
     file.root.erase("nodes");
-    EXPECT_EQ(read("a.gltf", file.text()).positions, kCorners) << "a library of meshes";
+    EXPECT_EQ(read("a.gltf", file.text()).positions, kTriangleCorners) << "a library of meshes";
     file.root["scene"] = 4;
     file.root["scenes"] = { { { "nodes", { 0 } } } };
     EXPECT_EQ(refusal(folder.write("a.gltf", file.text())), "the default scene is 4, but there are only 1");

@@ -15,7 +15,6 @@ using Imath::V3f;
 
 namespace {
 
-
 double fraction(uint32_t x)
 {
     return x * 0x1p-32;
