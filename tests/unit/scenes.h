@@ -215,7 +215,8 @@ inline void append(Mesh& mesh, const Mesh& other)
     mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
     for (const auto& t : other.triangles)
         mesh.triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
-    mesh.triangle_materials.insert(mesh.triangle_materials.end(), other.triangle_materials.begin(), other.triangle_materials.end());
+    mesh.triangle_materials.insert(mesh.triangle_materials.end(), other.triangle_materials.begin(),
+                                   other.triangle_materials.end());
 }
 
 } // namespace vmlight::scenes

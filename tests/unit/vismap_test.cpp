@@ -212,7 +212,8 @@ TEST(Vismap, RefusesWhatItCannotBake)
     Mesh mesh = floor_facing_z(1);
     mesh.uvs.clear();
     EXPECT_EQ(refusal(mesh, {}),
-              "\"floor\": no texture coordinates in this UV set: choose another uv_set, or unwrap the mesh with makevismap --unwrap");
+              "\"floor\": no texture coordinates in this UV set: choose another uv_set, or unwrap the mesh with "
+              "makevismap --unwrap");
     mesh.triangles.clear();
     EXPECT_EQ(refusal(mesh, {}), "\"floor\": no triangles");
 }

@@ -21,8 +21,8 @@ namespace vmlight {
 /// flat, in other formats smooth, but in a PLY that has texture coordinates of face corners hard where those part along
 /// an edge sharper than 60 degrees. Mesh::normals_from says which.
 ///
-/// A glTF is read in the pose that its nodes have: skins, morph targets by their default weights, instances, hidden nodes
-/// left out. One that requires an extension that is not read is refused.
+/// A glTF is read in the pose that its nodes have: skins, morph targets by their default weights, instances, hidden
+/// nodes left out. One that requires an extension that is not read is refused.
 ///
 /// Texture coordinates of face corners, in an OBJ or PLY, split vertices where they differ. Materials and textures come
 /// along as far as the format has them: MTL files beside an OBJ, TextureFile comments of a PLY. One that is not there
