@@ -24,11 +24,11 @@ SAMPLES = 64
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def bake(makevismap, mesh, uv_set="0"):
+def bake(makevismap, mesh):
     """The pixels of a map, or the reason why there is none."""
     path = mesh + ".exr"
-    run = subprocess.run([makevismap, mesh, "-o", path, "--resolution", "128", "--samples", str(SAMPLES), "--quiet",
-                          "--uv-set", uv_set], capture_output=True, text=True)
+    run = subprocess.run([makevismap, mesh, "-o", path, "--resolution", "128", "--samples", str(SAMPLES), "--quiet"],
+                         capture_output=True, text=True)
     if run.returncode:
         return run.stderr.split("\n")[0].split('": ')[-1]
     return oiio.ImageBuf(path).get_pixels(oiio.FLOAT)

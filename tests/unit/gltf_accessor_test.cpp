@@ -148,10 +148,9 @@ TEST_F(MeshFiles, AccessorsOutOfRangeAreRefused)
     EXPECT_EQ(said([](GltfFile& f) { f.accessor(0)["bufferView"] = 7; }), where + "there is no buffer view 7");
     EXPECT_EQ(said([](GltfFile& f) { f.root["bufferViews"][0]["byteLength"] = 1000; }),
               where + "buffer view 0 is bytes 0 to 1000 of buffer 0, which has 102");
-    EXPECT_EQ(said([](GltfFile& f) { f.accessor(2)["count"] = 2; }),
-              where + "TEXCOORD_0 has 2 elements for 3 vertices");
+    EXPECT_EQ(said([](GltfFile& f) { f.accessor(2)["count"] = 2; }), where + "TEXCOORD_0 has 2 elements, not 3");
     EXPECT_EQ(said([](GltfFile& f) { f.accessor(2)["type"] = "SCALAR"; }),
-              where + "TEXCOORD_0 has 1 numbers an element, not 2");
+              where + "TEXCOORD_0 has elements of 1 number, not 2");
     EXPECT_EQ(said([](GltfFile& f) {
                   f.accessor(0).erase("bufferView");
                   f.accessor(0)["count"] = 1000000000000000;
@@ -186,6 +185,5 @@ TEST_F(MeshFiles, StripsAndFansTurnAllTrianglesTheSameWay)
         EXPECT_EQ(refusal(folder.write("a.gltf", file.text())), "no triangles");
     }
     file.primitive()["mode"] = 7;
-    EXPECT_EQ(refusal(folder.write("a.gltf", file.text())),
-              "primitive 0 of mesh \"leaf\": primitive 0 of mesh \"leaf\" has the unknown mode 7");
+    EXPECT_EQ(refusal(folder.write("a.gltf", file.text())), "primitive 0 of mesh \"leaf\": unknown mode 7");
 }

@@ -222,7 +222,7 @@ TEST_F(MeshFiles, DamagedDracoPrimitivesAreRefused)
     EXPECT_EQ(said([&](GltfFile& f) { extension(f)["attributes"]["POSITION"] = 9; }),
               where + "POSITION is Draco's attribute 9, which does not exist");
     EXPECT_EQ(said([&](GltfFile& f) { extension(f)["attributes"]["TEXCOORD_0"] = 0; }),
-              where + "TEXCOORD_0 has 3 numbers an element, not 2");
+              where + "TEXCOORD_0 has elements of 3 numbers, not 2");
     EXPECT_EQ(said([&](GltfFile& f) { extension(f).erase("attributes"); }),
               where + "KHR_draco_mesh_compression has no attributes");
     EXPECT_EQ(said([&](GltfFile& f) { extension(f)["bufferView"] = 77; }), where + "there is no buffer view 77");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_file.h"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 
 using namespace mesh_files;
@@ -111,16 +113,32 @@ TEST_F(MeshFiles, InstancesAreAllBaked)
                 { V3d(10, 0, 7), V3d(12, 0, 7), V3d(10, 3, 7), //
                   V3d(0, 20, 7), V3d(0, 24, 7), V3d(-6, 20, 7) });
     attributes["SCALE"] = file.add_accessor<float>({ 1, 1, 1 }, "VEC3");
-    EXPECT_EQ(refusal(folder.write("a.gltf", file.text())),
-              "SCALE of the instances of node \"\" has 1 elements for 2 vertices");
+    EXPECT_EQ(refusal(folder.write("a.gltf", file.text())), "SCALE of the instances of node \"\" has 1 element, not 2");
 }
 
 TEST_F(MeshFiles, MoreInstancesThanFitInMemoryAreRefused)
 {
+    // 100000 vertices, 50000 times, in a few lines: both accessors are zeros.
     GltfFile file = triangle_file();
-    file.root["accessors"].push_back({ { "componentType", 5126 }, { "count", 4000000000 }, { "type", "VEC3" } });
-    file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = { { "TRANSLATION", 4 } };
-    EXPECT_NE(refusal(folder.write("a.gltf", file.text())).find("more than memory holds"), std::string::npos);
+    for (const int count : { 100000, 50000 })
+        file.root["accessors"].push_back({ { "componentType", 5126 }, { "count", count }, { "type", "VEC3" } });
+    file.primitive() = { { "attributes", { { "POSITION", 4 } } } };
+    file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = { { "TRANSLATION", 5 } };
+    EXPECT_THAT(refusal(folder.write("a.gltf", file.text())), testing::StartsWith("5e+09 vertices and "));
+}
+
+TEST_F(MeshFiles, NodesMayShareAMeshOrShowItByOtherWeights)
+{
+    GltfFile file = triangle_file();
+    file.primitive()["targets"]
+        = { { { "POSITION", file.add_accessor<float>({ 0, 0, 1, 0, 0, 1, 0, 0, 1 }, "VEC3") } } };
+    file.root["nodes"]
+        = { { { "mesh", 0 } }, { { "mesh", 0 } }, { { "mesh", 0 }, { "weights", { 1 } } }, { { "mesh", 0 } } };
+    file.root["scenes"][0]["nodes"] = { 0, 1, 2, 3 };
+    const Mesh mesh = read("a.gltf", file.text());
+    ASSERT_EQ(mesh.triangles.size(), 4u);
+    for (size_t t = 0; t < 4; ++t)
+        EXPECT_EQ(mesh.positions[mesh.triangles[t][0]].z, t == 2 ? 1 : 0) << t;
 }
 
 TEST_F(MeshFiles, HiddenNodesAndAllBelowThemAreLeftOut)

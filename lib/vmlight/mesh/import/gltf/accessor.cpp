@@ -3,6 +3,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/gltf/document.h>
 
 #include <OpenImageIO/strutil.h>
@@ -107,11 +108,12 @@ Numbers read_accessor(Document& document, int index, int type, size_t count, con
 {
     const tinygltf::Accessor& accessor = accessor_of(document, index, what);
     if (accessor.type != type)
-        throw Error(format("{} has {} numbers an element, not {}", what,
-                           tinygltf::GetNumComponentsInType(uint32_t(accessor.type)),
+        throw Error(format("{} has elements of {}, not {}", what,
+                           count_text(tinygltf::GetNumComponentsInType(uint32_t(accessor.type)), "number", "numbers"),
                            tinygltf::GetNumComponentsInType(uint32_t(type))));
     if (count != 0 && accessor.count != count)
-        throw Error(format("{} has {} elements for {} vertices", what, accessor.count, count));
+        throw Error(
+            format("{} has {}, not {}", what, count_text(int64_t(accessor.count), "element", "elements"), count));
     const ComponentType& components = component_type_of(accessor.componentType);
     Numbers numbers { accessor.count, size_t(tinygltf::GetNumComponentsInType(uint32_t(type))), {} };
     const double bytes = double(accessor.count) * double(numbers.components) * sizeof(double);
@@ -121,10 +123,9 @@ Numbers read_accessor(Document& document, int index, int type, size_t count, con
     const uint8_t* source = nullptr;
     size_t stride = element;
     if (document.has_view(index) && accessor.count > 0) {
-        const int view = accessor.bufferView;
-        document.view(view); // throws if there is none
-        stride = document.stride(view) ? document.stride(view) : element;
-        source = elements_of(document, view, accessor.byteOffset, accessor.count, element, stride, what);
+        if (const size_t given = document.stride(accessor.bufferView))
+            stride = given;
+        source = elements_of(document, accessor.bufferView, accessor.byteOffset, accessor.count, element, stride, what);
     }
     numbers.values.assign(accessor.count * numbers.components, 0.0);
     if (source)

@@ -8,7 +8,7 @@
 
 namespace vmlight::gltf {
 
-/// Views into the bytes of a file.
+/// The JSON is a copy, the rest points into the file.
 struct Container
 {
     std::string json; ///< as UTF-8: invalid bytes became question marks. Without byte order mark

@@ -21,13 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-// All bytes of a file; fewer if it shrinks meanwhile.
-template <class Container> void read_file(Container& dst, const std::string& path)
-{
-    dst.resize(size_t(OIIO::Filesystem::file_size(path)));
-    dst.resize(OIIO::Filesystem::read_bytes(path, dst.data(), dst.size()));
-}
-
 template <class T> T member(const json& object, const char* name, T otherwise)
 {
     const auto found = object.find(name);
@@ -56,6 +49,11 @@ std::vector<json*> objects_of(json& root, const char* name)
         objects.push_back(&element);
     }
     return objects;
+}
+
+Bytes bytes_of(const std::string& text)
+{
+    return { reinterpret_cast<const uint8_t*>(text.data()), text.size() };
 }
 
 bool is_compression_placeholder(const json& buffer)
@@ -97,7 +95,7 @@ Document::Document(const ImportRequest& request, MeshBuilder& builder)
 {
     if (request.before_open)
         request.before_open(request.path);
-    read_file(m_file, request.path);
+    m_file = file_bytes(request.path);
     const Container parts = split_file(m_file);
     m_binary = parts.binary;
     if (is_nested_too_deep(parts.json))
@@ -193,9 +191,9 @@ void Document::load(Buffer& buffer, int index)
             const std::string path = find_file(buffer.uri, what);
             if (m_request.before_open)
                 m_request.before_open(path);
-            read_file(buffer.own, path);
+            buffer.own = file_bytes(path);
         }
-        buffer.bytes = { buffer.own.data(), buffer.own.size() };
+        buffer.bytes = bytes_of(buffer.own);
     }
     if (buffer.bytes.size < buffer.length)
         throw Error(format("{} ends early: {} bytes of {}", what, buffer.bytes.size, buffer.length));
@@ -212,10 +210,15 @@ Bytes Document::buffer(int index)
     return buffer.bytes;
 }
 
-Bytes Document::view(int index)
+void Document::check_view(int index) const
 {
     if (index < 0 || size_t(index) >= m_strides.size())
         throw Error(format("there is no buffer view {}", index));
+}
+
+Bytes Document::view(int index)
+{
+    check_view(index);
     const tinygltf::BufferView& view = m_model.bufferViews[size_t(index)];
     if (const auto meshopt = view.extensions.find("EXT_meshopt_compression"); meshopt != view.extensions.end()) {
         auto& bytes = m_decompressed[size_t(index)];
@@ -232,6 +235,7 @@ Bytes Document::view(int index)
 
 size_t Document::stride(int view) const
 {
+    check_view(view);
     return m_strides[size_t(view)];
 }
 
@@ -244,15 +248,15 @@ void Document::find_image(MaterialTexture& texture, int index)
     const Image& image = m_images[size_t(index)];
     try {
         if (OIIO::Strutil::istarts_with(image.uri, "data:")) {
-            std::vector<uint8_t> bytes;
+            std::string bytes;
             if (!decode_data_uri(bytes, image.uri))
                 throw Error(format("image {} has an invalid data URI", index));
-            texture.embedded = std::make_shared<const std::string>(bytes.begin(), bytes.end());
+            texture.embedded = std::make_shared<const std::string>(std::move(bytes));
         } else if (!image.uri.empty()) {
             texture.path = find_file(image.uri, format("image {}", index));
         } else {
             const Bytes bytes = view(image.view);
-            const Bytes file { reinterpret_cast<const uint8_t*>(m_file.data()), m_file.size() };
+            const Bytes file = bytes_of(m_file);
             if (bytes.data >= file.data && bytes.data < file.data + file.size) {
                 texture.path = m_request.path;
                 texture.offset = uint64_t(bytes.data - file.data);

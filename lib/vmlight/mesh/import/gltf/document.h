@@ -45,7 +45,7 @@ private:
         std::string uri;
         size_t length = 0;
         bool is_placeholder = false; ///< without bytes: all its views are compressed
-        std::vector<uint8_t> own;
+        std::string own;
         Bytes bytes; ///< once it is loaded
     };
     struct Image
@@ -55,6 +55,7 @@ private:
     };
 
     void parse(const std::string& json);
+    void check_view(int index) const;
     void load(Buffer& buffer, int index);
     std::string find_file(const std::string& uri, const std::string& what) const;
 

@@ -2,6 +2,7 @@
 #include <vmlight/mesh/import/gltf/primitive.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/gltf/accessor.h>
 #include <vmlight/mesh/import/gltf/document.h>
 #include <vmlight/mesh/import/gltf/draco.h>
@@ -44,7 +45,8 @@ public:
             return read_accessor(m_document, m_primitive.attributes.at(name), type, count, name);
         const size_t components = size_t(tinygltf::GetNumComponentsInType(uint32_t(type)));
         if (decoded->second.components != components)
-            throw Error(format("{} has {} numbers an element, not {}", name, decoded->second.components, components));
+            throw Error(format("{} has elements of {}, not {}", name,
+                               count_text(int64_t(decoded->second.components), "number", "numbers"), components));
         return std::move(decoded->second);
     }
 
@@ -132,7 +134,7 @@ std::vector<std::array<uint32_t, 3>> triangles_of(const std::vector<uint32_t>& i
         for (size_t i = 1; i + 1 < count; ++i)
             triangles.push_back({ indices[i], indices[i + 1], indices[0] });
     } else if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-        throw Error(format("{} has the unknown mode {}", where, mode));
+        throw Error(format("unknown mode {}", mode));
     }
     return triangles;
 }

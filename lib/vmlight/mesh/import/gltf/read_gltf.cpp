@@ -78,17 +78,27 @@ private:
                      const std::vector<M44d>& places)
     {
         const auto& primitives = m_model.meshes[size_t(mesh)].primitives;
+        const bool is_last = mesh == m_last_mesh && weights == m_last_weights && skin < 0;
+        std::vector<Primitive> parts = is_last ? std::move(m_last_parts) : read_parts(mesh, weights, skin);
+        check_memory(parts, places.size());
+        for (const M44d& place : places)
+            for (size_t i = 0; i < parts.size(); ++i)
+                append_part(parts[i], primitives[i].material, m_model.meshes[size_t(mesh)].name, node, place);
+        m_last_mesh = skin < 0 ? mesh : -1;
+        m_last_weights = weights;
+        m_last_parts = std::move(parts);
+    }
+
+    std::vector<Primitive> read_parts(int mesh, const std::vector<double>& weights, int skin)
+    {
         std::vector<Primitive> parts;
-        for (size_t i = 0; i < primitives.size(); ++i) {
+        for (size_t i = 0; i < m_model.meshes[size_t(mesh)].primitives.size(); ++i) {
             parts.push_back(
                 read_primitive(m_document, mesh, int(i), weights, m_document.builder().params().uv_set, skin >= 0));
             if (skin >= 0)
                 apply_skin(parts.back(), m_document, skin, m_transforms);
         }
-        check_memory(parts, places.size());
-        for (const M44d& place : places)
-            for (size_t i = 0; i < parts.size(); ++i)
-                append_part(parts[i], primitives[i].material, m_model.meshes[size_t(mesh)].name, node, place);
+        return parts;
     }
 
     void append_part(const Primitive& part, int material, const std::string& name, uint32_t node, const M44d& place)
@@ -122,6 +132,10 @@ private:
     const tinygltf::Model& m_model;
     const std::vector<int> m_roots;
     std::vector<M44d> m_transforms;
+    // Nodes that show the same mesh mostly follow each other: it is decompressed once.
+    int m_last_mesh = -1;
+    std::vector<double> m_last_weights;
+    std::vector<Primitive> m_last_parts;
 };
 
 } // namespace

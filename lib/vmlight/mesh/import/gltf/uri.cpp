@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace vmlight::gltf {
 namespace {
@@ -44,20 +46,21 @@ std::string uri_scheme(const std::string& uri)
     return end > 1 && end < uri.size() && uri[end] == ':' && std::isalpha(uint8_t(uri[0])) ? uri.substr(0, end) : "";
 }
 
-bool decode_data_uri(std::vector<uint8_t>& bytes, const std::string& uri)
+bool decode_data_uri(std::string& bytes, const std::string& uri)
 {
     const size_t comma = std::min(uri.find(','), uri.size() - 1);
-    const std::string head = uri.substr(0, comma);
-    if (!OIIO::Strutil::iends_with(head, ";base64")) {
-        const std::string text = decode_percent(uri.substr(comma + 1));
-        bytes.assign(text.begin(), text.end());
+    if (!OIIO::Strutil::iends_with(uri.substr(0, comma), ";base64")) {
+        bytes = decode_percent(uri.substr(comma + 1));
         return true;
     }
     std::string type; // tinygltf decodes the media types that it knows, whatever is in them, and counts in int
     if (uri.size() > size_t(std::numeric_limits<int>::max()))
         return false;
-    return tinygltf::DecodeDataURI(&bytes, type, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0,
-                                   false);
+    std::vector<uint8_t> decoded;
+    const bool good = tinygltf::DecodeDataURI(
+        &decoded, type, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0, false);
+    bytes.assign(decoded.begin(), decoded.end());
+    return good;
 }
 
 } // namespace vmlight::gltf

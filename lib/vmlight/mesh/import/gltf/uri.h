@@ -2,9 +2,7 @@
 /// The URIs of glTF files. Source: RFC 3986 (URIs), RFC 2397 (data URIs).
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 namespace vmlight::gltf {
 
@@ -16,6 +14,6 @@ std::string uri_scheme(const std::string& uri);
 
 /// The bytes of a "data:" URI, in base64 or percent-encoded. Base64 ends where it is invalid. False if there are none,
 /// or more than 2 GiB.
-bool decode_data_uri(std::vector<uint8_t>& bytes, const std::string& uri);
+bool decode_data_uri(std::string& bytes, const std::string& uri);
 
 } // namespace vmlight::gltf
