@@ -41,13 +41,6 @@ ImageBuf made(const VismapRecipe& recipe, std::string* warning = nullptr)
     return image;
 }
 
-std::string refusal(const VismapRecipe& recipe)
-{
-    ImageBuf image;
-    EXPECT_FALSE(make_image(image, recipe));
-    return image.geterror();
-}
-
 // The room, turned and stretched: no coordinate is a short fraction.
 std::string odd_room()
 {

@@ -43,13 +43,6 @@ ImageBuf made(const VismapRecipe& recipe, const MakeOptions& options = {})
     return image;
 }
 
-std::string refusal(const VismapRecipe& recipe)
-{
-    ImageBuf image;
-    EXPECT_FALSE(make_image(image, recipe));
-    return image.geterror();
-}
-
 std::string attribute(const ImageBuf& image, const char* name)
 {
     return std::string(image.spec().get_string_attribute(name));

@@ -9,6 +9,7 @@
 #include <Imath/ImathVec.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -119,6 +120,12 @@ VMLIGHT_API void merge_equal_vertices(Mesh& mesh);
 /// A 64-bit hash of positions, normals, uvs and triangles, as 16 hexadecimal digits. The same on every little-endian
 /// machine.
 VMLIGHT_API std::string mesh_hash(const Mesh& mesh);
+
+/// Whether a vertex has texture coordinates.
+inline bool has_uv(const Mesh& mesh, uint32_t vertex)
+{
+    return !mesh.uvs.empty() && std::isfinite(mesh.uvs[vertex].x) && std::isfinite(mesh.uvs[vertex].y);
+}
 
 /// The normal of a triangle times twice its area; zero for a triangle without area.
 inline Imath::V3d triangle_area_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)

@@ -7,7 +7,6 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace vmlight {
@@ -113,11 +112,9 @@ void keep_marked(std::vector<bool>& triangles, const std::vector<uint32_t>& indi
         triangles[t] = triangles[t] && t < indices.size() && indices[t] < marked.size() && marked[indices[t]];
 }
 
-bool has_uv(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
+bool is_textured(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
 {
-    return !mesh.uvs.empty() && std::all_of(triangle.begin(), triangle.end(), [&](uint32_t vertex) {
-        return std::isfinite(mesh.uvs[vertex].x) && std::isfinite(mesh.uvs[vertex].y);
-    });
+    return std::all_of(triangle.begin(), triangle.end(), [&](uint32_t vertex) { return has_uv(mesh, vertex); });
 }
 
 template <class Element>
@@ -148,7 +145,7 @@ std::vector<std::string> baked_materials(const Mesh& mesh)
 {
     std::vector<bool> used(mesh.materials.size(), false);
     for (size_t t = 0; t < mesh.triangle_materials.size(); ++t)
-        if (mesh.triangle_materials[t] < used.size() && has_uv(mesh, mesh.triangles[t]))
+        if (mesh.triangle_materials[t] < used.size() && is_textured(mesh, mesh.triangles[t]))
             used[mesh.triangle_materials[t]] = true;
     std::vector<std::string> names;
     for (size_t i = 0; i < used.size(); ++i)
@@ -209,7 +206,7 @@ Mesh mesh_part(const Mesh& mesh, const std::vector<bool>& chosen)
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
         if (chosen[t]) {
             triangles.push_back(t);
-            has_uvs = has_uvs || has_uv(mesh, mesh.triangles[t]);
+            has_uvs = has_uvs || is_textured(mesh, mesh.triangles[t]);
             for (const uint32_t vertex : mesh.triangles[t])
                 number[vertex] = 1;
         }

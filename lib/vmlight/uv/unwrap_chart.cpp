@@ -99,19 +99,13 @@ bool scale_to_surface(UnwrapChart& chart, const UnwrapSurface& surface)
     return std::isfinite(chart.stretch);
 }
 
-// A triangle alone is laid down as it is, its longest edge along u.
+// A triangle alone is laid down as it is.
 void lay_triangle(UnwrapChart& chart, const UnwrapSurface& surface)
 {
-    const uint32_t t = chart.triangles[0];
-    int k = 0;
-    for (int other = 1; other < 3; ++other)
-        if (surface.edge(t, other, (other + 1) % 3).length2() > surface.edge(t, k, (k + 1) % 3).length2())
-            k = other;
-    const V3d along = surface.edge(t, k, (k + 1) % 3), other = surface.edge(t, k, (k + 2) % 3);
-    const double length = along.length();
-    chart.uvs.assign(3, V2d(0));
-    chart.uvs[chart.corners[0][(k + 1) % 3]] = { length, 0 };
-    chart.uvs[chart.corners[0][(k + 2) % 3]] = { other.dot(along) / length, 2 * chart.area / length };
+    const std::array<V2d, 3> corners = surface.flat_corners(chart.triangles[0]);
+    chart.uvs.resize(3);
+    for (size_t k = 0; k < 3; ++k)
+        chart.uvs[chart.corners[0][k]] = corners[k];
     chart.stretch = 1;
 }
 

@@ -43,16 +43,11 @@ std::pair<uint32_t, uint32_t> choose_pins(const UnwrapChart& chart, const Unwrap
 std::array<Complex, 3> in_own_plane(const UnwrapSurface& surface, uint32_t t)
 {
     constexpr double kThinnest = 1e-4;
-    int k = 0;
-    for (int other = 1; other < 3; ++other)
-        if (surface.edge(t, other, (other + 1) % 3).length2() > surface.edge(t, k, (k + 1) % 3).length2())
-            k = other;
-    const V3d along = surface.edge(t, k, (k + 1) % 3), other = surface.edge(t, k, (k + 2) % 3);
-    const double length = along.length();
-    const double height = std::max(2 * surface.area(t) / length, kThinnest * length);
+    const std::array<Imath::V2d, 3> flat = surface.flat_corners(t);
+    const double length = std::max({ flat[0].x, flat[1].x, flat[2].x });
     std::array<Complex, 3> corners;
-    corners[(k + 1) % 3] = length;
-    corners[(k + 2) % 3] = { other.dot(along) / length, height };
+    for (size_t k = 0; k < 3; ++k)
+        corners[k] = { flat[k].x, flat[k].y > 0 ? std::max(flat[k].y, kThinnest * length) : 0 };
     return corners;
 }
 

@@ -55,6 +55,20 @@ V3d UnwrapSurface::centroid(uint32_t triangle) const
 
 // Where an edge has more than two triangles, as where a wall stands on a floor, those continue each other whose normals
 // differ least.
+std::array<Imath::V2d, 3> UnwrapSurface::flat_corners(uint32_t triangle) const
+{
+    int k = 0;
+    for (int other = 1; other < 3; ++other)
+        if (edge(triangle, other, (other + 1) % 3).length2() > edge(triangle, k, (k + 1) % 3).length2())
+            k = other;
+    const V3d along = edge(triangle, k, (k + 1) % 3), other = edge(triangle, k, (k + 2) % 3);
+    const double length = along.length();
+    std::array<Imath::V2d, 3> corners { Imath::V2d(0), Imath::V2d(0), Imath::V2d(0) };
+    corners[(k + 1) % 3] = { length, 0 };
+    corners[(k + 2) % 3] = { other.dot(along) / length, 2 * area(triangle) / length };
+    return corners;
+}
+
 void UnwrapSurface::pair_half_edges()
 {
     struct Side

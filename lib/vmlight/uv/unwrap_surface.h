@@ -35,6 +35,8 @@ public:
     {
         return (m_positions[m_points[triangle][to]] - m_positions[m_points[triangle][from]]) * m_scale;
     }
+    /// The corners in the triangle's own plane: its longest edge is along u, from 0, and the third corner above it.
+    std::array<Imath::V2d, 3> flat_corners(uint32_t triangle) const;
     /// The half-edge on the other side, of the triangle that continues this one; kNone where there is none.
     uint32_t twin(uint32_t half_edge) const { return m_twins[half_edge]; }
     /// Of one unit of length here, in the mesh's units.

@@ -3,8 +3,6 @@
 
 #include <vmlight/mesh/export/write_mesh.h>
 
-#include <cmath>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,11 +21,6 @@ struct MeshWriter
     /// The files of a mesh, the one called `path` last.
     std::vector<MeshFile> (*write)(const Mesh& mesh, const std::string& path);
 };
-
-inline bool has_uv(const Mesh& mesh, uint32_t vertex)
-{
-    return !mesh.uvs.empty() && std::isfinite(mesh.uvs[vertex].x) && std::isfinite(mesh.uvs[vertex].y);
-}
 
 std::vector<MeshFile> obj_files(const Mesh& mesh, const std::string& path);
 std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path);

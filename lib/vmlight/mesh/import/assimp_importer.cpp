@@ -167,7 +167,7 @@ bool read_with_assimp(MeshBuilder& dst, const ImportRequest& request, std::strin
     correct_primitive_types(imported);
     if (!triangulate(importer, imported))
         return fail_with_assimps_error();
-    append_imported(dst, imported, folder_of(request.path));
+    append_imported(dst, imported, OIIO::Filesystem::parent_path(request.path));
     return true;
 }
 

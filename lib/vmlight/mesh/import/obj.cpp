@@ -6,6 +6,7 @@
 #include <vmlight/mesh/import/obj_text.h>
 #include <vmlight/mesh/import/side_files.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -19,12 +20,12 @@ std::vector<Material> read_libraries(MeshBuilder& dst, const obj::File& file, co
 {
     std::vector<Material> materials;
     const auto read = [&](const std::string& name) {
-        const std::string path = find_side_file(folder_of(request.path), name);
+        const std::string path = find_side_file(OIIO::Filesystem::parent_path(request.path), name);
         if (path.empty())
             return false;
         if (request.before_open)
             request.before_open(path);
-        add_mtl_materials(materials, file_bytes(path), folder_of(path));
+        add_mtl_materials(materials, file_bytes(path), OIIO::Filesystem::parent_path(path));
         return true;
     };
     for (const obj::Library& library : file.libraries) {

@@ -128,7 +128,8 @@ bool append_ply(MeshBuilder& dst, const ply::File& file, const std::string& fold
 bool read_ply(MeshBuilder& dst, const ImportRequest& request, std::string& error)
 {
     ply::File file;
-    return parse_file(file, request, error) && append_ply(dst, file, folder_of(request.path), error);
+    return parse_file(file, request, error)
+        && append_ply(dst, file, OIIO::Filesystem::parent_path(request.path), error);
 }
 
 } // namespace vmlight

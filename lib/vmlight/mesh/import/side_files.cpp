@@ -22,12 +22,6 @@ std::string join(const std::string& folder, const std::string& name)
 
 } // namespace
 
-std::string folder_of(const std::string& path)
-{
-    const size_t slash = path.rfind('/');
-    return slash == std::string::npos ? "" : slash == 0 ? "/" : path.substr(0, slash);
-}
-
 std::string find_side_file(const std::string& folder, const std::string& name)
 {
     const std::string path = with_slashes(name);

@@ -6,9 +6,6 @@
 
 namespace vmlight {
 
-/// The folder of a file, "" if its path has none.
-std::string folder_of(const std::string& path);
-
 /// The path of the file that a file in `folder` calls `name`: there, or where an absolute name says; where it is
 /// neither, as with paths of the machine that wrote it, a file of that name beside the mesh. Backslashes are slashes.
 /// @returns "" if there is no such file
