@@ -12,7 +12,7 @@ namespace vmlight {
 /// How far a lookup reaches: texture coordinates, and how they change from pixel to pixel.
 struct TextureFootprint
 {
-    Imath::V2d st, dx { 0 }, dy { 0 };
+    Imath::V2d st { 0 }, dx { 0 }, dy { 0 };
 };
 
 /// What is beyond [0, 1].
@@ -39,6 +39,7 @@ public:
     };
 
     TexturePyramid() = default;
+    /// @param channels at most 16
     /// @param pixels   `channels` floats a texel, row 0 at t = 0
     /// @param weights  one a texel, in [0, 1]; nullptr: 1 everywhere
     TexturePyramid(int width, int height, int channels, const float* pixels, const float* weights,
@@ -55,7 +56,8 @@ public:
     void lookup(const TextureFootprint& at, float* dst) const;
 
 private:
-    void add_bilinear(float* sum, const Level& level, const Imath::V2d& st, float share) const;
+    template <int Channels> void add_bilinear(float* sum, const Level& level, const Imath::V2d& st, float share) const;
+    template <int Channels> void look_up(const TextureFootprint& at, float* dst) const;
 
     int m_channels = 0;
     TextureWrap m_wrap_s = TextureWrap::clamp, m_wrap_t = TextureWrap::clamp;
