@@ -164,15 +164,15 @@ TEST(TileTexture, RowsAreFromTheTop)
 TEST(FileTexture, TakesTheMipThatTheDerivativesSay)
 {
     const TemporaryFolder folder;
-    const std::string path = folder / "mips.exr";
-    const auto out = OIIO::ImageOutput::create("openexr");
+    const std::string path = folder / "mips.tif";
+    const auto out = OIIO::ImageOutput::create("tiff");
     OIIO::ImageSpec spec(64, 64, 3, OIIO::TypeFloat);
     spec.tile_width = spec.tile_height = 64;
     spec.attribute("textureformat", "Plain Texture");
     int level = 0;
     for (int side = 64; side >= 1; side /= 2, ++level) {
         spec.width = spec.height = spec.full_width = spec.full_height = side;
-        ASSERT_TRUE(out->open(path, spec, level ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::Create));
+        ASSERT_TRUE(out->open(path, spec, level ? OIIO::ImageOutput::AppendSubimage : OIIO::ImageOutput::Create));
         const std::vector<float> pixels(size_t(side * side * 3), float(level));
         ASSERT_TRUE(out->write_image(OIIO::TypeFloat, pixels.data()));
     }
