@@ -3,6 +3,7 @@
 #include "mesh_fixture.h"
 
 #include <vmlight/mesh/import/importer.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/unused_flags.h>
 
 #include <gmock/gmock.h>
@@ -59,4 +60,30 @@ TEST_F(MeshFiles, OnlyAlembicFilesHaveFrames)
     EXPECT_EQ(unused_reason(recipe, "frame"), "") << "an occluder has";
     recipe.mesh_params.frame = MeshParams::kFirstSample;
     EXPECT_EQ(unused_reason(recipe, "fps"), "no frame is given");
+}
+
+TEST_F(MeshFiles, AFrameIsInTheMetadataOfItsMapAlone)
+{
+    VismapRecipe recipe;
+    recipe.mesh = folder.write("a.obj", kQuadObj);
+    const auto said = [&](const char* name) {
+        std::string error;
+        const PixelSourcePointer source = open_source(recipe, error);
+        EXPECT_TRUE(source) << error;
+        const OIIO::ParamValue* value = source ? source->spec().find_attribute(name) : nullptr;
+        return value ? value->get_string() : "none";
+    };
+    EXPECT_EQ(said("vmlight:up"), "file");
+    EXPECT_EQ(said("vmlight:frame"), "none") << "maps stay as they were";
+    EXPECT_EQ(said("vmlight:fps"), "none");
+    recipe.mesh_params.frame = 12.5;
+    EXPECT_EQ(said("vmlight:frame"), "12.5");
+    EXPECT_EQ(said("vmlight:fps"), "24");
+    EXPECT_EQ(recipe_text(recipe).find("fps"), std::string::npos);
+    VismapRecipe again;
+    std::string error;
+    EXPECT_TRUE(read_recipe_text(again, recipe_text(recipe), "a.vismap", error)) << error;
+    EXPECT_EQ(again.mesh_params.frame, 12.5);
+    EXPECT_TRUE(read_recipe_text(again, "mesh = \"a.abc\"\nframe = \"first\"\n", "a.vismap", error)) << error;
+    EXPECT_EQ(again.mesh_params.frame, MeshParams::kFirstSample);
 }

@@ -89,7 +89,7 @@ struct MeshParams
                           { "y", "y is up: no rotation" },
                           { "z", "z is up: rotate to y up" } } },
               "Up axis of the mesh");
-        field("frame", frame, Range { -1e6, 1e6, "first", kFirstSample },
+        field("frame", frame, Range { -999999, 999999, "first", kFirstSample },
               "Frame of an animated Alembic mesh and its occluders; may have a fraction. first: the first sample");
         field("fps", fps, Range { 1e-3, 1e4 }, advanced("Frames per second that frame counts in"));
     }
