@@ -16,10 +16,14 @@ KILL_AFTER = 3.0  # seconds, of a process that does not heed SIGTERM
 
 
 class Step:
-    """@param label: what the user calls it; a line of progress starts with it"""
+    """@param label: what the user calls it; a line of progress starts with it
+    @param words: the command. Its first argument is a temporary file: messages call it by the label"""
 
     def __init__(self, label, words):
         self.label, self.words = label, words
+
+    def readable(self, text):
+        return text.replace(f'"{self.words[1]}"', f'"{self.label}"') if self.label and len(self.words) > 1 else text
 
 
 class Job:
@@ -95,7 +99,7 @@ class Job:
             self.fraction = (number + message.fraction) / len(self.steps)
             self.line = f"{step.label}: {message.text}" if step.label else message.text
         else:
-            self.log.append((message.kind, message.text))
+            self.log.append((message.kind, step.readable(message.text)))
 
     def _start(self, words):
         """Starts the process, and returns the chunks of what it prints. A terminal hears of progress ten times a second,

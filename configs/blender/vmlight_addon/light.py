@@ -30,7 +30,7 @@ def environment(scene, depsgraph=None):
     @raises world.Unfollowable"""
     settings = scene.vmlight
     if not settings.follow_world:
-        return world.of_file(settings.environment, session_folder())
+        return world.of_file(settings.environment, settings.rotation)
     shown = scene.world
     if depsgraph and shown:
         shown = shown.evaluated_get(depsgraph)
@@ -42,9 +42,7 @@ def light_of_scene(scene, sky, turn=orientation.IDENTITY):
 
     @param turn: of an object since it was baked"""
     settings = scene.vmlight
-    slider = orientation.mapping_rotation("POINT", (0, 0, settings.rotation))
-    mapping = orientation.multiply(sky.mapping, slider)
-    return {"rotate": orientation.rotate_for_vmlight(mapping, turn), "exposure": settings.exposure + sky.stops,
+    return {"rotate": orientation.rotate_for_vmlight(sky.mapping, turn), "exposure": settings.exposure + sky.stops,
             "model": settings.model, "colorspace": sky.colorspace}
 
 

@@ -206,12 +206,13 @@ class VMLIGHT_OT_bake(JobOperator, bpy.types.Operator):
         mesh = os.path.join(folder, "scene.glb")
         glb.write(mesh, parts)
         self._maps, steps = [], []
-        names = {}
+        taken = {os.path.basename(bpy.path.abspath(ob.vmlight.vismap)) for ob in context.scene.objects
+                 if ob.vmlight.vismap and ob not in objects}
         for ob, node, uv_map in zip(objects, nodes, uv_maps):
-            name = mesh_export.unique_name(tools.file_name(_blend_name() + ob.name), names.setdefault("taken", set()))
-            made = os.path.join(folder, name.replace(" #", "_") + "_vismap.exr")
+            name = tools.unused_name(_blend_name() + ob.name, "_vismap.exr", taken)
+            made = os.path.join(folder, name)
             turn = tuple(ob.evaluated_get(depsgraph).matrix_world.to_quaternion())
-            self._maps.append((ob.name, uv_map, turn, made, os.path.join(target, os.path.basename(made))))
+            self._maps.append((ob.name, uv_map, turn, made, os.path.join(target, name)))
             steps.append(job.Step(ob.name, tools.bake_command(makevismap, mesh, node, made, options(settings))))
         return steps
 

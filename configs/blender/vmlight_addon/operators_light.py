@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Relight, Apply, Restore, Match Exposure, Copy as Command: what needs no waiting."""
+"""Relight, Apply, Restore, Match Exposure, Add Mapping, Copy as Command: what needs no waiting."""
 import math
 import shlex
 
@@ -99,6 +99,33 @@ class VMLIGHT_OT_match_exposure(OnBaked, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class VMLIGHT_OT_add_mapping(bpy.types.Operator):
+    """Add a Mapping node to the World's Environment Texture, to turn it"""
+    bl_idname = "vmlight.add_mapping"
+    bl_label = "Add Mapping"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        _, texture, mapping = world.texture_of(context.scene.world)
+        return texture is not None and mapping is None
+
+    def execute(self, context):
+        _, texture, _ = world.texture_of(context.scene.world)
+        tree, vector = context.scene.world.node_tree, texture.inputs["Vector"]
+        mapping = tree.nodes.new("ShaderNodeMapping")
+        mapping.location = (texture.location.x - 200, texture.location.y)
+        if vector.is_linked:
+            source = vector.links[0].from_socket
+        else:
+            coordinate = tree.nodes.new("ShaderNodeTexCoord")
+            coordinate.location = (texture.location.x - 400, texture.location.y)
+            source = coordinate.outputs["Generated"]
+        tree.links.new(source, mapping.inputs["Vector"])
+        tree.links.new(mapping.outputs["Vector"], vector)
+        return {"FINISHED"}
+
+
 class VMLIGHT_OT_copy_command(OnBaked, bpy.types.Operator):
     """Copy the makelightmap command of what the active object shows"""
     bl_idname = "vmlight.copy_command"
@@ -115,7 +142,8 @@ class VMLIGHT_OT_copy_command(OnBaked, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (VMLIGHT_OT_relight, VMLIGHT_OT_apply, VMLIGHT_OT_restore, VMLIGHT_OT_match_exposure, VMLIGHT_OT_copy_command)
+CLASSES = (VMLIGHT_OT_relight, VMLIGHT_OT_apply, VMLIGHT_OT_restore, VMLIGHT_OT_match_exposure, VMLIGHT_OT_add_mapping,
+           VMLIGHT_OT_copy_command)
 
 
 def register():

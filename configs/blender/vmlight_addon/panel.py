@@ -2,7 +2,7 @@
 """The panel "Visibility map" of the Render tab."""
 import bpy
 
-from . import messages, status
+from . import messages, status, world
 
 ICONS = {"ERROR": "ERROR", "WARNING": "ERROR", "INFO": "INFO"}
 SHOWN = 6  # messages
@@ -22,7 +22,7 @@ class VMLIGHT_PT_visibility_map(bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         self._bake(layout, settings)
-        self._light(layout, settings)
+        self._light(layout, settings, context.scene.world)
         self._show(layout, settings)
         columns = int((context.region.width / context.preferences.system.ui_scale - 60) / PIXELS_A_LETTER)
         self._messages(layout, columns)
@@ -47,13 +47,23 @@ class VMLIGHT_PT_visibility_map(bpy.types.Panel):
             row.operator("vmlight.bake", icon="RENDER_STILL")
 
     @staticmethod
-    def _light(layout, settings):
+    def _light(layout, settings, shown):
         layout.separator()
         column = layout.column()
         column.prop(settings, "follow_world")
-        if not settings.follow_world:
+        if settings.follow_world:
+            background, texture, mapping = world.texture_of(shown)
+            if texture:
+                column.template_ID(texture, "image", open="image.open")
+            if mapping:
+                column.prop(mapping.inputs["Rotation"], "default_value", text="Rotation")
+            elif texture:
+                column.operator("vmlight.add_mapping", icon="ORIENTATION_GIMBAL")
+            if background:
+                column.prop(background.inputs["Strength"], "default_value", text="Strength")
+        else:
             column.prop(settings, "environment")
-        column.prop(settings, "rotation", slider=True)
+            column.prop(settings, "rotation", slider=True)
         row = column.row(align=True)
         row.prop(settings, "exposure", slider=True)
         row.operator("vmlight.match_exposure", text="", icon="LIGHT_SUN")

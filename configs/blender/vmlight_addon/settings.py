@@ -55,8 +55,7 @@ class VmlightScene(bpy.types.PropertyGroup):
                                description="Light with the World's environment texture, its mapping and its strength")
     environment: StringProperty(name="Environment", subtype="FILE_PATH", update=_relight, description="Lat-long environment")
     rotation: FloatProperty(name="Rotation", subtype="ANGLE", soft_min=-math.pi, soft_max=math.pi, update=_relight,
-                            description="Turns the environment about the vertical, as Z of a Mapping node in the World does; "
-                                        "on top of the World's own mapping")
+                            description="Turns the environment about the vertical, as Z of a Mapping node in the World does")
     exposure: FloatProperty(name="Exposure", default=0, min=-64, max=64, soft_min=-8, soft_max=8, update=_relight,
                             description="In stops; on top of the World's strength")
     model: EnumProperty(

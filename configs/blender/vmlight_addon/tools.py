@@ -59,6 +59,17 @@ def file_name(name):
     return re.sub(r"^\.", "_", clean) or "_"
 
 
+def unused_name(name, ending, taken):
+    """A file for `name` that is not in `taken`, to which it is added: "a/b" and "a?b" would share one."""
+    base, number = file_name(name), 1
+    result = base + ending
+    while result in taken:
+        number += 1
+        result = f"{base}_{number}{ending}"
+    taken.add(result)
+    return result
+
+
 def bake_command(makevismap, mesh, node, output, options):
     """@param options: resolution, samples, margin, basis; max_distance, 0 for infinite"""
     words = [makevismap, mesh, "--node", node, "-o", output, "--resolution", str(options["resolution"]), "--samples",

@@ -3,6 +3,7 @@
 import hashlib
 import math
 import os
+import struct
 
 import bpy
 
@@ -21,14 +22,14 @@ class Environment:
         self.path, self.colorspace, self.mapping, self.stops = path, colorspace, mapping, stops
 
 
-def of_file(path, folder):
-    """An environment that the user chose."""
+def of_file(path, radians):
+    """An environment that the user chose, turned as Z of a Mapping node would turn it."""
     if not path:
         raise Unfollowable("no environment: choose a file, or turn on Follow World")
     path = bpy.path.abspath(path)
     if not os.path.isfile(path):
         raise Unfollowable(f'"{path}": no such file')
-    return Environment(path, "")
+    return Environment(path, "", orientation.mapping_rotation("POINT", (0, 0, radians)))
 
 
 def of_world(world, folder):
@@ -88,13 +89,29 @@ def _background(world, fault):
     return node
 
 
+def texture_of(world):
+    """The Environment Texture that lights, and its Mapping node; None for what there is not. For the panel."""
+    if world is None or not world.use_nodes:
+        return None, None, None
+    try:
+        background = _background(world, "")
+    except Unfollowable:
+        return None, None, None
+    texture = _source(background.inputs["Color"])
+    if texture is None or texture.bl_idname != "ShaderNodeTexEnvironment":
+        return background, None, None
+    mapping = _source(texture.inputs["Vector"])
+    return background, texture, mapping if mapping and mapping.bl_idname == "ShaderNodeMapping" else None
+
+
 def _mapping(texture, fault):
     """What its own mapping and a Mapping node before it do to directions."""
     own = texture.texture_mapping
     if (own.mapping_x, own.mapping_y, own.mapping_z) != ("X", "Y", "Z") or own.use_min or own.use_max:
         raise Unfollowable(fault + "its Environment Texture swaps or clips axes: reset its texture mapping")
     rotation = _rotation(own.vector_type, own.translation, own.rotation, own.scale, fault)
-    node = _source(texture.inputs["Vector"])
+    lookup = texture.inputs["Vector"]
+    node = _source(lookup)
     if node and node.bl_idname == "ShaderNodeMapping":
         values = {}
         for name in ("Location", "Rotation", "Scale"):
@@ -104,21 +121,17 @@ def _mapping(texture, fault):
             values[name] = tuple(socket.default_value) if socket else (0, 0, 0)
         turned = _rotation(node.vector_type, values["Location"], values["Rotation"], values["Scale"], fault)
         rotation = orientation.multiply(rotation, turned)
-        vector = node.inputs["Vector"]
-        node = _source(vector)
+        lookup = node.inputs["Vector"]
+        node = _source(lookup)
         if node is None:
             raise Unfollowable(fault + "nothing is linked to the Vector of its Mapping node: link Generated of a Texture "
                                "Coordinate")
-        link = vector
-    else:
-        link = texture.inputs["Vector"]
     if node is None:
         return rotation
-    while link.links[0].from_node.bl_idname == "NodeReroute":
-        link = link.links[0].from_node.inputs[0]
-    is_direction = node.bl_idname == "ShaderNodeTexCoord" and (
-        link.links[0].from_socket.name == "Generated" or (link.links[0].from_socket.name == "Object" and not node.object))
-    if not is_direction:
+    while lookup.links[0].from_node.bl_idname == "NodeReroute":
+        lookup = lookup.links[0].from_node.inputs[0]
+    output = lookup.links[0].from_socket.name
+    if node.bl_idname != "ShaderNodeTexCoord" or not (output == "Generated" or (output == "Object" and not node.object)):
         raise Unfollowable(fault + f'its map is looked up by the node "{node.name}": only Generated of a Texture Coordinate, '
                            "with at most one Mapping, can be followed")
     return rotation
@@ -167,9 +180,7 @@ def _constant(color, strength, folder):
 
 
 def write_exr(path, width, height, rgb):
-    """An uncompressed OpenEXR file of one colour, in the working space: Blender's own writer needs a scene's settings."""
-    import struct
-
+    """An uncompressed OpenEXR file of one colour, in the working space."""
     def attribute(name, kind, data):
         return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
 
