@@ -213,7 +213,7 @@ class Tools(InFolder):
     def test_commands(self):
         self.assertEqual(" ".join(tools.bake_command("makevismap", "s.glb", "Cube", "o.exr", self.OPTIONS)),
                          "makevismap s.glb --node Cube -o o.exr --resolution 512 --samples 64 --margin 8 --basis sh "
-                         "--channels coverage")
+                         "--channels normal,coverage")
         self.assertIn("--max-distance 2.5", " ".join(tools.bake_command("m", "s", "n", "o", {**self.OPTIONS, "max_distance": 2.5})))
         self.assertEqual(" ".join(tools.unwrap_command("makevismap", "s.glb", "o.exr", "uv.glb", self.OPTIONS)),
                          "makevismap s.glb --unwrap --write-mesh uv.glb -o o.exr --resolution 512 --margin 8 --samples 1")

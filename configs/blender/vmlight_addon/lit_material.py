@@ -38,8 +38,13 @@ def restore(ob):
         slot.material = before.material
         if before.link == "DATA":
             slot.link = "DATA"
-    if memory.added_slot and len(ob.data.materials):
-        ob.data.materials.pop()
+    if memory.added_slot:
+        # The mesh's slots are all its objects': the last one that is lit removes it.
+        other = next((user for user in bpy.data.objects if user != ob and user.data == ob.data and user.vmlight.applied), None)
+        if other:
+            other.vmlight.added_slot = True
+        else:
+            ob.data.materials.clear()
     memory.slots.clear()
     memory.added_slot = memory.applied = False
     for material in made:

@@ -74,7 +74,7 @@ def bake_command(makevismap, mesh, node, output, options):
     """@param options: resolution, samples, margin, basis; max_distance, 0 for infinite"""
     words = [makevismap, mesh, "--node", node, "-o", output, "--resolution", str(options["resolution"]), "--samples",
              str(options["samples"]), "--margin", str(options["margin"]), "--basis", options["basis"],
-             "--channels", "coverage"]
+             "--channels", "normal,coverage"]
     if options.get("max_distance", 0) > 0:
         words += ["--max-distance", f"{options['max_distance']:.9g}"]
     return words
