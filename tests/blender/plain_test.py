@@ -114,14 +114,11 @@ class Orientation(unittest.TestCase):
 
 class ColorSpaces(InFolder):
     def test_the_working_space_is_found_by_its_role_and_else_by_its_name(self):
-        old, new = ["Filmic Log", "Linear", "Linear ACEScg", "sRGB"], ["ACEScg", "Linear Rec.709", "sRGB"]
-        self.assertEqual(color_spaces.scene_linear_name(old), "Linear")
-        self.assertEqual(color_spaces.scene_linear_name(new), "Linear Rec.709")
-        self.assertEqual(color_spaces.scene_linear_name(["Non-Color"]), "")
-        with open(self.path("config.ocio"), "w") as file:
-            file.write("roles:\n  reference: Linear\n  scene_linear: ACEScg\n")
-        self.assertEqual(color_spaces.scene_linear_name(new, self.path("config.ocio")), "ACEScg")
-        self.assertEqual(color_spaces.scene_linear_name(old, self.path("config.ocio")), "Linear")  # not this file's names
+        self.assertEqual(color_spaces.scene_linear_names(self.path("none"))[:2], ["Linear", "Linear Rec.709"])
+        for written in "ACEScg", '"ACEScg"', "'ACEScg'  ":
+            with open(self.path("config.ocio"), "w") as file:
+                file.write(f"roles:\n  reference: Linear\n  scene_linear: {written}\n  rendering: Linear\n")
+            self.assertEqual(color_spaces.scene_linear_names(self.path("config.ocio"))[0], "ACEScg")
 
     def test_blenders_names_are_ours(self):
         for theirs, ours in (("Linear", "lin_rec709_scene"), ("Linear Rec.709", "lin_rec709_scene"),
@@ -328,6 +325,8 @@ class Package(InFolder):
         version = os.environ["VMLIGHT_VERSION"]
         self.assertEqual(".".join(map(str, info["version"])), version)
         self.assertEqual((manifest["version"], manifest["name"]), (version, info["name"]))
+        for text in manifest["tagline"], manifest["files"]:  # Blender refuses longer ones
+            self.assertLessEqual(len(text), 64)
         self.assertEqual((manifest["id"], manifest["schema_version"]), ("vmlight_addon", "1.0.0"))
 
     def test_modules_without_blender_import_none_of_it(self):

@@ -20,22 +20,21 @@ OURS = {
 }
 # Pixels that are taken as they are: of the working space.
 PLAIN = ("Non-Color", "Raw", "Generic Data", "")
-SCENE_LINEAR = ("Linear", "Linear Rec.709", "scene_linear")
+SCENE_LINEAR = ("Linear", "Linear Rec.709", "scene_linear", "Non-Color")
 
 
-def scene_linear_name(names, config_path=""):
-    """The name of Blender's working space among the `names` that an image's colour space can have.
+def scene_linear_names(config_path=""):
+    """What Blender's working space may be called, the likeliest first.
 
     @param config_path: the OCIO config that Blender uses, where it can be read
-    @returns "" if there is none: then the image had better be Non-Color
     """
-    candidates = list(SCENE_LINEAR)
+    names = list(SCENE_LINEAR)
     if config_path and os.path.isfile(config_path):
         with open(config_path, encoding="utf-8", errors="replace") as file:
             role = re.search(r"^\s+scene_linear:\s*(.+?)\s*$", file.read(), re.MULTILINE)
         if role:
-            candidates.insert(0, role.group(1).strip("\"'"))
-    return next((name for name in candidates if name in names), "")
+            names.insert(0, role.group(1).strip("\"'"))
+    return names
 
 
 def vmlight_name(blender_name, has_ocio):

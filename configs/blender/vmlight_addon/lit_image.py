@@ -16,10 +16,14 @@ def config_path():
     return os.environ.get("OCIO") or os.path.join(shared, "colormanagement", "config.ocio")
 
 
-def colorspace(image):
-    """The name of the working space; pixels that are set are of it, and a packed file is read as of it."""
-    names = [item.identifier for item in image.colorspace_settings.bl_rna.properties["name"].enum_items]
-    return color_spaces.scene_linear_name(names, config_path()) or "Non-Color"
+def tag(image):
+    """Says that an image is of the working space: a packed file is then read as the pixels that were set."""
+    for name in color_spaces.scene_linear_names(config_path()):
+        try:
+            image.colorspace_settings.name = name
+            return
+        except TypeError:  # this Blender does not call it that
+            continue
 
 
 def show(ob, pixels):
@@ -37,7 +41,7 @@ def show(ob, pixels):
 
 def _new(ob, width, height):
     image = bpy.data.images.new(f"{ob.name} lit", width, height, alpha=False, float_buffer=True)
-    image.colorspace_settings.name = colorspace(image)
+    tag(image)
     image.alpha_mode = "NONE"
     old, ob.vmlight.image = ob.vmlight.image, image
     if old:

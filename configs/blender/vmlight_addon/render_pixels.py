@@ -87,7 +87,7 @@ def _by_process(vismap, environment, light, folder, find):
     _run(tools.light_command(find("makelightmap"), vismap, cfem, output, light))
     image = bpy.data.images.load(output)
     try:
-        image.colorspace_settings.name = lit_image.colorspace(image)
+        lit_image.tag(image)
         width, height = image.size
         values = numpy.empty(width * height * image.channels, numpy.float32)
         image.pixels.foreach_get(values)
