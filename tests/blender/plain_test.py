@@ -219,9 +219,13 @@ class Tools(InFolder):
                          "makelightmap v.exr c.exr -o o.exr --rotate 0,-90,0.333333333333 --exposure -1.5 --model lobe --quiet")
         self.assertEqual(" ".join(tools.filter_command("makecfem", "e.hdr", "c.exr", "lin_ap1_scene")),
                          "makecfem e.hdr --stack -o c.exr --quiet --colorspace lin_ap1_scene")
-        self.assertEqual(" ".join(tools.frames_command("vmframes", "s.glb", "e.hdr", "o.####.png", light, (1, 48))),
-                         "vmframes s.glb e.hdr -o o.####.png --frames 1-48 --turntable --rotate 0,-90,0.333333333333 "
-                         "--exposure -1.5 --colorspace lin_ap1_scene")
+        rest = " --turntable --rotate 0,-90,0.333333333333 --exposure -1.5"
+        self.assertEqual(" ".join(tools.frames_command("vmframes", ["s.glb"], "e.hdr", "o.####.png", light, (1, 48), "v.exr", {})),
+                         "vmframes s.glb e.hdr -o o.####.png --frames 1-48" + rest + " --vismap v.exr --colorspace lin_ap1_scene")
+        self.assertEqual(" ".join(tools.frames_command("vmframes", ["a.glb", "b.glb"], "e.hdr", "o.png", light, (1, 2), "",
+                                                       self.OPTIONS)),
+                         "vmframes a.glb e.hdr -o o.png --frames 1-2" + rest + " --object b.glb --resolution 512 --samples 64 "
+                         "--colorspace lin_ap1_scene")
 
     def test_recipes(self):
         text = recipe.text(self.path("maps", 'a"b.exr'), "/skies/sky.hdr", "", self.folder)

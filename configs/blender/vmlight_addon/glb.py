@@ -43,8 +43,10 @@ class _Buffer:
         return len(self.accessors) - 1
 
 
-def write(path, parts):
-    """Parts below one node that turns z up to y up."""
+def write(path, parts, colors=None):
+    """Parts below one node that turns z up to y up.
+
+    @param colors: of materials by name: linear R, G, B, A; others are white"""
     buffer, materials, numbers = _Buffer(), [], {}
     nodes = [{"name": "Blender", "matrix": list(Y_UP), "children": list(range(1, len(parts) + 1))}]
     meshes = []
@@ -60,7 +62,8 @@ def write(path, parts):
             if name:
                 if name not in numbers:
                     numbers[name] = len(materials)
-                    materials.append({"name": name})
+                    color = [float(x) for x in (colors or {}).get(name, (1, 1, 1, 1))]
+                    materials.append({"name": name, "pbrMetallicRoughness": {"baseColorFactor": color, "metallicFactor": 0}})
                 primitive["material"] = numbers[name]
             primitives.append(primitive)
         nodes.append({"name": part.name, "mesh": len(meshes), "matrix": [float(x) for x in part.matrix]})

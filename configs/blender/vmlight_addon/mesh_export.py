@@ -121,3 +121,17 @@ def scene_parts(depsgraph, baked, uv_maps, all_visible):
 def kept_uv_map(mesh):
     """The name of the UV map that renders use; "" if there is none."""
     return next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+
+
+def base_colors(objects):
+    """Of the objects' materials, by name. What nodes make of textures is left out: their color stays white."""
+    colors = {}
+    for material in (slot.material for ob in objects for slot in ob.material_slots if slot.material):
+        shader = None
+        if material.use_nodes:
+            shader = next((node for node in material.node_tree.nodes if node.bl_idname == "ShaderNodeBsdfPrincipled"), None)
+        else:
+            colors[material.name] = tuple(material.diffuse_color)
+        if shader and not shader.inputs["Base Color"].is_linked:
+            colors[material.name] = tuple(shader.inputs["Base Color"].default_value)
+    return {name: tuple(min(max(x, 0), 1) for x in color) for name, color in colors.items()}

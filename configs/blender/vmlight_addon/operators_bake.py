@@ -252,20 +252,27 @@ class VMLIGHT_OT_turntable(JobOperator, bpy.types.Operator):
         vmframes, scene = preferences.find("vmframes"), context.scene
         objects = selected_meshes(context)
         sky = light.environment(scene)
-        depsgraph = context.evaluated_depsgraph_get()
-        uv_maps = [ob.vmlight.uv_map or mesh_export.kept_uv_map(ob.data) for ob in objects]
-        parts, _ = mesh_export.scene_parts(depsgraph, objects, uv_maps, False)
-        folder = self.make_folder(light.session_folder())
-        mesh = os.path.join(folder, "scene.glb")
-        glb.write(mesh, parts)
         output = scene.vmlight.turntable
         if output.startswith("//") and not bpy.data.filepath:
             raise Refused(f'Output "{output}" starts at the .blend, which is not saved: save it, or choose a folder')
         self._output = bpy.path.abspath(output)
         os.makedirs(os.path.dirname(self._output), exist_ok=True)
-        slider = light.light_of_scene(scene, sky)
-        return [job.Step("turntable", tools.frames_command(vmframes, mesh, sky.path, self._output, slider,
-                                                           (scene.frame_start, scene.frame_end)))]
+        uv_maps = [ob.vmlight.uv_map or mesh_export.kept_uv_map(ob.data) for ob in objects]
+        if not all(uv_maps):
+            raise Refused(f'"{objects[uv_maps.index("")].name}" has no UV map: press Unwrap')
+        parts, _ = mesh_export.scene_parts(context.evaluated_depsgraph_get(), objects, uv_maps, False)
+        folder, colors = self.make_folder(light.session_folder()), mesh_export.base_colors(objects)
+        meshes = [os.path.join(folder, f"{number}.glb") for number in range(len(parts))]
+        for mesh, part in zip(meshes, parts):
+            glb.write(mesh, [part], colors)
+        # A map knows where its object was: one that was moved since is baked again.
+        ob = objects[0]
+        own = light.light_of(ob, scene, sky)
+        whole = light.light_of_scene(scene, sky)
+        vismap = bpy.path.abspath(ob.vmlight.vismap) if len(objects) == 1 and own == whole else ""
+        return [job.Step("turntable", tools.frames_command(
+            vmframes, meshes, sky.path, self._output, whole, (scene.frame_start, scene.frame_end), vismap,
+            options(scene.vmlight)))]
 
     def finish(self, context):
         return f'turntable written to "{self._output}"'

@@ -98,10 +98,18 @@ def light_command(makelightmap, vismap, cfem, output, light):
             f"{light['exposure']:.9g}", "--model", light["model"], "--quiet"]
 
 
-def frames_command(vmframes, mesh, environment, output, light, frames):
-    """@param frames: (first, last)"""
-    words = [vmframes, mesh, environment, "-o", output, "--frames", f"{frames[0]}-{frames[1]}", "--turntable", "--rotate",
+def frames_command(vmframes, meshes, environment, output, light, frames, vismap, options):
+    """@param meshes: a file an object
+    @param frames: (first, last)
+    @param vismap: of the only mesh; "" to bake"""
+    words = [vmframes, meshes[0], environment, "-o", output, "--frames", f"{frames[0]}-{frames[1]}", "--turntable", "--rotate",
              numbers(light["rotate"]), "--exposure", f"{light['exposure']:.9g}"]
+    for mesh in meshes[1:]:
+        words += ["--object", mesh]
+    if vismap:
+        words += ["--vismap", vismap]
+    else:
+        words += ["--resolution", str(options["resolution"]), "--samples", str(options["samples"])]
     return words + (["--colorspace", light["colorspace"]] if light["colorspace"] else [])
 
 
