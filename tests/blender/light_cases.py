@@ -267,7 +267,8 @@ class Animation(Lit):
         self.scene.render.filepath = self.path("turn.")
         bpy.ops.render.render(animation=True)
         for frame, turn in ("0001", "0,0,0"), ("0002", "0,90,0"):
-            self.assert_near(read(self.path(f"turn.{frame}.exr")), self.expected("--rotate", turn), 1e-3)
+            with self.subTest(frame=frame):
+                self.assert_near(read(self.path(f"turn.{frame}.exr")), self.expected("--rotate", turn), 1e-3)
 
     def test_an_object_that_turns_stays_under_the_same_sky(self):
         # By a quarter about the vertical: the sky turns the other way around it.

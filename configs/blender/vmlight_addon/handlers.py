@@ -9,10 +9,12 @@ from . import light, lit_image
 @persistent
 def changed(scene, depsgraph):
     """Anything was changed: relight if it can show. A relight changes images only, so it does not come back here."""
+    if light.is_rendering:
+        return
     for update in depsgraph.updates:
         if isinstance(update.id, (bpy.types.World, bpy.types.ShaderNodeTree)) or (
                 isinstance(update.id, bpy.types.Object) and update.is_updated_transform):
-            light.schedule()
+            light.schedule(depsgraph)
             return
 
 
@@ -20,6 +22,18 @@ def changed(scene, depsgraph):
 def frame_changed(scene, depsgraph):
     """At once: the frame may be rendered next."""
     light.refresh(scene, depsgraph)
+
+
+@persistent
+def render_started(*_):
+    """From here on only frame_changed() knows what a frame shows: the scene itself stays at another."""
+    light.is_rendering = True
+
+
+@persistent
+def render_ended(*_):
+    light.is_rendering = False
+    light.schedule()
 
 
 @persistent
@@ -34,7 +48,8 @@ def undone(scene, *_):
 
 
 HANDLERS = (("depsgraph_update_post", changed), ("frame_change_post", frame_changed), ("save_pre", saving),
-            ("undo_post", undone), ("redo_post", undone))
+            ("undo_post", undone), ("redo_post", undone), ("render_init", render_started), ("render_complete", render_ended),
+            ("render_cancel", render_ended))
 
 
 def register():

@@ -7,6 +7,8 @@ import bpy
 
 from . import lit_image, orientation, preferences, recipe, render_pixels, status, tools, world
 
+is_rendering = False  # then what is relit must be what the frame shows: see handlers.py
+
 
 def baked_objects(scene):
     return [ob for ob in scene.objects if ob.vmlight.vismap]
@@ -120,15 +122,15 @@ def command(ob, scene):
     return words + (["--colorspace", light["colorspace"]] if light["colorspace"] else [])
 
 
-def schedule():
+def schedule(depsgraph=None):
     """Relights soon, once for all changes until then. Without a window nothing would run later: at once."""
     if bpy.app.background:
-        refresh(bpy.context.scene)
+        refresh(bpy.context.scene, depsgraph)
     elif not bpy.app.timers.is_registered(_refresh_soon):
         bpy.app.timers.register(_refresh_soon, first_interval=0.01)
 
 
 def _refresh_soon():
     scene = bpy.context.scene
-    if scene:
+    if scene and not is_rendering:
         refresh(scene)
