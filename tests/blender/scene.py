@@ -119,19 +119,24 @@ def pixels(image):
     return values.reshape(image.size[1], image.size[0], -1)[::-1, :, :3]
 
 
-def read(path):
-    values = OpenImageIO.ImageBuf(path).get_pixels(OpenImageIO.FLOAT)
-    return values[..., :3]
+def read(path, names=("R", "G", "B")):
+    """Channels of a file. (ImageBuf may hold what the file was a moment before: its cache counts in seconds.)"""
+    image = OpenImageIO.ImageInput.open(path)
+    spec = image.spec()
+    values = image.read_image(OpenImageIO.FLOAT)
+    image.close()
+    return values[..., [spec.channelindex(name) for name in names]]
 
 
 def channel(path, name):
-    image = OpenImageIO.ImageBuf(path)
-    return image.get_pixels(OpenImageIO.FLOAT)[..., image.spec().channelindex(name)]
+    return read(path, [name])[..., 0]
 
 
 def render(path, resolution, samples=1, location=(0, 0, 5), rotation=(0, 0, 0), size=2):
     """What an orthographic camera sees, in the working space: rows from the top, R, G, B."""
     scene = bpy.context.scene
+    if scene.world:  # to prepare the full size takes longer than the picture
+        scene.world.cycles.sampling_method, scene.world.cycles.sample_map_resolution = "MANUAL", 128
     scene.render.engine = "CYCLES"
     scene.cycles.device, scene.cycles.samples, scene.cycles.seed = "CPU", samples, 1
     scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
