@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The add-on in Blender, without a window. Skipped, with a message, where Blender is not installed.
 
-Run as: addon_test.py CASES..., the names of files beside this one or of a class in one, with VMLIGHT_BIN (the executables' folder),
-VMLIGHT_SOURCE (the repository), VMLIGHT_ADDON (the zip) and, for a build with sanitizers, VMLIGHT_PRELOAD."""
+Run as: addon_test.py CASES..., the names of files beside this one or of a class in one, with VMLIGHT_BIN (the executables'
+folder), VMLIGHT_SOURCE (the repository), VMLIGHT_ADDON (the zip) and, for a build with sanitizers, VMLIGHT_PRELOAD."""
 import os
 import shutil
 import subprocess

@@ -12,7 +12,6 @@ bl_info = {
     "blender": (3, 4, 0),
     "location": "Properties > Render > Visibility map",
     "description": "Bake visibility maps and relight them under any environment, in place",
-    "doc_url": "",
     "category": "Render",
 }
 
