@@ -67,6 +67,25 @@ class Relight(Lit):
         bpy.context.view_layer.update()
         self.assert_near(pixels(floor.vmlight.image), self.expected("--exposure", "2", "--rotate", "0,-90,0"), 1e-5)
 
+    def test_the_images_colour_space_is_followed(self):
+        floor = self.floor()
+        from vmlight_addon import light, render_pixels, status
+        image = next(node.image for node in self.scene.world.node_tree.nodes if node.type == "TEX_ENVIRONMENT")
+        for space, ours in ("Non-Color", "lin_rec709_scene"), ("Linear ACEScg", "lin_ap1_scene"):
+            image.colorspace_settings.name = space
+            if ours == "lin_ap1_scene":  # saturated light is negative in Rec.709
+                self.assert_refused("values that are negative, the first at pixel (198, 51) channel \"R\"; turn on Repair "
+                                    "Environment to repair them", bpy.ops.vmlight.relight)
+                render_pixels.reader_fault = "a test says so"
+                light.refresh(self.scene)
+                self.assertIn("turn on Repair Environment", status.light_faults[0])
+                self.settings.repair = True
+            bpy.ops.vmlight.relight()
+            lit = self.expected("--rotate", "0,-90,0", "--colorspace", ours, "--cfem-sanitize")
+            self.assert_near(pixels(floor.vmlight.image), lit, 1e-5)
+        image.colorspace_settings.name = "Filmic Log"
+        self.assert_refused('colour space "Filmic Log" is unknown to vmlight', bpy.ops.vmlight.relight)
+
     def test_a_world_of_one_colour_is_ambient_occlusion(self):
         floor = self.floor()
         self.scene.world = bpy.data.worlds.new("grey")

@@ -122,8 +122,9 @@ class ColorSpaces(InFolder):
 
     def test_blenders_names_are_ours(self):
         for theirs, ours in (("Linear", "lin_rec709_scene"), ("Linear Rec.709", "lin_rec709_scene"),
-                             ("Linear ACEScg", "lin_ap1_scene"), ("sRGB", "srgb_rec709_scene"), ("Non-Color", "")):
+                             ("Linear ACEScg", "lin_ap1_scene"), ("sRGB", "srgb_rec709_scene"), ("Non-Color", "lin_rec709_scene")):
             self.assertEqual(color_spaces.vmlight_name(theirs, False), (ours, ""))
+        self.assertEqual(color_spaces.vmlight_name("Raw", True), ("scene_linear", ""))
         self.assertEqual(color_spaces.vmlight_name("studio gamut", True), ("studio gamut", ""))
         name, fault = color_spaces.vmlight_name("Filmic Log", False)
         self.assertEqual(name, "")
@@ -215,10 +216,10 @@ class Tools(InFolder):
         self.assertEqual(near[-2:], ["--max-distance", "2.5"])
         self.assertEqual(" ".join(tools.unwrap_command("makevismap", "s.glb", "o.exr", "uv.glb", self.OPTIONS)),
                          "makevismap s.glb --unwrap --write-mesh uv.glb -o o.exr --resolution 512 --margin 8 --samples 1")
-        light = {"rotate": (0, -90, 1 / 3), "exposure": -1.5, "model": "lobe", "colorspace": "lin_ap1_scene"}
+        light = {"rotate": (0, -90, 1 / 3), "exposure": -1.5, "model": "lobe", "colorspace": "lin_ap1_scene", "repair": False}
         self.assertEqual(" ".join(tools.light_command("makelightmap", "v.exr", "c.exr", "o.exr", light)),
                          "makelightmap v.exr c.exr -o o.exr --rotate 0,-90,0.333333333333 --exposure -1.5 --model lobe --quiet")
-        self.assertEqual(" ".join(tools.filter_command("makecfem", "e.hdr", "c.exr", "lin_ap1_scene")),
+        self.assertEqual(" ".join(tools.filter_command("makecfem", "e.hdr", "c.exr", light)),
                          "makecfem e.hdr --stack -o c.exr --quiet --colorspace lin_ap1_scene")
         rest = " --turntable --rotate 0,-90,0.333333333333 --exposure -1.5"
         one = tools.frames_command("vmframes", ["s.glb"], "e.hdr", "o.####.png", light, (1, 48), "v.exr", {})
@@ -230,9 +231,11 @@ class Tools(InFolder):
                          "--colorspace lin_ap1_scene")
 
     def test_recipes(self):
-        text = recipe.text(self.path("maps", 'a"b.exr'), "/skies/sky.hdr", "", self.folder)
+        plain = {"colorspace": "", "repair": False}
+        text = recipe.text(self.path("maps", 'a"b.exr'), "/skies/sky.hdr", plain, self.folder)
         self.assertEqual(text, 'vismap = "maps/a\\"b.exr"\nenvironment = "/skies/sky.hdr"\n')
-        self.assertIn('colorspace = "lin_ap1_scene"\n', recipe.text("/a", "/b", "lin_ap1_scene", self.folder))
+        self.assertIn('colorspace = "lin_ap1_scene"\ncfem_sanitize = true\n',
+                      recipe.text("/a", "/b", {"colorspace": "lin_ap1_scene", "repair": True}, self.folder))
         light = {"rotate": (0, 45, 0), "exposure": 1.0, "model": "auto"}
         self.assertEqual(recipe.query("x.lightmap", light), "x.lightmap?rotate=0,45,0&exposure=1&model=auto")
 

@@ -19,7 +19,7 @@ OURS = {
     "Linear Rec.2020": "lin_rec2020_scene",
 }
 # Pixels that are taken as they are: of the working space.
-PLAIN = ("Non-Color", "Raw", "Generic Data", "")
+PLAIN = ("Non-Color", "Raw", "Generic Data")
 SCENE_LINEAR = ("Linear", "Linear Rec.709", "scene_linear", "Non-Color")
 
 
@@ -38,13 +38,13 @@ def scene_linear_names(config_path=""):
 
 
 def vmlight_name(blender_name, has_ocio):
-    """The value of --colorspace for a file that Blender takes as `blender_name`; "" to leave it out.
+    """The value of --colorspace for a file that Blender takes as `blender_name`.
 
     @param has_ocio: whether $OCIO is set: then the names are that config's, and vmlight knows them too
     @returns (name, fault): one of both is ""
     """
     if blender_name in PLAIN:
-        return "", ""
+        return "scene_linear" if has_ocio else "lin_rec709_scene", ""
     if has_ocio:
         return blender_name, ""
     if blender_name in OURS:

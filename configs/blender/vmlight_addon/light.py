@@ -40,12 +40,12 @@ def environment(scene, depsgraph=None):
 
 
 def light_of_scene(scene, sky, turn=orientation.IDENTITY):
-    """What lights the scene: rotate (degrees), exposure (stops), model, colorspace.
+    """What lights the scene: rotate (degrees), exposure (stops), model, colorspace, repair.
 
     @param turn: of an object since it was baked"""
     settings = scene.vmlight
     return {"rotate": orientation.rotate_for_vmlight(sky.mapping, turn), "exposure": settings.exposure + sky.stops,
-            "model": settings.model, "colorspace": sky.colorspace}
+            "model": settings.model, "colorspace": sky.colorspace, "repair": settings.repair}
 
 
 def light_of(ob, scene, sky, depsgraph=None):
@@ -95,7 +95,7 @@ def _lit(vismap, sky, light):
         raise render_pixels.Failed(f'"{vismap}": no such file: bake again')
     folder = session_folder()
     os.makedirs(folder, exist_ok=True)
-    text = recipe.text(vismap, sky, light["colorspace"], folder)
+    text = recipe.text(vismap, sky, light, folder)
     path = os.path.join(folder, hashlib.sha256(text.encode()).hexdigest()[:16] + ".lightmap")
     if not os.path.isfile(path):
         with open(path, "w", encoding="utf-8") as file:
@@ -110,7 +110,7 @@ def _key(vismap, sky, light):
         except OSError:
             return path
     return "|".join((stamp(vismap), stamp(sky), tools.numbers(light["rotate"]), f"{light['exposure']:.9g}", light["model"],
-                     light["colorspace"]))
+                     light["colorspace"], str(int(light["repair"]))))
 
 
 def command(ob, scene):
@@ -119,7 +119,7 @@ def command(ob, scene):
     light = light_of(ob, scene, sky)
     words = ["makelightmap", bpy.path.abspath(ob.vmlight.vismap), sky.path, "-o", tools.file_name(ob.name) + "_lit.exr",
              "--rotate", tools.numbers(light["rotate"]), "--exposure", f"{light['exposure']:.9g}", "--model", light["model"]]
-    return words + (["--colorspace", light["colorspace"]] if light["colorspace"] else [])
+    return words + tools.environment_flags(light)
 
 
 def schedule(depsgraph=None):

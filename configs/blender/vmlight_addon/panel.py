@@ -54,6 +54,7 @@ class VMLIGHT_PT_light(InRenderTab, bpy.types.Panel):
         row.prop(settings, "exposure", slider=True)
         row.operator("vmlight.match_exposure", text="", icon="LIGHT_SUN")
         layout.prop(settings, "model")
+        layout.prop(settings, "repair")
         layout.prop(settings, "use_base_color")
         row = layout.row(align=True)
         row.operator("vmlight.relight", icon="FILE_REFRESH")

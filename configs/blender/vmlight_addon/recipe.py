@@ -6,11 +6,15 @@ import os
 from . import tools
 
 
-def text(vismap, environment, colorspace, folder):
-    """A .lightmap in `folder`. Paths below it are relative, so that a project can move."""
+def text(vismap, environment, light, folder):
+    """A .lightmap in `folder`. Paths below it are relative, so that a project can move.
+
+    @param light: colorspace, "" to leave it out; repair"""
     lines = [f"vismap = {_string(_from(folder, vismap))}", f"environment = {_string(_from(folder, environment))}"]
-    if colorspace:
-        lines.append(f"colorspace = {_string(colorspace)}")
+    if light["colorspace"]:
+        lines.append(f"colorspace = {_string(light['colorspace'])}")
+    if light["repair"]:
+        lines.append("cfem_sanitize = true")
     return "\n".join(lines) + "\n"
 
 

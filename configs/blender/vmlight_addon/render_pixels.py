@@ -44,7 +44,7 @@ def forget():
 def pixels(vismap, environment, recipe_path, light, folder, find):
     """Rows from the top, three floats a pixel.
 
-    @param light: rotate, exposure, model, colorspace
+    @param light: rotate, exposure, model, colorspace, repair
     @param folder: for temporary files
     @param find: name of an executable to path
     @raises Failed, tools.Missing
@@ -58,7 +58,7 @@ def pixels(vismap, environment, recipe_path, light, folder, find):
             try:
                 result = image.read_image("float")
                 if result is None:
-                    raise Failed(image.geterror())
+                    raise Failed(_short(image.geterror(), recipe_path))
                 status.light_note = "by the reader"
                 return numpy.asarray(result, numpy.float32).reshape(image.spec().height, image.spec().width, -1)[..., :3]
             finally:
@@ -72,16 +72,18 @@ def pixels(vismap, environment, recipe_path, light, folder, find):
 
 
 def _short(fault, recipe_path):
-    """Without the temporary recipe's name, which means nothing to a user."""
+    """Without the temporary recipe's name, which means nothing to a user, and with the panel's words."""
+    for key in "set cfem_sanitize", "set --sanitize":
+        fault = fault.replace(key, "turn on Repair Environment")
     head = f'"{recipe_path}'
-    return fault.split('": ', 1)[1] if fault.startswith(head) and '": ' in fault else fault
+    return fault.split('": ', 1)[1] if recipe_path and fault.startswith(head) and '": ' in fault else fault
 
 
 def _by_process(vismap, environment, light, folder, find):
-    stamp = (environment, os.stat(environment).st_mtime_ns, light["colorspace"])
+    stamp = (environment, os.stat(environment).st_mtime_ns, light["colorspace"], light["repair"])
     cfem = os.path.join(folder, "environment_cfem.exr")
     if _filtered.get(cfem) != stamp or not os.path.isfile(cfem):
-        _run(tools.filter_command(find("makecfem"), environment, cfem, light["colorspace"]))
+        _run(tools.filter_command(find("makecfem"), environment, cfem, light))
         _filtered[cfem] = stamp
     output = os.path.join(folder, "lit.exr")
     _run(tools.light_command(find("makelightmap"), vismap, cfem, output, light))
@@ -100,4 +102,4 @@ def _by_process(vismap, environment, light, folder, find):
 def _run(words):
     done = job.run([job.Step("", words)])
     if done.error:
-        raise Failed(done.error)
+        raise Failed(_short(done.error, ""))

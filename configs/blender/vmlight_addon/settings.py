@@ -64,6 +64,8 @@ class VmlightScene(bpy.types.PropertyGroup):
                ("ao", "Ambient Occlusion", "Visibility times the light around the normal"),
                ("paper", "Paper", "Visibility times the light around the mean visible direction"),
                ("lobe", "Lobe", "Like Paper, with a lobe as wide as the visible part of the sky")))
+    repair: BoolProperty(name="Repair Environment", default=False, update=_relight,
+                         description="Repair NaN, infinite and negative pixels of the environment")
     use_base_color: BoolProperty(name="Base Color", default=True,
                                  description="Multiply the light by each material's base color")
     turntable: StringProperty(name="Output", default="//turntable.####.png", subtype="FILE_PATH",

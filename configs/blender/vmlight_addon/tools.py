@@ -86,10 +86,11 @@ def unwrap_command(makevismap, mesh, output, mesh_output, options):
             str(options["resolution"]), "--margin", str(options["margin"]), "--samples", "1"]
 
 
-def filter_command(makecfem, environment, output, colorspace):
-    """All that any model reads, once for all rotations."""
+def filter_command(makecfem, environment, output, light):
+    """All that any model reads, once for all rotations. @param light: colorspace, repair"""
     words = [makecfem, environment, "--stack", "-o", output, "--quiet"]
-    return words + (["--colorspace", colorspace] if colorspace else [])
+    return words + (["--colorspace", light["colorspace"]] if light["colorspace"] else []) + (
+        ["--sanitize"] if light["repair"] else [])
 
 
 def light_command(makelightmap, vismap, cfem, output, light):
@@ -110,7 +111,13 @@ def frames_command(vmframes, meshes, environment, output, light, frames, vismap,
         words += ["--vismap", vismap]
     else:
         words += ["--resolution", str(options["resolution"]), "--samples", str(options["samples"])]
-    return words + (["--colorspace", light["colorspace"]] if light["colorspace"] else [])
+    return words + environment_flags(light)
+
+
+def environment_flags(light):
+    """Of tools that filter an environment themselves. @param light: colorspace, repair"""
+    return (["--colorspace", light["colorspace"]] if light["colorspace"] else []) + (
+        ["--cfem-sanitize"] if light["repair"] else [])
 
 
 def numbers(values):
