@@ -226,6 +226,8 @@ std::string request_fault(const Request& request)
     const bool has_light = !request.environment.empty();
     if (!has_light && request.object.texture.empty())
         return "ENVIRONMENT is missing, and there is no --texture";
+    if (request.object.texture.find('#') != std::string::npos && !request.has_frames)
+        return format("--texture: \"{}\" is a sequence: --frames is missing, such as 1-48", request.object.texture);
     if (!request.object.vismap.empty() && !request.object.texture.empty())
         return "give only one of --vismap and --texture";
     if (!has_light && (request.stage.background == "environment" || request.is_auto_exposed))

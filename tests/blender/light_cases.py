@@ -314,5 +314,5 @@ class Turntable(Lit):
         with open(self.path("words")) as file:
             words = file.read().split()
         self.assertEqual(words[1:], [STUDIO, "-o", self.path("turntable.####.png"), "--frames", "3-7", "--turntable",
-                                     "--rotate", "0,0,0", "--exposure", "1", "--vismap",
+                                     "--env-rotate", "0,0,0", "--exposure", "1", "--vismap",
                                      self.path("vmlight", "shot_floor_vismap.exr"), "--colorspace", "lin_rec709_scene"])

@@ -221,7 +221,12 @@ class Tools(InFolder):
                          "makelightmap v.exr c.exr -o o.exr --rotate 0,-90,0.333333333333 --exposure -1.5 --model lobe --quiet")
         self.assertEqual(" ".join(tools.filter_command("makecfem", "e.hdr", "c.exr", light)),
                          "makecfem e.hdr --stack -o c.exr --quiet --colorspace lin_ap1_scene")
-        rest = " --turntable --rotate 0,-90,0.333333333333 --exposure -1.5"
+        sky = orientation.inverse_angles(light["rotate"])
+        both = orientation.multiply(orientation.from_angles(*sky), orientation.from_angles(*light["rotate"]))
+        for row, unit in zip(both, orientation.IDENTITY):
+            for a, b in zip(row, unit):
+                self.assertAlmostEqual(a, b, 12)
+        rest = " --turntable --env-rotate " + tools.numbers(sky) + " --exposure -1.5"
         one = tools.frames_command("vmframes", ["s.glb"], "e.hdr", "o.####.png", light, (1, 48), "v.exr", {})
         self.assertEqual(" ".join(one),
                          "vmframes s.glb e.hdr -o o.####.png --frames 1-48" + rest + " --vismap v.exr --colorspace lin_ap1_scene")

@@ -100,6 +100,11 @@ def rotate_for_vmlight(world_mapping=IDENTITY, turn_since_bake=IDENTITY):
     return tuple(_tidy(angle) for angle in to_angles(multiply(MAP_TO_OURS, multiply(world_mapping, to_world))))
 
 
+def inverse_angles(angles):
+    """The angles of the inverse of a rotation: --env-rotate, for what --rotate does to the light."""
+    return tuple(_tidy(angle) for angle in to_angles(transposed(from_angles(*angles))))
+
+
 def _tidy(degrees):
     """Without what rounding leaves behind; below 1e-9 degrees nothing shows in a float."""
     rounded = round(degrees, 9)

@@ -5,6 +5,8 @@ import os
 import re
 import shutil
 
+from . import orientation
+
 EXECUTABLES = ("makevismap", "makecfem", "makelightmap", "vmframes")
 SUFFIX = ".exe" if os.name == "nt" else ""
 READER = "lightmap.imageio"
@@ -103,8 +105,10 @@ def frames_command(vmframes, meshes, environment, output, light, frames, vismap,
     """@param meshes: a file an object
     @param frames: (first, last)
     @param vismap: of the only mesh; "" to bake"""
-    words = [vmframes, meshes[0], environment, "-o", output, "--frames", f"{frames[0]}-{frames[1]}", "--turntable", "--rotate",
-             numbers(light["rotate"]), "--exposure", f"{light['exposure']:.9g}"]
+    # The sky is turned, not the objects before the camera.
+    sky = orientation.inverse_angles(light["rotate"])
+    words = [vmframes, meshes[0], environment, "-o", output, "--frames", f"{frames[0]}-{frames[1]}", "--turntable",
+             "--env-rotate", numbers(sky), "--exposure", f"{light['exposure']:.9g}"]
     for mesh in meshes[1:]:
         words += ["--object", mesh]
     if vismap:
