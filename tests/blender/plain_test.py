@@ -225,7 +225,7 @@ class Tools(InFolder):
         both = orientation.multiply(orientation.from_angles(*sky), orientation.from_angles(*light["rotate"]))
         for row, unit in zip(both, orientation.IDENTITY):
             for a, b in zip(row, unit):
-                self.assertAlmostEqual(a, b, 12)
+                self.assertAlmostEqual(a, b, 9)
         rest = " --turntable --env-rotate " + tools.numbers(sky) + " --exposure -1.5"
         one = tools.frames_command("vmframes", ["s.glb"], "e.hdr", "o.####.png", light, (1, 48), "v.exr", {})
         self.assertEqual(" ".join(one),
