@@ -258,6 +258,7 @@ TEST(PixelSamples, HaveTheShapeOfTheirFilter)
         for (const PixelSample& sample : samples)
             sum += sample.y * sample.y;
         EXPECT_NEAR(sum / 1024, variance, 0.002) << filter;
+        EXPECT_NEAR(filter_variance(filter), variance, 1e-4) << filter;
     }
     EXPECT_EQ(pixel_filter_choices().choices.size(), variances.size());
 }

@@ -12,6 +12,9 @@ namespace vmlight {
 /// The filters that pixel_samples() knows.
 Choices pixel_filter_choices();
 
+/// The variance of a filter along an axis, in square pixels.
+double filter_variance(const std::string& filter);
+
 /// An offset from the pixel's centre, in pixels.
 struct PixelSample
 {
