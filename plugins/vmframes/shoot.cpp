@@ -159,7 +159,7 @@ private:
         if (!is_exr_name(path) && !holds_all_frames(path) && !write_picture(picture, path, error))
             return false;
         if (is_kept)
-            m_pictures.push_back(std::move(picture));
+            m_pictures.push_back(picture.copy(OIIO::TypeUInt8)); // films are long
         return true;
     }
 
