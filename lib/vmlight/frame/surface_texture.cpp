@@ -79,6 +79,7 @@ bool FileTexture::open_tile(int udim, const std::string& file, std::string& erro
 bool FileTexture::open(const std::string& name, std::string& error)
 {
     m_tiles.clear();
+    error.clear();
     if (has_udim_pattern(name)) {
         for (const int udim : existing_udims(name))
             if (!open_tile(udim, udim_path(name, udim), error))
