@@ -78,6 +78,11 @@ Choices pixel_filter_choices()
     return choices;
 }
 
+double filter_radius(const std::string& filter)
+{
+    return filter_named(filter).radius;
+}
+
 double filter_variance(const std::string& filter)
 {
     constexpr int kSteps = 4096;

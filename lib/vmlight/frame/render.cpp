@@ -3,6 +3,7 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/frame/corner_grid.h>
+#include <vmlight/frame/pixel_cover.h>
 #include <vmlight/frame/sample_shader.h>
 #include <vmlight/math/ray_fan.h>
 
@@ -31,8 +32,10 @@ std::vector<const FrameLayer*> layers_of(const RenderParams& params)
 class Renderer
 {
 public:
-    Renderer(OIIO::ImageBuf& dst, const FrameScene& scene, const Camera& camera, const RenderParams& params)
+    Renderer(OIIO::ImageBuf& dst, const FrameScene& scene, const Camera& camera, const RenderParams& params,
+             int nthreads)
         : m_dst(dst)
+        , m_background(scene.background)
         , m_camera(camera)
         , m_size(params.size)
         , m_layers(layers_of(params))
@@ -40,9 +43,11 @@ public:
         , m_footprint(1 / std::sqrt(double(params.spp)))
         , m_samples_edges(params.sampling == "edges" && params.spp >= kLeastForEdges)
         , m_weights(CornerGrid::weights(filter_variance(params.filter)))
-        , m_shader(scene, camera, std::any_of(m_layers.begin(), m_layers.end(), [](const FrameLayer* layer) {
-                       return layer->needs_visibility;
-                   }))
+        , m_shader(scene, camera,
+                   std::any_of(m_layers.begin(), m_layers.end(),
+                               [](const FrameLayer* layer) { return layer->needs_visibility; }))
+        // At least as far as the corners that are mixed.
+        , m_cover(scene, camera, params.size, std::max(filter_radius(params.filter) - 0.5, 1.0), nthreads)
     {
         // The sample nearest to the centre speaks for the layers that are not filtered.
         const auto distance = [](const PixelSample& s) { return s.x * s.x + s.y * s.y; };
@@ -59,18 +64,41 @@ public:
     {
         const int left = int(tile % tiles_across()) * kTile, top = int(tile / tiles_across()) * kTile;
         const int width = std::min(kTile, m_size.width - left), height = std::min(kTile, m_size.height - top);
+        if (!m_background.is_visible && m_cover.is_empty(left, top, width, height)) {
+            for (int y = top; y < top + height; ++y)
+                for (int x = left; x < left + width; ++x)
+                    store_nothing(x, y);
+            return true;
+        }
         CornerGrid grid;
         if (m_samples_edges && !grid.fill(m_shader, m_camera, m_size, left, top, width, height, error))
             return false;
         for (int y = top; y < top + height; ++y)
             for (int x = left; x < left + width; ++x)
-                if (!(m_samples_edges && grid.is_smooth(x, y) ? mix_corners(x, y, grid, error)
-                                                              : sample_pixel(x, y, error)))
+                if (!render_pixel(x, y, grid, error))
                     return false;
         return true;
     }
 
 private:
+    bool render_pixel(int x, int y, const CornerGrid& grid, std::string& error) const
+    {
+        const bool is_empty = m_cover.is_empty(x, y);
+        if (is_empty && !m_background.is_visible)
+            store_nothing(x, y);
+        else if (m_samples_edges && (is_empty || grid.is_smooth(x, y)))
+            return mix_corners(x, y, grid, error);
+        else
+            return sample_pixel(x, y, error);
+        return true;
+    }
+
+    void store_nothing(int x, int y) const
+    {
+        store(x, y, {});
+        store_unfiltered(x, y, {});
+    }
+
     using Sums = std::array<double, kMostChannels>;
 
     CameraRay ray_through(int x, int y, const PixelSample& sample) const
@@ -170,6 +198,7 @@ private:
     }
 
     OIIO::ImageBuf& m_dst;
+    const Background& m_background;
     const Camera& m_camera;
     const Size m_size;
     const std::vector<const FrameLayer*> m_layers;
@@ -178,6 +207,7 @@ private:
     const bool m_samples_edges;
     const std::array<double, CornerGrid::kAround> m_weights;
     const SampleShader m_shader;
+    const PixelCover m_cover;
     size_t m_middle = 0;
     bool m_has_unfiltered = false;
 };
@@ -195,7 +225,7 @@ bool render_frame(OIIO::ImageBuf& dst, const FrameScene& scene, const Camera& ca
     spec.alpha_channel = 3;
     dst.reset(spec);
 
-    const Renderer renderer(dst, scene, camera, params);
+    const Renderer renderer(dst, scene, camera, params, nthreads);
     std::mutex mutex;
     std::string reason;
     const auto work = [&](int64_t tile, int) {
