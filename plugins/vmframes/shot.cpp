@@ -231,13 +231,13 @@ bool Shot::render_at(OIIO::ImageBuf& dst, size_t index, const RenderParams& para
                         options.step("render", params.size.width, params.size.height), error);
 }
 
-bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const MakeOptions& options,
-                  std::string& error)
+bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const RenderParams& params,
+                  const MakeOptions& options, std::string& error)
 {
     if (!light_all(index, model, options, error))
         return false;
     const Stopwatch timer;
-    if (!render_at(dst, index, m_request.render, options, error))
+    if (!render_at(dst, index, params, options, error))
         return false;
     m_render_seconds += timer();
     if (m_light.space.empty())
