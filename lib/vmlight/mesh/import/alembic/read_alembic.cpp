@@ -272,7 +272,8 @@ bool read_alembic(MeshBuilder& dst, const ImportRequest& request, std::string& e
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) { // the library throws at whatever it cannot read
-        error = format("cannot read as Alembic: {}", shortened_line(OIIO::Strutil::strip(exception.what())));
+        error = format("damaged or cut short, says the Alembic library: {}",
+                       shortened_line(OIIO::Strutil::strip(exception.what())));
     }
     return false;
 }
