@@ -367,8 +367,9 @@ TEST(RenderFrame, CornersAreEnoughInsideASurface)
             for (int x = 0; x < 128; ++x) {
                 const auto a = pixel(edges, x, y), b = pixel(all, x, y);
                 EXPECT_EQ(a[3], b[3]); // what is covered in part is sampled
-                if (b[3] < 1)
+                if (b[3] < 1) {
                     EXPECT_EQ(a, b);
+                }
                 covered += b[3] == 1;
                 same += b[3] == 1 && a == b;
                 squares += double(a[0] - b[0]) * double(a[0] - b[0]);
