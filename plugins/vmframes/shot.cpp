@@ -145,6 +145,7 @@ bool Shot::open(const MakeOptions& options, std::string& error)
 {
     LightmapParams own = m_request.light;
     own.env_rotate.clear();
+    own.model = "auto"; // the rotation is that of every model
     if (!lightmap_rotation(m_pose, own, error))
         return false;
     if (!open_light(options, error) || !open_objects(options, error) || !open_ground(options, error)

@@ -73,7 +73,7 @@ class Documents(unittest.TestCase):
             "makevismap --channels normal,c": "normal,coverage",
             "makevismap quad.obj --samples ": "",
             "makecfem " + SHARE + "/man/man1/makec": path("man", "makecfem"),
-            "vmcost mesh.obj --occluder " + SHARE + "/man/man1/vm": path("man", "vmcost"),
+            "vmcost mesh.obj --occluder " + SHARE + "/man/man1/vmc": path("man", "vmcost"),
         }
         script = "".join(f"source '{path('bash', tool)}'\n" for tool in TOOLS)
         for line in cases:
