@@ -23,6 +23,18 @@ struct MeshNode
     int parent = -1; ///< index of a node before this one; -1 at the top
 };
 
+/// A camera of a mesh file, at its place in the node hierarchy, with axes of unit length in object space.
+struct MeshCamera
+{
+    std::string name;
+    Imath::V3d position { 0 }, right { 1, 0, 0 }, up { 0, 1, 0 }, forward { 0, 0, -1 };
+    bool is_orthographic = false;
+    /// Half the height of what it shows: at distance 1 in perspective, else in object units.
+    double half_height = 0.5;
+    /// Width over height; 0 if the file leaves it to the picture.
+    double aspect = 0;
+};
+
 /// Triangles in object space (the file's own, right-handed, y up), counter-clockwise seen from outside. Every vertex
 /// has a position and a unit normal. Vertices without texture coordinates have NaN in `uvs`; if none has any, `uvs` is
 /// empty.
@@ -48,6 +60,8 @@ struct Mesh
     std::vector<Material> materials;
     /// Parents come before their children.
     std::vector<MeshNode> nodes;
+    /// Of formats whose reader knows them: glTF.
+    std::vector<MeshCamera> cameras;
     /// Where the normals are from, in words: "from the file", "flat", "flat for 12 of 40 triangles, else from the
     /// file".
     std::string normals_from;

@@ -36,6 +36,15 @@ public:
 private:
     RTCOccludedArguments m_arguments;
 };
+
+/// The nearest hits of rays that run side by side.
+inline void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)
+{
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &rays, &arguments);
+}
 #else
 constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
@@ -53,6 +62,14 @@ public:
 private:
     RTCIntersectContext m_context;
 };
+
+inline void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &context, &rays);
+}
 #endif
 
 /// Flushes denormals to zero during its lifetime, as Embree recommends, then restores the thread's own setting, so that

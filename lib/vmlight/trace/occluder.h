@@ -13,6 +13,10 @@
 
 namespace vmlight {
 
+namespace embree {
+class Scene;
+}
+
 /// From object space to the space of the ray-tracing scene, where positions are float: recentred and scaled so that the
 /// baked mesh fits [-1, 1]. The scale is a power of two, so that scaling is exact and results do not depend on units.
 struct SceneFrame
@@ -48,8 +52,7 @@ public:
     uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length) const;
 
 private:
-    struct EmbreeScene;
-    std::unique_ptr<EmbreeScene> m_scene;
+    std::unique_ptr<embree::Scene> m_scene;
 };
 
 } // namespace vmlight

@@ -42,6 +42,7 @@ public:
     /// @param parent   of a node added before, or -1
     /// @returns the index that begin_part() takes
     uint32_t add_node(const std::string& name, int parent);
+    void add_camera(MeshCamera camera) { m_mesh.cameras.push_back(std::move(camera)); }
     /// Something that the user should know, as a sentence without the file's path. Said once each.
     void warn(const std::string& sentence);
 

@@ -4,6 +4,7 @@
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/gltf.h>
+#include <vmlight/mesh/import/gltf/camera.h>
 #include <vmlight/mesh/import/gltf/document.h>
 #include <vmlight/mesh/import/gltf/hierarchy.h>
 #include <vmlight/mesh/import/gltf/instances.h>
@@ -57,6 +58,8 @@ private:
             return;
         const tinygltf::Node& node = m_model.nodes[size_t(index)];
         const uint32_t number = m_document.builder().add_node(node.name, parent);
+        if (node.camera >= 0)
+            add_camera(node, m_transforms[size_t(index)] * to_object);
         if (node.mesh >= 0) {
             if (size_t(node.mesh) >= m_model.meshes.size())
                 throw Error(
@@ -72,6 +75,16 @@ private:
         }
         for (const int child : node.children)
             append_node(child, int(number), to_object);
+    }
+
+    // What is wrong with a camera does not keep the mesh from being read.
+    void add_camera(const tinygltf::Node& node, const M44d& to_object)
+    {
+        try {
+            m_document.builder().add_camera(read_camera(m_model, node, to_object));
+        } catch (const gltf::Error& reason) {
+            m_document.builder().warn(shortened_line(reason.what()) + "; it is left out");
+        }
     }
 
     void append_mesh(int mesh, const std::vector<double>& weights, int skin, uint32_t node,
