@@ -18,6 +18,18 @@ LitTexture::LitTexture(int width, int height)
         m_levels.emplace_back(m_texture, i);
 }
 
+LitTexture::LitTexture(const TexturePyramid& pyramid, GLint wrap_s)
+    : LitTexture(pyramid.levels()[0].width, pyramid.levels()[0].height)
+{
+    m_texture.bind(0);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap_s);
+    for (size_t i = 0; i < pyramid.levels().size(); ++i) {
+        const TexturePyramid::Level& level = pyramid.levels()[i];
+        glTexSubImage2D(GL_TEXTURE_2D, GLint(i), 0, 0, level.width, level.height, GL_RGBA, GL_FLOAT,
+                        level.texels.data());
+    }
+}
+
 void LitTexture::fill(const float* rgb, const std::vector<float>& weights)
 {
     std::vector<float> texels(4 * weights.size());

@@ -6,6 +6,8 @@
 #include "../gl/objects.h"
 #include "../gl/program.h"
 
+#include <vmlight/frame/texture_pyramid.h>
+
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ class LitTexture
 public:
     LitTexture() = default;
     LitTexture(int width, int height);
+    /// All levels of a pyramid of three channels.
+    explicit LitTexture(const TexturePyramid& pyramid, GLint wrap_s = GL_CLAMP_TO_EDGE);
 
     const Texture& texture() const { return m_texture; }
     /// For drawing into a level; the first row is the top of the image.

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "draw_pass.h"
+
+#include "shader_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight::view {
+namespace {
+
+void set_vector(const Program& program, const char* name, const Imath::V3d& v)
+{
+    program.set(name, float(v.x), float(v.y), float(v.z));
+}
+
+void set_view(const Program& program, const View& view, const Imath::V3d& centre)
+{
+    set_vector(program, "eye", view.camera.position - centre);
+    set_vector(program, "right", view.camera.right);
+    set_vector(program, "up", view.camera.up);
+    set_vector(program, "forward", view.camera.forward);
+    program.set("half_size", float(view.camera.half_width), float(view.camera.half_height));
+    program.set("is_orthographic", int(view.camera.is_orthographic));
+    program.set("size", float(view.width), float(view.height));
+    program.set("offset", float(view.offset.x), float(view.offset.y));
+    program.set("footprint", float(view.footprint));
+}
+
+void set_texture(const Program& program, const char* name, const LitTexture& texture)
+{
+    program.set(name, 0, texture.texture());
+    program.set("texels", float(texture.texture().width()), float(texture.texture().height()));
+    program.set("last_level", texture.levels() - 1);
+}
+
+} // namespace
+
+bool DrawPass::build(std::string& error)
+{
+    return m_mesh.build({ shader_text::camera_glsl, shader_text::mesh_vert },
+                        { shader_text::camera_glsl, shader_text::mesh_frag }, error,
+                        { std::begin(kMeshAttributes), std::end(kMeshAttributes) })
+        && m_backdrop.build_whole({ shader_text::camera_glsl, shader_text::backdrop_frag }, error)
+        && m_accumulate.build_whole({ shader_text::accumulate_frag }, error);
+}
+
+void DrawPass::begin(const Backdrop& backdrop, const View& view) const
+{
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDepthMask(GL_TRUE);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (!backdrop.environment)
+        return;
+    glDisable(GL_DEPTH_TEST);
+    m_backdrop.use();
+    set_view(m_backdrop, view, view.camera.position);
+    float numbers[9];
+    for (int i = 0; i < 9; ++i)
+        numbers[i] = float(backdrop.to_environment[i / 3][i % 3]);
+    m_backdrop.set_floats("rotation", numbers, 9);
+    set_texture(m_backdrop, "environment", *backdrop.environment);
+    draw_whole_viewport();
+}
+
+void DrawPass::draw(const MeshBuffers& mesh, const Subject& subject, const LitTexture& lit, Show show,
+                    const View& view, int first, int end) const
+{
+    m_mesh.use();
+    set_view(m_mesh, view, mesh.centre());
+    const Camera& camera = view.camera;
+    const double distance = (subject.centre() - camera.position).dot(camera.forward), radius = subject.radius();
+    const double nearest = std::max(distance - 1.001 * radius, 1e-4 * radius);
+    m_mesh.set("depth_range", float(nearest), float(std::max(distance + 1.001 * radius, 2 * nearest)));
+    set_texture(m_mesh, "lit", lit);
+    m_mesh.set("show", int(show));
+    const double texels = std::sqrt(double(lit.texture().width()) * lit.texture().height());
+    m_mesh.set("density_scale", float(std::max(mesh.texture_share() * texels, 1e-30)));
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(first, 0, std::max(0, end - first), view.height);
+    mesh.draw();
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void DrawPass::accumulate(const Texture& picture, double share) const
+{
+    m_accumulate.use();
+    m_accumulate.set("picture", 0, picture);
+    m_accumulate.set("share", float(share));
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    draw_whole_viewport();
+    glDisable(GL_BLEND);
+}
+
+} // namespace vmlight::view
