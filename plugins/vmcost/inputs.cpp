@@ -9,11 +9,9 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/image/color.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/stage/environment_file.h>
-#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/scene_cache.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -52,21 +50,9 @@ std::string environment_hash(const OIIO::ImageBuf& image)
 bool read_environment(Environment& dst, CfemRecipe light, const MakeOptions& options, std::string& error)
 {
     light.environment = dst.path;
-    const PixelSourcePointer file
-        = open_input(light, "environment", dst.path, InputKind::Environment, error, {}, light.layer);
-    std::vector<OIIO::ImageBuf> images;
-    if (!file || !check_environment(file->spec(), light, error) || !file->make(images, {}, options, error))
-        return false;
-    dst.image = std::move(images[0]);
-    const OIIO::TypeDesc stored = file->spec().format;
-    report_doubts(dst.path, dst.image.spec(), stored, options);
-    const ColorSettings color { light.colorconfig, light.colorspace, stored };
     std::string note;
-    std::vector<std::string> warnings;
-    if (!to_scene_linear(dst.image, dst.path, color, note, error, options.threads, &warnings))
+    if (!vmlight::read_environment(dst.image, light, options, note, error))
         return false;
-    for (const std::string& warning : warnings)
-        options.report_warning(warning);
     dst.hash = environment_hash(dst.image);
     options.say(format("{}: {}x{}, {}", dst.name, dst.image.spec().width, dst.image.spec().height, note));
     return true;

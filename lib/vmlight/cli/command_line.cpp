@@ -153,12 +153,14 @@ bool CommandLine::parse_flag(const char**& argument, const char** end, std::stri
 
 bool CommandLine::check_operands(std::string& error) const
 {
-    const size_t wanted = given_recipe() ? 1 : operand_names.size();
     const bool takes_more = OIIO::Strutil::ends_with(operand_names.back(), "...");
-    if (operands.size() < wanted)
+    const bool may_lack_last = OIIO::Strutil::starts_with(operand_names.back(), "[");
+    const size_t most = given_recipe() ? 1 : operand_names.size();
+    const size_t least = may_lack_last && !given_recipe() ? most - 1 : most;
+    if (operands.size() < least)
         error = format("{} is missing", operand_names[operands.size()]);
-    else if (operands.size() > wanted && !takes_more)
-        error = format("unexpected argument \"{}\"", operands[wanted]);
+    else if (operands.size() > most && !takes_more)
+        error = format("unexpected argument \"{}\"", operands[most]);
     return error.empty();
 }
 

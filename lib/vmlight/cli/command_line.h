@@ -32,7 +32,10 @@ struct CommandLine
         std::vector<Choice> choices {};
 
         std::string flag() const { return flag_of(name); }
-        bool takes_file() const { return metavar == "FILE" || metavar == "FOLDER" || metavar == "OUTPUT.exr"; }
+        bool takes_file() const
+        {
+            return metavar == "FILE" || metavar == "FOLDER" || metavar == "OUTPUT.exr" || metavar == "PICTURE";
+        }
     };
     struct Section
     {
@@ -44,7 +47,7 @@ struct CommandLine
     std::string name, purpose, example, output_metavar;
     /// The stage whose recipe may replace the operands, or "".
     std::string stage;
-    /// The last may end in "...": one or more.
+    /// The last may end in "...": one or more; or be in brackets, "[ENVIRONMENT]": none or one.
     std::vector<std::string> operand_names;
     std::vector<Option> options;
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <system_error>
 #include <thread>
 
@@ -31,11 +32,22 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
     line.purpose = std::move(purpose);
     line.operand_names = std::move(operands);
     line.example = std::move(example);
-    line.output_metavar = output == OutputKind::Folder ? "FOLDER" : "OUTPUT.exr";
+    struct Output
+    {
+        const char *metavar, *help;
+    };
+    static const std::map<OutputKind, Output> outputs {
+        { OutputKind::Image, { "OUTPUT.exr", "EXR image to write" } },
+        { OutputKind::Folder, { "FOLDER", "Folder to write to" } },
+        { OutputKind::Picture,
+          { "PICTURE",
+            "Picture to write: .exr for scene-linear light, .png, .jpg, .webp or .tif "
+            "as the display shows it, .gif or .mp4 for a film" } },
+    };
+    line.output_metavar = outputs.at(output).metavar;
     m_command.output_kind = output;
     group("Output:");
-    option("o", line.output_metavar, output == OutputKind::Folder ? "Folder to write to" : "EXR image to write",
-           m_command.output);
+    option("o", line.output_metavar, outputs.at(output).help, m_command.output);
     if (output == OutputKind::Image)
         params("Output:", m_command.file);
     params("Output:", m_command.common);

@@ -14,6 +14,8 @@ namespace vmlight {
 
 std::string StageCommand::output_fault() const
 {
+    if (output_kind == OutputKind::Picture)
+        return output_file_fault(output);
     return output_kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
 }
 

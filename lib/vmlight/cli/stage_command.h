@@ -12,11 +12,13 @@
 
 namespace vmlight {
 
-/// What -o names: an EXR, or a folder, which is created if necessary.
+/// What -o names: an EXR, a folder, which is created if necessary, or a picture or film of any kind that the executable
+/// knows, whose name it checks itself.
 enum class OutputKind
 {
     Image,
-    Folder
+    Folder,
+    Picture
 };
 
 /// Parameters of every executable that writes an image.

@@ -2,7 +2,6 @@
 #include <vmlight/frame/camera.h>
 
 #include <vmlight/base/format.h>
-#include <vmlight/math/rotation.h>
 
 #include <algorithm>
 #include <array>
@@ -31,7 +30,7 @@ CameraRay Camera::ray(double x, double y, int width, int height) const
     return ray;
 }
 
-void Subject::add(const Mesh& mesh)
+void Subject::add(const Mesh& mesh, const Rotation& pose)
 {
     std::vector<bool> used(mesh.positions.size());
     for (const auto& triangle : mesh.triangles)
@@ -40,7 +39,7 @@ void Subject::add(const Mesh& mesh)
     for (size_t v = 0; v < used.size(); ++v) {
         if (!used[v])
             continue;
-        const V3d& p = mesh.positions[v];
+        const V3d p = rotate(pose, mesh.positions[v]);
         for (int axis = 0; axis < 3; ++axis) {
             m_low[axis] = std::min(m_low[axis], p[axis]);
             m_high[axis] = std::max(m_high[axis], p[axis]);
@@ -139,6 +138,15 @@ bool find_camera(Camera& dst, const CameraParams& params, const Mesh& mesh, doub
     }
     error = format("\"{}\" has no camera \"{}\"; it has {}", mesh.path, params.camera, names.empty() ? "none" : names);
     return false;
+}
+
+Camera camera_for(const Camera& camera, const Rotation& pose)
+{
+    const Rotation back = pose.transposed();
+    Camera result = camera;
+    for (V3d Camera::*vector : { &Camera::position, &Camera::right, &Camera::up, &Camera::forward })
+        result.*vector = rotate(back, camera.*vector);
+    return result;
 }
 
 Camera turned(const Camera& camera, double degrees, const V3d& centre)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/base/params.h>
+#include <vmlight/math/rotation.h>
 #include <vmlight/mesh/mesh.h>
 
 #include <Imath/ImathVec.h>
@@ -65,8 +66,8 @@ struct CameraParams
 class Subject
 {
 public:
-    /// Add the vertices that triangles of `mesh` use.
-    void add(const Mesh& mesh);
+    /// Add the vertices that triangles of `mesh` use, turned by `pose`.
+    void add(const Mesh& mesh, const Rotation& pose = {});
 
     bool is_empty() const { return !(m_low.x <= m_high.x); }
     Imath::V3d centre() const { return (m_low + m_high) * 0.5; }
@@ -93,6 +94,9 @@ Camera place_camera(const CameraParams& params, const Subject& subject, double a
 /// The camera called `params.camera` of `mesh`. Where the picture has another aspect ratio than the camera, all that
 /// the camera shows is in it. False, with the reason in `error`, if there is none; the error lists the names.
 bool find_camera(Camera& dst, const CameraParams& params, const Mesh& mesh, double aspect, std::string& error);
+
+/// The camera in the space of an object that `pose` has turned about the origin.
+Camera camera_for(const Camera& camera, const Rotation& pose);
 
 /// The camera after the subject has turned by `degrees` about the vertical axis through `centre`, counter-clockwise
 /// seen from above, in the subject's own space: it goes around the other way.

@@ -3,9 +3,11 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/image/color.h>
 #include <vmlight/image/color_labels.h>
 #include <vmlight/image/radiance_header.h>
 #include <vmlight/stage/layer_source.h>
+#include <vmlight/stage/open_source.h>
 
 #include <algorithm>
 #include <array>
@@ -65,6 +67,26 @@ void report_doubts(const std::string& path, const OIIO::ImageSpec& spec, OIIO::T
     const std::string radiance = unapplied_radiance_header(path);
     if (!radiance.empty())
         options.report(format("\"{}\": {}", path, radiance));
+}
+
+bool read_environment(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options, std::string& note,
+                      std::string& error)
+{
+    const PixelSourcePointer file
+        = open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, {}, recipe.layer);
+    std::vector<OIIO::ImageBuf> images;
+    if (!file || !check_environment(file->spec(), recipe, error) || !file->make(images, {}, options, error))
+        return false;
+    dst = std::move(images[0]);
+    const OIIO::TypeDesc stored = file->spec().format;
+    report_doubts(recipe.environment, dst.spec(), stored, options);
+    std::vector<std::string> warnings;
+    if (!to_scene_linear(dst, recipe.environment, { recipe.colorconfig, recipe.colorspace, stored }, note, error,
+                         options.threads, &warnings))
+        return false;
+    for (const std::string& warning : warnings)
+        options.report_warning(warning);
+    return true;
 }
 
 } // namespace vmlight

@@ -5,7 +5,7 @@
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/recipe/recipe.h>
 
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/imagebuf.h>
 
 #include <string>
 
@@ -22,5 +22,13 @@ bool check_environment(const OIIO::ImageSpec& spec, const CfemRecipe& recipe, st
 /// `stored` being their type in the file, and entries of a Radiance header that are not applied.
 void report_doubts(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc stored,
                    const MakeOptions& options);
+
+/// Read the environment of `recipe` whole, for those who need it unfiltered, and bring it to the working space. Reports
+/// doubts and labels that contradict each other.
+///
+/// @param note     set to a line on its colour: "Linear Rec.709 (sRGB) -> ACEScg"
+/// @returns false, with the reason in `error`, as a CFEM of that recipe would
+bool read_environment(OIIO::ImageBuf& dst, const CfemRecipe& recipe, const MakeOptions& options, std::string& note,
+                      std::string& error);
 
 } // namespace vmlight

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/frame/lit_object.h>
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/frame/object_mesh.h>
+#include <vmlight/frame/surface_materials.h>
+#include <vmlight/frame/texel_weights.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/model.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/open_source.h>
+#include <vmlight/uv/udim.h>
+#include <vmlight/vismap/baker.h>
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vmlight {
+namespace {
+
+// `auto` has the best that a small map can hold.
+constexpr const char* kAutoBasis = "sh";
+
+std::string basis_for(const std::string& model, const std::string& asked)
+{
+    if (asked != "vector")
+        return asked;
+    if (model == "auto")
+        return kAutoBasis;
+    const ModelEntry* entry = find_model_entry(model);
+    return entry && *entry->basis ? entry->basis : asked;
+}
+
+// The channels of `names`, texel by texel.
+std::vector<float> gathered(const OIIO::ImageBuf& image, OIIO::cspan<int> index)
+{
+    const OIIO::ImageSpec& spec = image.spec();
+    const auto* pixels = static_cast<const float*>(image.localpixels());
+    const size_t count = size_t(spec.width) * size_t(spec.height), channels = size_t(spec.nchannels);
+    std::vector<float> result(count * index.size());
+    for (size_t i = 0; i < count; ++i)
+        for (size_t c = 0; c < size_t(index.size()); ++c)
+            result[i * size_t(index.size()) + c] = pixels[i * channels + size_t(index[c])];
+    return result;
+}
+
+} // namespace
+
+bool LitObject::open(const ObjectRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    m_recipe = recipe;
+    ObjectMesh mesh;
+    if (!read_object_mesh(mesh, recipe.map, recipe.vismap.empty() && recipe.texture.empty(), options, error))
+        return false;
+    m_is_unwrapped = mesh.is_unwrapped;
+    m_surface.material_uvs = std::move(mesh.material_uvs);
+    m_mesh = std::move(mesh.mesh);
+    m_surface.mesh = m_mesh;
+    if (recipe.texture.empty())
+        return true;
+    auto texture = std::make_shared<FileTexture>();
+    if (!texture->open(recipe.texture, error))
+        return false;
+    m_surface.light = std::move(texture);
+    return true;
+}
+
+void LitObject::open(std::shared_ptr<const Mesh> mesh, const VismapParams& params)
+{
+    m_recipe.map.vismap_params = params;
+    m_mesh = std::move(mesh);
+    m_surface.mesh = m_mesh;
+}
+
+bool LitObject::read_materials(const std::string& light_space, const std::string& colorconfig,
+                               const MakeOptions& options, std::string& error)
+{
+    return vmlight::read_materials(m_surface.materials, *m_mesh, light_space, colorconfig, options, error);
+}
+
+bool LitObject::prepare_scene(const MakeOptions& options, std::string& error)
+{
+    if (m_scene)
+        return true;
+    auto scene = std::make_shared<BakeScene>();
+    if (!scene->build(m_mesh, m_occluders, options.threads, error))
+        return false;
+    m_scene = std::move(scene);
+    return true;
+}
+
+bool LitObject::read_maps(const MakeOptions& options, std::string& error)
+{
+    const std::string& name = m_recipe.vismap;
+    std::vector<int> tiles { kFirstUdim };
+    if (has_udim_pattern(name)) {
+        tiles = existing_udims(recipe_path(name));
+        if (tiles.empty()) {
+            error = format("\"{}\": no files match", name);
+            return false;
+        }
+    } else if (const int udim = udim_from_name(recipe_path(name))) {
+        tiles = { udim };
+    }
+    LightmapRecipe recipe;
+    for (const int udim : tiles) {
+        recipe.vismap = udim_path(name, udim);
+        const PixelSourcePointer source = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, {});
+        std::vector<OIIO::ImageBuf> images;
+        if (!source || !make_input(images, *source, {}, recipe, "vismap", recipe.vismap, options, error))
+            return false;
+        m_maps[""][udim] = std::move(images[0]);
+    }
+    return true;
+}
+
+bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOptions& options, std::string& error)
+{
+    VismapParams params = m_recipe.map.vismap_params;
+    params.basis = basis;
+    if (!params.has("normal"))
+        params.channels.insert(params.channels.begin(), "normal"); // for the model `ao`
+    const std::vector<int> tiles = mesh_udims(*m_mesh);
+    if (tiles.empty())
+        error = format("\"{}\": its texture coordinates are outside all UDIM tiles", m_mesh->path);
+    if (!error.empty() || !prepare_scene(options, error))
+        return false;
+    for (const int udim : tiles) {
+        const Stopwatch timer;
+        params.udim = udim;
+        const Size size = params.size();
+        VismapReport report;
+        OIIO::ImageBuf& map = dst[udim];
+        if (!make_vismap(map, m_scene, params, &report, options.threads, options.step("bake", size.width, size.height),
+                         m_recipe.map.time_budget)) {
+            error = map.geterror();
+            return false;
+        }
+        const std::string tile = tiles.size() > 1 ? format(" tile {}", udim) : "";
+        options.report(format("bake: {}{}: {} of {}x{}, {} rays each, in {:.2f} s", m_mesh->name, tile,
+                              count_text(report.covered, "texel", "texels"), size.width, size.height, report.samples,
+                              timer()));
+        if (report.covered > 0 && report.dark > report.covered / 2)
+            options.report_warning(format("{}: {} of {} texels see almost nothing: do the normals point inwards?",
+                                          m_mesh->name, report.dark, report.covered));
+    }
+    return true;
+}
+
+bool LitObject::prepare_maps(const std::string& model, const MakeOptions& options, std::string& error)
+{
+    if (!m_recipe.vismap.empty()) {
+        m_basis.clear();
+        return m_maps.count("") != 0 || read_maps(options, error);
+    }
+    m_basis = basis_for(model, m_recipe.map.vismap_params.basis);
+    // What the traced reference needs of a map is its size.
+    if (model == kReferenceModel && !m_maps.empty())
+        m_basis = m_maps.begin()->first;
+    if (m_maps.count(m_basis) != 0)
+        return true;
+    TileMaps maps;
+    if (!bake_maps(maps, m_basis, options, error))
+        return false;
+    m_maps[m_basis] = std::move(maps);
+    return true;
+}
+
+const std::vector<float>& LitObject::weights(int udim, const OIIO::ImageBuf& map, int nthreads)
+{
+    std::vector<float>& weights = m_weights[udim];
+    if (weights.empty())
+        weights = texel_weights(*m_mesh, map, udim, nthreads);
+    return weights;
+}
+
+bool LitObject::light(const SceneLight& light, const LightmapParams& params, const ReferenceParams& reference,
+                      const MakeOptions& options, std::string& error, std::string* used)
+{
+    if (!m_recipe.texture.empty())
+        return true;
+    if (!prepare_maps(params.model, options, error))
+        return false;
+    const bool is_traced = params.model == kReferenceModel;
+    if (is_traced && !prepare_scene(options, error))
+        return false;
+    if (!m_light)
+        m_surface.light = m_light = std::make_shared<TileTexture>(3);
+    for (const auto& [udim, map] : m_maps[m_basis]) {
+        OIIO::ImageBuf& lightmap = m_lightmaps[udim];
+        const OIIO::ImageSpec& spec = map.spec();
+        bool made = false;
+        if (is_traced) {
+            VismapParams size = m_recipe.map.vismap_params;
+            size.width = spec.width;
+            size.height = spec.height;
+            size.udim = udim;
+            LightmapParams turned = params;
+            turned.model = "auto";
+            made = make_reference(lightmap, *m_scene, light.environment, size, turned, reference, options.threads,
+                                  options.step("trace", spec.width, spec.height));
+        } else {
+            made = make_lightmap(lightmap, map, light.filtered, params, nullptr, options.threads);
+        }
+        if (!made) {
+            error = lightmap.geterror();
+            return false;
+        }
+        std::array<int, 3> index;
+        if (!find_color_channels(lightmap.spec(), index, error))
+            return false;
+        const float* pixels = static_cast<const float*>(lightmap.localpixels());
+        std::vector<float> copy;
+        if (lightmap.nchannels() != 3) {
+            copy = gathered(lightmap, index);
+            pixels = copy.data();
+        }
+        m_light->set(udim,
+                     TexturePyramid(spec.width, spec.height, 3, pixels, weights(udim, map, options.threads).data(),
+                                    TextureWrap::clamp, TextureWrap::clamp, options.threads));
+        if (used)
+            *used = is_traced ? kReferenceModel : lightmap.spec().get_string_attribute("vmlight:model");
+    }
+    return true;
+}
+
+void LitObject::show_visibility(int nthreads)
+{
+    if (m_maps.empty())
+        return;
+    auto texture = std::make_shared<TileTexture>(4);
+    for (const auto& [udim, map] : m_maps[m_basis]) {
+        std::array<int, 4> index;
+        std::string ignored; // light() has refused what is no map
+        if (!find_vismap_channels(map.spec(), index, ignored))
+            continue;
+        texture->set(udim,
+                     TexturePyramid(map.spec().width, map.spec().height, 4, gathered(map, index).data(),
+                                    weights(udim, map, nthreads).data(), TextureWrap::clamp, TextureWrap::clamp,
+                                    nthreads));
+    }
+    m_surface.visibility = std::move(texture);
+}
+
+} // namespace vmlight

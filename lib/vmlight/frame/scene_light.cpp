@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/frame/scene_light.h>
+
+#include <vmlight/image/channels.h>
+#include <vmlight/stage/environment_file.h>
+#include <vmlight/stage/light_color.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/open_source.h>
+
+namespace vmlight {
+namespace {
+
+// The images of a CFEM, in the working space.
+bool read_cfem(SceneLight& dst, const std::string& name, const CfemRecipe& recipe, const MakeOptions& options,
+               std::string& error)
+{
+    LightmapRecipe light;
+    light.cfem = name;
+    light.colorspace = recipe.colorspace;
+    light.colorconfig = recipe.colorconfig;
+    const PixelSourcePointer source = open_input(light, "cfem", name, InputKind::Cfem, error, {});
+    LightColor color;
+    if (!source || !describe_light(color, light, source->spec(), error)
+        || !make_input(dst.filtered, *source, { 0, source->subimages() }, light, "cfem", name, options, error))
+        return false;
+    color.convert(dst.filtered, options.threads);
+    for (const std::string& warning : color.warnings)
+        options.report_warning(warning);
+    return true;
+}
+
+} // namespace
+
+bool SceneLight::open(const std::string& name, CfemRecipe recipe, bool keep_environment, const MakeOptions& options,
+                      std::string& error)
+{
+    if (image_stage(name) == kCfemStage) {
+        if (!read_cfem(*this, name, recipe, options, error))
+            return false;
+    } else {
+        recipe.environment = name;
+        std::string note;
+        if (!make_images(filtered, recipe, options, error)
+            || (keep_environment && !read_environment(environment, recipe, options, note, error)))
+            return false;
+    }
+    space = filtered[0].spec().get_string_attribute("colorInteropID");
+    return true;
+}
+
+} // namespace vmlight

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The light of a frame: an environment, filtered once for all objects, models and rotations.
+#pragma once
+
+#include <vmlight/stage/make_options.h>
+#include <vmlight/stage/recipe/recipe.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// How an environment becomes light.
+struct SceneLight
+{
+    /// A CFEM or all images of a stack, for make_lightmap().
+    std::vector<OIIO::ImageBuf> filtered;
+    /// The environment itself in the working space, if it was asked for; not initialized if only a CFEM is known.
+    OIIO::ImageBuf environment;
+    /// Interop id of the working space.
+    std::string space;
+
+    /// Read and filter.
+    ///
+    /// @param name     a lat-long image, or a CFEM or stack, or the recipe of one
+    /// @param recipe   colour space, layer and layout of the image, and how it is filtered: `stack` for models that
+    ///                 read more than a CFEM
+    /// @param keep_environment     whether `environment` is needed
+    /// @returns false, with the reason in `error`, if it cannot be read or filtered
+    bool open(const std::string& name, CfemRecipe recipe, bool keep_environment, const MakeOptions& options,
+              std::string& error);
+};
+
+} // namespace vmlight

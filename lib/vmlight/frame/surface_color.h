@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vmlight/frame/frame_scene.h>
+#include <vmlight/frame/layers.h>
+
+#include <string>
+
+namespace vmlight {
+
+/// Look up the material, and so colour and opacity, of `seen`, whose point is set.
+void look_up_material(SeenPoint& seen);
+
+/// Look up the light, and V and B if asked, of `seen`, whose material is looked up. False, with the reason in `error`,
+/// if a texture cannot be read.
+bool look_up_light(SeenPoint& seen, bool with_visibility, std::string& error);
+
+} // namespace vmlight

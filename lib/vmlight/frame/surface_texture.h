@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What frames look up on the surface of an object, by its UVs: images in memory, or any file that OIIO's texture
+/// system opens.
+#pragma once
+
+#include <vmlight/frame/texture_pyramid.h>
+
+#include <OpenImageIO/texture.h>
+#include <OpenImageIO/ustring.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace vmlight {
+
+/// Looked up from any number of threads.
+class SurfaceTexture
+{
+public:
+    virtual ~SurfaceTexture() = default;
+
+    virtual int channels() const = 0;
+    /// Set `dst` to the channels at uv `at` (v up, UDIM tiles as integer parts). Returns false, with the reason in
+    /// `error`, if pixels cannot be read.
+    virtual bool lookup(const TextureFootprint& at, float* dst, std::string& error) const = 0;
+};
+
+/// A pyramid for each UDIM tile. 0 in tiles without one.
+class TileTexture : public SurfaceTexture
+{
+public:
+    explicit TileTexture(int channels)
+        : m_channels(channels)
+    {
+    }
+    /// Set the image of a tile, replacing an earlier one. Not while lookups run.
+    void set(int udim, TexturePyramid image) { m_tiles[udim] = std::move(image); }
+    const TexturePyramid* tile(int udim) const;
+
+    int channels() const override { return m_channels; }
+    bool lookup(const TextureFootprint& at, float* dst, std::string& error) const override;
+
+private:
+    const int m_channels;
+    std::map<int, TexturePyramid> m_tiles;
+};
+
+/// Colour of a file, or of a recipe of one of the readers, through OIIO's TextureSystem with ray differentials:
+/// trilinear, between texels bilinear; what is beyond the edge is the edge. `<UDIM>` in the name stands for the tile.
+class FileTexture : public SurfaceTexture
+{
+public:
+    /// False, with the reason in `error`, if it cannot be opened or has no colour. A single channel serves as all.
+    bool open(const std::string& name, std::string& error);
+
+    int channels() const override { return 3; }
+    bool lookup(const TextureFootprint& at, float* dst, std::string& error) const override;
+
+private:
+    std::string m_name;
+    OIIO::ustring m_file;
+    bool m_is_udim = false, m_is_gray = false;
+    std::shared_ptr<OIIO::TextureSystem> m_system;
+};
+
+} // namespace vmlight

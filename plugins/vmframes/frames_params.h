@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What vmframes is asked for, besides the objects and their light.
+#pragma once
+
+#include <vmlight/base/params.h>
+#include <vmlight/frame/camera.h>
+#include <vmlight/frame/lit_object.h>
+#include <vmlight/frame/render.h>
+#include <vmlight/image/display.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/reference/reference.h>
+#include <vmlight/stage/recipe/recipe.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace vmlight::frames {
+
+/// What is around the objects.
+struct StageParams
+{
+    /// Further meshes, lit and in each other's way.
+    std::vector<std::string> object;
+    std::string ground = "none";
+    std::string background = "none";
+    double background_blur = 0;
+    /// Ignore materials.
+    bool white = false;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("object", object, Paths {}, "Another mesh in the scene; may be repeated");
+        field("ground", ground, Text {},
+              "Ground under the objects: none, white, shadow (its shadow alone, for a comp), or a texture");
+        field("background", background, Text {},
+              "What is behind: none (transparent), environment, or a colour such as 0.2,0.2,0.2");
+        field("background_blur", background_blur, Range { 0, 60 }, "Blur of the environment behind, in degrees");
+        field("white", white, Flag {}, "Show all surfaces white: ignore the materials of the meshes");
+    }
+};
+
+/// What turns, once around over all frames.
+struct TurnParams
+{
+    bool turntable = false, turn_environment = false;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("turntable", turntable, Flag {}, "The objects turn once around over the frames");
+        field("turn_environment", turn_environment, Flag {}, "The environment turns once around over the frames");
+    }
+};
+
+/// Several models in one picture, and what is written besides.
+struct SheetParams
+{
+    std::vector<std::string> wipe, side_by_side;
+    std::string contact_sheet, keep;
+    double fps = 24;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("contact_sheet", contact_sheet, Path {}, "Also write all frames in one picture");
+        field("fps", fps, Range { 0.01, 240 }, "Frames a second of a film");
+        field("keep", keep, Path {}, "Folder to keep the visibility maps, lightmaps and unwrapped meshes in");
+    }
+};
+
+/// The command line.
+struct Request
+{
+    ObjectRecipe object;
+    /// The environment, "" for none.
+    std::string environment;
+    CfemRecipe filter;
+    LightmapParams light;
+    ReferenceParams reference;
+    CameraParams camera;
+    RenderParams render;
+    StageParams stage;
+    TurnParams turn;
+    SheetParams sheet;
+    DisplayParams display;
+    std::vector<int> frames { 1 };
+    bool has_frames = false;
+    bool is_auto_exposed = false;
+    std::string output;
+
+    /// The models that one picture shows: that of `light`, or those of a comparison.
+    std::vector<std::string> models() const
+    {
+        return !sheet.wipe.empty()       ? sheet.wipe
+            : sheet.side_by_side.empty() ? std::vector<std::string> { light.model }
+                                         : sheet.side_by_side;
+    }
+};
+
+} // namespace vmlight::frames

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shoot.h"
+
+#include "comparison.h"
+#include "film.h"
+#include "keep.h"
+#include "shot.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/frames.h>
+#include <vmlight/base/output_file.h>
+#include <vmlight/base/stopwatch.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/image/picture_file.h>
+#include <vmlight/lightmap/light_level.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight::frames {
+namespace {
+
+using OIIO::ImageBuf;
+
+constexpr int kSheetWidth = 2048;
+
+bool is_exr_name(const std::string& path)
+{
+    return OIIO::Strutil::iends_with(path, ".exr");
+}
+
+// One file holds all frames.
+bool holds_all_frames(const std::string& path)
+{
+    return is_animation_name(path) || is_film_name(path);
+}
+
+// Multiply colour and light by 2^stops.
+void expose(ImageBuf& image, double stops)
+{
+    if (stops == 0)
+        return;
+    const float factor = float(std::exp2(stops));
+    const OIIO::ImageSpec& spec = image.spec();
+    std::vector<float> factors(size_t(spec.nchannels), 1.0f);
+    for (int c = 0; c < spec.nchannels; ++c) {
+        const std::string& name = spec.channelnames[size_t(c)];
+        if (c < 3 || OIIO::Strutil::starts_with(name, "lit."))
+            factors[size_t(c)] = factor;
+    }
+    OIIO::ImageBufAlgo::mul(image, image, factors);
+}
+
+class Shooting
+{
+public:
+    Shooting(const Request& request, StageMain& stage)
+        : m_request(request)
+        , m_stage(stage)
+        , m_options(stage.make_options())
+        , m_shot(request)
+        , m_models(request.models())
+    {
+    }
+
+    bool run(std::string& error)
+    {
+        if (!m_shot.open(m_options, error) || !find_exposure(error))
+            return false;
+        const Stopwatch timer;
+        for (size_t i = 0; i < m_request.frames.size(); ++i) {
+            ImageBuf frame;
+            if (!make_frame(frame, i, error) || !finish_frame(frame, i, error))
+                return false;
+            if (i == 0)
+                m_options.say = [](const std::string&) {}; // the rest have nothing new to say
+        }
+        const double seconds = timer();
+        m_stage.say(format("render: {} of {}x{} in {:.2f} s",
+                           count_text(int64_t(m_request.frames.size()), "frame", "frames"), m_request.render.size.width,
+                           m_request.render.size.height, seconds));
+        return write_films(error) && (m_request.sheet.keep.empty() || keep_maps(m_shot, m_request, error));
+    }
+
+private:
+    bool find_exposure(std::string& error)
+    {
+        m_stops = m_request.light.exposure;
+        if (m_request.environment.empty())
+            return true;
+        double mean = 0;
+        if (!m_shot.measure(mean, 0, m_models[0], m_options, error))
+            return false;
+        const double stops = mean > 0 ? std::clamp(std::log2(kMiddleGray / mean), -64.0, 64.0) : 0;
+        if (m_request.is_auto_exposed)
+            m_stops = stops;
+        if (m_request.is_auto_exposed && !(mean > 0))
+            m_options.report_warning("--exposure auto: no light in the first frame, so 0 stops for all");
+        m_options.report(
+            m_request.is_auto_exposed
+                ? format("exposure: {:.2f} stops, for all frames", m_stops)
+                : format("light: mean luminance {:.3g}; --exposure {:.2f} brings it to {}", mean, stops, kMiddleGray));
+        return true;
+    }
+
+    // All models of a frame, combined.
+    bool make_frame(ImageBuf& dst, size_t index, std::string& error)
+    {
+        std::vector<ImageBuf> images;
+        for (const std::string& model : m_models) {
+            if (!m_shot.render(images.emplace_back(), index, model, m_options, error))
+                return false;
+            expose(images.back(), m_stops);
+        }
+        if (images.size() == 1) {
+            dst = std::move(images[0]);
+        } else {
+            const std::string text = rms_text(images);
+            m_stage.say(format("frame {}: {}", m_request.frames[index], text));
+            dst = m_request.sheet.wipe.empty() ? side_by_side(images) : wipe(images[0], images[1]);
+            dst.specmod().attribute("vmlight:compared", text);
+        }
+        dst.specmod().attribute("vmlight:exposure", float(m_stops));
+        return true;
+    }
+
+    // Against the last, or against the reference if that is one of them.
+    std::string rms_text(const std::vector<ImageBuf>& images) const
+    {
+        const auto reference = std::find(m_models.begin(), m_models.end(), kReferenceModel);
+        const size_t truth = reference == m_models.end() ? m_models.size() - 1 : size_t(reference - m_models.begin());
+        std::vector<std::string> parts;
+        for (size_t i = 0; i < images.size(); ++i)
+            if (i != truth)
+                parts.push_back(format("{} {:.4f}", m_models[i], relative_rms(images[i], images[truth])));
+        return format("relative RMS against {}: {}", m_models[truth], OIIO::Strutil::join(parts, ", "));
+    }
+
+    bool finish_frame(ImageBuf& frame, size_t index, std::string& error)
+    {
+        const std::string& output = m_request.output;
+        const bool is_kept = holds_all_frames(output) || !m_request.sheet.contact_sheet.empty();
+        const std::string path = frame_path(output, m_request.frames[index]);
+        if (is_exr_name(path) && !m_stage.write(frame, path, error))
+            return false;
+        if (is_exr_name(path) && !is_kept)
+            return true;
+        ImageBuf picture = OIIO::ImageBufAlgo::channels(frame, 4, {});
+        picture.specmod().extra_attribs = frame.spec().extra_attribs;
+        std::string note;
+        if (!show_on_display(picture, m_request.display, m_shot.space(), m_request.filter.colorconfig,
+                             m_options.threads, note, error))
+            return false;
+        m_options.report(note);
+        if (!is_exr_name(path) && !holds_all_frames(path) && !write_picture(picture, path, error))
+            return false;
+        if (is_kept)
+            m_pictures.push_back(std::move(picture));
+        return true;
+    }
+
+    bool write_films(std::string& error)
+    {
+        const std::string &output = m_request.output, &sheet = m_request.sheet.contact_sheet;
+        if (is_film_name(output) && !write_film(m_pictures, output, m_request.sheet.fps, error))
+            return false;
+        if (is_animation_name(output) && !write_animation(m_pictures, output, m_request.sheet.fps, error))
+            return false;
+        return sheet.empty() || write_picture(contact_sheet(m_pictures, kSheetWidth), sheet, error);
+    }
+
+    const Request& m_request;
+    StageMain& m_stage;
+    MakeOptions m_options;
+    Shot m_shot;
+    const std::vector<std::string> m_models;
+    double m_stops = 0;
+    std::vector<ImageBuf> m_pictures;
+};
+
+std::string output_fault_of(const Request& request)
+{
+    const std::string& output = request.output;
+    if (!is_exr_name(output) && !is_picture_name(output) && !is_film_name(output))
+        return format("\"{}\": the extension must be exr, png, jpg, webp, tif, gif, mp4, mov or webm", output);
+    if (is_film_name(output))
+        if (const std::string fault = film_fault(); !fault.empty())
+            return format("\"{}\": {}", output, fault);
+    const bool has_number = output.find('#') != std::string::npos;
+    if (request.frames.size() > 1 && !has_number && !holds_all_frames(output))
+        return format("\"{}\": {} frames need #### in the file name, for the number", output, request.frames.size());
+    const std::string& sheet = request.sheet.contact_sheet;
+    if (!sheet.empty() && (!is_picture_name(sheet) || is_animation_name(sheet)))
+        return format("--contact-sheet: \"{}\": the extension must be png, jpg, webp or tif", sheet);
+    if (!sheet.empty())
+        return output_file_fault(sheet);
+    return "";
+}
+
+std::string models_fault(const Request& request)
+{
+    if (!request.sheet.wipe.empty() && !request.sheet.side_by_side.empty())
+        return "give only one of --wipe and --side-by-side";
+    if (!request.sheet.wipe.empty() && request.sheet.wipe.size() != 2)
+        return format("--wipe needs two models, such as paper,reference; it has {}", request.sheet.wipe.size());
+    if (request.sheet.side_by_side.size() == 1)
+        return "--side-by-side needs two models or more, such as ao,paper,reference";
+    Choices known = model_choices();
+    known.choices.push_back({ kReferenceModel, "" });
+    for (const std::string& model : request.models()) {
+        std::string word, error;
+        if (!parse_value(word, model, known, error))
+            return format("model: {}", error);
+    }
+    return "";
+}
+
+} // namespace
+
+std::string request_fault(const Request& request)
+{
+    const bool has_light = !request.environment.empty();
+    if (!has_light && request.object.texture.empty())
+        return "ENVIRONMENT is missing, and there is no --texture";
+    if (!request.object.vismap.empty() && !request.object.texture.empty())
+        return "give only one of --vismap and --texture";
+    if (!has_light && (request.stage.background == "environment" || request.is_auto_exposed))
+        return "--background environment and --exposure auto need an environment";
+    if ((request.turn.turntable || request.turn.turn_environment) && !request.has_frames)
+        return "--turntable and --turn-environment need --frames, such as 1-48";
+    if (request.stage.background != "none" && request.stage.background != "environment") {
+        std::vector<double> color;
+        std::string error;
+        if (!parse_value(color, request.stage.background, Numbers { 3 }, error))
+            return format("--background: \"{}\" is neither none, environment nor a colour such as 0.2,0.2,0.2",
+                          request.stage.background);
+    }
+    if (!request.render.layers.empty() && !is_exr_name(request.output))
+        return format("--layers need an .exr to be written to; -o is \"{}\"", request.output);
+    const std::string fault = models_fault(request);
+    return fault.empty() ? output_fault_of(request) : fault;
+}
+
+bool shoot(const Request& request, StageMain& stage, std::string& error)
+{
+    return Shooting(request, stage).run(error);
+}
+
+} // namespace vmlight::frames

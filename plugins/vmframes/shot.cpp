@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shot.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/frames.h>
+#include <vmlight/frame/ground.h>
+#include <vmlight/image/color.h>
+#include <vmlight/lightmap/light_level.h>
+#include <vmlight/lightmap/model.h>
+#include <vmlight/math/rotation.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vmlight::frames {
+namespace {
+
+// Maps of the ground have room for soft shadows only.
+constexpr int kGroundTexels = 512;
+
+bool needs_stack(const std::vector<std::string>& models)
+{
+    return std::any_of(models.begin(), models.end(), [](const std::string& model) {
+        const ModelEntry* entry = find_model_entry(model);
+        return model == "auto" || (entry && entry->light != ModelLight::cfem);
+    });
+}
+
+std::vector<Mesh> copies(const std::vector<const Mesh*>& meshes)
+{
+    std::vector<Mesh> result;
+    for (const Mesh* mesh : meshes)
+        result.push_back(*mesh);
+    return result;
+}
+
+} // namespace
+
+bool Shot::open_light(const MakeOptions& options, std::string& error)
+{
+    if (m_request.environment.empty())
+        return true;
+    const std::vector<std::string> models = m_request.models();
+    CfemRecipe filter = m_request.filter;
+    filter.stack = needs_stack(models);
+    const bool is_traced = std::find(models.begin(), models.end(), kReferenceModel) != models.end();
+    const bool is_seen = m_request.stage.background == "environment";
+    if (!m_light.open(m_request.environment, filter, is_traced || is_seen, options, error))
+        return false;
+    if ((is_traced || is_seen) && !m_light.environment.initialized()) {
+        error = format("\"{}\": {} needs the environment itself, and this is only its filtered map",
+                       m_request.environment, is_traced ? "the model reference" : "--background environment");
+        return false;
+    }
+    return true;
+}
+
+bool Shot::open_objects(const MakeOptions& options, std::string& error)
+{
+    std::vector<ObjectRecipe> recipes { m_request.object };
+    for (const std::string& path : m_request.stage.object) {
+        ObjectRecipe recipe;
+        recipe.map = m_request.object.map;
+        recipe.map.selection = {};
+        recipe.map.mesh = path;
+        recipes.push_back(recipe);
+    }
+    for (const ObjectRecipe& recipe : recipes) {
+        m_objects.push_back(std::make_unique<LitObject>());
+        if (!m_objects.back()->open(recipe, options, error))
+            return false;
+        m_subject.add(m_objects.back()->mesh(), m_pose);
+        if (!m_request.stage.white
+            && !m_objects.back()->read_materials(m_light.space, m_request.filter.colorconfig, options, error))
+            return false;
+    }
+    if (!m_subject.is_empty())
+        return true;
+    error = format("\"{}\": nothing in it can be seen", m_request.object.map.mesh);
+    return false;
+}
+
+bool Shot::open_ground(const MakeOptions& options, std::string& error)
+{
+    const std::string& ground = m_request.stage.ground;
+    if (ground == "none")
+        return true;
+    if (m_request.environment.empty()) {
+        error = "--ground needs an environment to light it";
+        return false;
+    }
+    const bool has_texture = ground != "white" && ground != "shadow";
+    VismapParams params = m_request.object.map.vismap_params;
+    params.resolution = { kGroundTexels, kGroundTexels };
+    params.width = params.height = 0;
+    m_ground = std::make_unique<LitObject>();
+    m_ground->open(make_ground_mesh(m_subject, m_pose, has_texture ? ground : ""), params);
+    m_ground->surface().catches_shadows = ground == "shadow";
+    fade_out(m_ground->surface());
+    return !has_texture || m_ground->read_materials(m_light.space, m_request.filter.colorconfig, options, error);
+}
+
+bool Shot::open_background(const MakeOptions& options, std::string& error)
+{
+    const std::string& background = m_request.stage.background;
+    if (background == "none")
+        return true;
+    m_scene.background.is_visible = true;
+    if (background == "environment")
+        return make_background(m_scene.background.environment, m_light.environment, m_request.stage.background_blur,
+                               options.threads, error);
+    std::vector<double> color;
+    parse_value(color, background, Numbers { 3 }, error); // main() has checked it
+    m_scene.background.color = Imath::C3f(float(color[0]), float(color[1]), float(color[2]));
+    return true;
+}
+
+bool Shot::place(std::string& error)
+{
+    const Size& size = m_request.render.size;
+    const double aspect = double(size.width) / size.height;
+    if (m_request.camera.camera.empty())
+        m_camera = place_camera(m_request.camera, m_subject, aspect, m_request.turn.turntable);
+    else if (!find_camera(m_camera, m_request.camera, m_objects[0]->mesh(), aspect, error))
+        return false;
+    return true;
+}
+
+Camera Shot::camera_at(size_t index) const
+{
+    return camera_for(m_request.turn.turntable ? turned(m_camera, turn_at(index), m_subject.centre()) : m_camera,
+                      m_pose);
+}
+
+bool Shot::open(const MakeOptions& options, std::string& error)
+{
+    LightmapParams own = m_request.light;
+    own.env_rotate.clear();
+    if (!lightmap_rotation(m_pose, own, error))
+        return false;
+    if (!open_light(options, error) || !open_objects(options, error) || !open_ground(options, error)
+        || !open_background(options, error) || !place(error))
+        return false;
+    std::vector<const Mesh*> all;
+    for (const auto& object : m_objects)
+        all.push_back(&object->mesh());
+    if (m_ground)
+        m_ground->set_occluders(copies(all));
+    for (size_t i = 0; i < m_objects.size(); ++i) {
+        std::vector<const Mesh*> others = all;
+        others.erase(others.begin() + std::ptrdiff_t(i));
+        if (m_ground)
+            others.push_back(&m_ground->mesh());
+        m_objects[i]->set_occluders(copies(others));
+    }
+    for (const auto& object : m_objects)
+        m_scene.surfaces.push_back(object->surface());
+    if (m_ground)
+        m_scene.surfaces.push_back(m_ground->surface());
+    return m_scene.build(options.threads, error);
+}
+
+// The objects turn about y after their own rotation, the environment after its own.
+LightmapParams Shot::light_at(size_t index) const
+{
+    LightmapParams params = m_request.light;
+    params.exposure = 0;
+    const double object = m_request.turn.turntable ? turn_at(index) : 0;
+    const double environment = m_request.turn.turn_environment ? turn_at(index) : 0;
+    // E^-1 R of the turns goes between the environment's own rotation and the object's.
+    const Rotation turned = rotation_from_angles(0, object - environment, 0);
+    const Rotation rotation = turned * m_pose;
+    params.rotate.clear();
+    params.quaternion.clear();
+    params.matrix.assign(&rotation[0][0], &rotation[0][0] + 9);
+    return params;
+}
+
+bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& options, std::string& error)
+{
+    if (m_request.environment.empty() || (m_lit_index == index && m_lit_model == model))
+        return true;
+    LightmapParams params = light_at(index);
+    params.model = model;
+    if (!lightmap_rotation(m_scene.background.rotation, params, error))
+        return false;
+    size_t i = 0;
+    std::vector<LitObject*> all;
+    for (const auto& object : m_objects)
+        all.push_back(object.get());
+    if (m_ground)
+        all.push_back(m_ground.get());
+    for (LitObject* object : all) {
+        if (!object->light(m_light, params, m_request.reference, options, error))
+            return false;
+        FrameSurface& surface = m_scene.surfaces[i++];
+        if (surface.light != object->surface().light && index == 0)
+            object->show_visibility(options.threads);
+        if (object == m_ground.get()
+            && !find_unshadowed(object->surface().unshadowed, object->mesh(), m_light, params, error))
+            return false;
+        surface = object->surface();
+    }
+    m_lit_index = index;
+    m_lit_model = model;
+    return true;
+}
+
+bool Shot::render_at(OIIO::ImageBuf& dst, size_t index, const RenderParams& params, const MakeOptions& options,
+                     std::string& error)
+{
+    return render_frame(dst, m_scene, camera_at(index), params, options.threads,
+                        options.step("render", params.size.width, params.size.height), error);
+}
+
+bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const MakeOptions& options,
+                  std::string& error)
+{
+    if (!light_all(index, model, options, error) || !render_at(dst, index, m_request.render, options, error))
+        return false;
+    if (m_light.space.empty())
+        dst.specmod().attribute("colorInteropID", "unknown");
+    else
+        tag_scene_linear(dst.specmod(), m_light.space);
+    dst.specmod().attribute("vmlight:model", model);
+    return true;
+}
+
+bool Shot::measure(double& mean, size_t index, const std::string& model, const MakeOptions& options, std::string& error)
+{
+    RenderParams small = m_request.render;
+    small.size = { std::max(1, small.size.width / 4), std::max(1, small.size.height / 4) };
+    small.spp = 1;
+    small.layers.clear();
+    OIIO::ImageBuf image;
+    const bool is_visible = m_scene.background.is_visible;
+    const bool lit = light_all(index, model, options, error);
+    m_scene.background.is_visible = false;
+    const bool rendered = lit && render_at(image, index, small, options, error);
+    m_scene.background.is_visible = is_visible;
+    if (!rendered)
+        return false;
+    OIIO::ImageSpec spec;
+    tag_scene_linear(spec, m_light.space);
+    const std::array<double, 3> weights = luminance_weights(spec);
+    double sum = 0, alpha = 0;
+    for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel) {
+        for (int c = 0; c < 3; ++c)
+            sum += weights[size_t(c)] * double(pixel[c]);
+        alpha += double(pixel[3]);
+    }
+    mean = alpha > 0 ? sum / alpha : 0;
+    return true;
+}
+
+} // namespace vmlight::frames

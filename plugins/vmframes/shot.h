@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The scene that vmframes renders: objects, ground, light and camera, and how they change over the frames.
+#pragma once
+
+#include "frames_params.h"
+
+#include <vmlight/frame/frame_scene.h>
+#include <vmlight/frame/lit_object.h>
+#include <vmlight/frame/scene_light.h>
+#include <vmlight/stage/make_options.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight::frames {
+
+class Shot
+{
+public:
+    explicit Shot(const Request& request)
+        : m_request(request)
+    {
+    }
+
+    /// Read all inputs, and bake what is missing. False, with the reason in `error`, on failure.
+    bool open(const MakeOptions& options, std::string& error);
+
+    /// Render frame number `index` by a model: see render_frame(). Scene-linear, without exposure.
+    bool render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const MakeOptions& options,
+                std::string& error);
+
+    /// The mean luminance of what covers frame number `index`, the background left out; 0 if nothing does. Renders it
+    /// small.
+    bool measure(double& mean, size_t index, const std::string& model, const MakeOptions& options, std::string& error);
+
+    /// Interop id of the space of the light.
+    const std::string& space() const { return m_light.space; }
+    /// The objects, without the ground.
+    const std::vector<std::unique_ptr<LitObject>>& objects() const { return m_objects; }
+
+private:
+    bool open_light(const MakeOptions& options, std::string& error);
+    bool open_objects(const MakeOptions& options, std::string& error);
+    bool open_ground(const MakeOptions& options, std::string& error);
+    bool open_background(const MakeOptions& options, std::string& error);
+    bool place(std::string& error);
+    Camera camera_at(size_t index) const;
+    bool light_all(size_t index, const std::string& model, const MakeOptions& options, std::string& error);
+    bool render_at(OIIO::ImageBuf& dst, size_t index, const RenderParams& params, const MakeOptions& options,
+                   std::string& error);
+    double turn_at(size_t index) const { return 360.0 * double(index) / double(m_request.frames.size()); }
+    LightmapParams light_at(size_t index) const;
+
+    const Request& m_request;
+    SceneLight m_light;
+    std::vector<std::unique_ptr<LitObject>> m_objects;
+    std::unique_ptr<LitObject> m_ground;
+    // The objects' own rotation in the world, where the camera stands and the ground is level. All else is in the
+    // objects' space.
+    Rotation m_pose;
+    Subject m_subject;
+    Camera m_camera;
+    FrameScene m_scene;
+    // What the objects are lit with now: a frame is lit once for all that is rendered of it.
+    size_t m_lit_index = ~size_t(0);
+    std::string m_lit_model;
+};
+
+} // namespace vmlight::frames

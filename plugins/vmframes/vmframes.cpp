@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shoot.h"
+
+#include <vmlight/base/frames.h>
+#include <vmlight/cli/main.h>
+
+#include <OpenImageIO/strutil.h>
+
+using namespace vmlight;
+using namespace vmlight::frames;
+
+namespace {
+
+constexpr const char* kExamples
+    = "  vmframes shoe.glb studio.hdr -o shoe.png\n"
+      "  vmframes shoe.glb studio.hdr -o shoe.####.png --frames 1-48 --turntable --ground white\n"
+      "  vmframes hero.obj studio.hdr --vismap hero_vismap.exr --layers albedo,lit,depth -o hero.exr\n"
+      "  vmframes hero.obj --texture 'hero_lit.<UDIM>.exr' -o hero.png\n"
+      "  vmframes hero.obj sky.hdr --side-by-side ao,paper,lobe,reference -o compared.png";
+
+StageMain::Take store_models(std::vector<std::string>& dst)
+{
+    return [&dst](OIIO::string_view text, std::string&) {
+        dst = OIIO::Strutil::splits(text, ",");
+        return true;
+    };
+}
+
+} // namespace
+
+int main(int argc, const char** argv)
+{
+    Request request;
+    StageMain stage("vmframes", "render pictures of a mesh, lit by its visibility map", { "MESH", "[ENVIRONMENT]" },
+                    kExamples, OutputKind::Picture);
+    stage.group("Output:");
+    stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o", [&](auto text, auto& error) {
+        request.has_frames = true;
+        return parse_frames(request.frames, std::string(text), error);
+    });
+    stage.params("Output:", request.render);
+    stage.params("Output:", request.sheet);
+    stage.params("Camera:", request.camera);
+    stage.params("Camera:", request.turn);
+    stage.params("Scene:", request.stage);
+    stage.group("Scene:");
+    stage.option("vismap", "FILE", "Visibility map of the mesh, instead of baking one", request.object.vismap);
+    stage.option("texture", "FILE", "Light to show on the mesh as it is: a lit texture, .tx, <UDIM> or a .lightmap",
+                 request.object.texture);
+    stage.group("Light:");
+    stage.option("model", "NAME", "Shading model, as makelightmap has it, or reference: traced [auto]",
+                 request.light.model);
+    stage.option("wipe", "A,B", "Show two models, one to the left and one to the right",
+                 store_models(request.sheet.wipe));
+    stage.option("side_by_side", "A,B,...", "Show several models side by side, such as ao,paper,lobe,reference",
+                 store_models(request.sheet.side_by_side));
+    stage.option("exposure", "-64..64|auto",
+                 "Exposure in stops; auto: brings the mean luminance of the objects in the first frame to 0.18 [0]",
+                 [&](OIIO::string_view text, std::string& error) {
+                     request.is_auto_exposed = text == "auto";
+                     return request.is_auto_exposed || set_param(request.light, "exposure", text, error);
+                 });
+    stage.params("Light:", request.light);
+    stage.params("Light:", request.display);
+    stage.option("colorspace", "NAME", advanced("Colour space of the environment; default: from its name and metadata"),
+                 request.filter.colorspace);
+    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), request.filter.colorconfig);
+    stage.option("layer", "TEXT", advanced("Layer or part of the environment to read, such as ViewLayer.Combined"),
+                 request.filter.layer);
+    stage.option("layout", "auto|latlong", advanced("latlong: the environment is lat-long, whatever its shape [auto]"),
+                 [&](auto text, auto& error) { return set_param(request.filter, "layout", text, error); });
+    stage.params("Light:", request.filter.cfem_params, "cfem_");
+    stage.params("Reference:", request.reference, "reference_");
+    stage.params("Visibility map:", request.object.map.vismap_params);
+    stage.params("Mesh:", request.object.map.selection);
+    stage.params("Mesh:", request.object.map.mesh_params);
+    stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
+                 [&](auto, auto&) { return request.object.map.unwrap = true; });
+    stage.check([&] {
+        request.object.map.mesh = stage.operands()[0];
+        request.environment = stage.operands().size() > 1 ? stage.operands()[1] : "";
+        request.output = stage.output();
+        return request_fault(request);
+    });
+    return stage.run(argc, argv, [&](std::string& error) { return shoot(request, stage, error); });
+}
