@@ -65,7 +65,7 @@ void DrawPass::begin(const Backdrop& backdrop, const View& view) const
     draw_whole_viewport();
 }
 
-void DrawPass::draw(const MeshBuffers& mesh, const Subject& subject, const LitTexture& lit, Show show,
+void DrawPass::draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject, const LitTexture& lit, Show show,
                     const View& view, int first, int end) const
 {
     m_mesh.use();
@@ -82,7 +82,13 @@ void DrawPass::draw(const MeshBuffers& mesh, const Subject& subject, const LitTe
     glDepthFunc(GL_LESS);
     glEnable(GL_SCISSOR_TEST);
     glScissor(first, 0, std::max(0, end - first), view.height);
-    mesh.draw();
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    for (const MeshPart& part : mesh.parts()) {
+        materials.set(m_mesh, part.material);
+        (materials.is_blended(part.material) ? glEnable : glDisable)(GL_BLEND);
+        mesh.draw(part);
+    }
+    glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
 }
 

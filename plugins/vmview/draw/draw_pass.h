@@ -4,6 +4,7 @@
 
 #include "../gl/program.h"
 #include "../relight/lit_texture.h"
+#include "material_textures.h"
 #include "mesh_buffers.h"
 
 #include <vmlight/frame/camera.h>
@@ -18,7 +19,8 @@ enum class Show
 {
     lit = 0,
     checker = 1,
-    density = 2
+    density = 2,
+    colors = 3 ///< the texture as it is, without materials
 };
 
 /// An environment to be seen: a lat-long map with its mip levels, and how it is turned.
@@ -47,7 +49,7 @@ public:
     /// Start a picture in the bound framebuffer, which has a depth buffer.
     void begin(const Backdrop& backdrop, const View& view) const;
     /// Draw the mesh into it, in columns [`first`, `end`) only.
-    void draw(const MeshBuffers& mesh, const Subject& subject, const LitTexture& lit, Show show, const View& view,
+    void draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject, const LitTexture& lit, Show show, const View& view,
               int first, int end) const;
     /// Add `share` of `picture` to the bound framebuffer.
     void accumulate(const Texture& picture, double share) const;

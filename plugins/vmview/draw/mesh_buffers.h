@@ -4,33 +4,48 @@
 
 #include "../gl/objects.h"
 
+#include <vmlight/frame/frame_scene.h>
 #include <vmlight/mesh/mesh.h>
 
+#include <vector>
+
 namespace vmlight::view {
+
+/// Triangles that are drawn together.
+struct MeshPart
+{
+    int material = -1; ///< of the mesh's; -1: white
+    GLsizei first = 0, count = 0; ///< indices
+};
 
 class MeshBuffers
 {
 public:
     MeshBuffers() = default;
-    /// @param centre   near the mesh: positions are kept in float relative to it
-    MeshBuffers(const Mesh& mesh, const Imath::V3d& centre);
+    /// @param centre       near the mesh: positions are kept in float relative to it
+    /// @param udim         the tile whose lower left corner is (0, 0) of the texture
+    /// @param materials    of the mesh; empty: white
+    /// @param material_uvs as FrameSurface has them
+    MeshBuffers(const Mesh& mesh, const Imath::V3d& centre, int udim, const std::vector<SurfaceMaterial>& materials,
+                const std::vector<std::vector<Imath::V2f>>& material_uvs);
 
     const Imath::V3d& centre() const { return m_centre; }
     /// Texture coordinates beside the mesh's surface area: the square root of how much of the texture a unit square
     /// covers on average.
     double texture_share() const { return m_texture_share; }
-    /// Draw all triangles, from both sides.
-    void draw() const;
+    const std::vector<MeshPart>& parts() const { return m_parts; }
+    /// Draw the triangles of a part, from both sides.
+    void draw(const MeshPart& part) const;
 
 private:
     Imath::V3d m_centre { 0 };
     double m_texture_share = 0;
     VertexArray m_vertices;
     Buffer m_attributes, m_triangles;
-    GLsizei m_count = 0;
+    std::vector<MeshPart> m_parts;
 };
 
 /// The attributes' names, in order.
-constexpr const char* kMeshAttributes[] = { "position", "st", "normal" };
+constexpr const char* kMeshAttributes[] = { "position", "st", "material_st" };
 
 } // namespace vmlight::view

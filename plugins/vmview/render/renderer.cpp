@@ -17,13 +17,18 @@ void Renderer::bind_no_vertices() const
     glBindVertexArray(m_no_vertices.get());
 }
 
-bool Renderer::set_mesh(MeshPointer mesh, std::string&)
+bool Renderer::set_mesh(MeshPointer mesh, bool with_materials, std::string& error)
 {
     m_mesh = std::move(mesh);
     m_buffers.reset();
-    if (m_mesh)
-        m_buffers = std::make_unique<MeshBuffers>(*m_mesh->mesh, m_mesh->subject.centre());
-    return true;
+    m_materials = MaterialTextures();
+    if (!m_mesh)
+        return true;
+    static const std::vector<SurfaceMaterial> kWhite;
+    const std::vector<SurfaceMaterial>& materials = with_materials ? m_mesh->materials : kWhite;
+    m_buffers = std::make_unique<MeshBuffers>(*m_mesh->mesh, m_mesh->subject.centre(),
+                                              m_mesh->recipe.vismap_params.udim, materials, m_mesh->material_uvs);
+    return m_materials.load(materials, error);
 }
 
 bool Renderer::set_map(MapPointer map, std::string& error)
@@ -82,9 +87,9 @@ void Renderer::draw(const PictureParams& params, const Framebuffer& target) cons
         return;
     const int width = params.view.width;
     const int wiped = int(std::lround(std::clamp(params.wipe, 0.0, 1.0) * width));
-    m_draw.draw(*m_buffers, m_mesh->subject, m_lit[0], params.show, params.view, 0, wiped);
+    m_draw.draw(*m_buffers, m_materials, m_mesh->subject, m_lit[0], params.show, params.view, 0, wiped);
     if (wiped < width)
-        m_draw.draw(*m_buffers, m_mesh->subject, m_lit[1], params.show, params.view, wiped, width);
+        m_draw.draw(*m_buffers, m_materials, m_mesh->subject, m_lit[1], params.show, params.view, wiped, width);
 }
 
 void Renderer::accumulate(const Framebuffer& sum, const Texture& picture, double share) const

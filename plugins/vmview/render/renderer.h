@@ -35,7 +35,7 @@ public:
     bool build(std::string& error);
 
     // What there is; nullptr takes it away. False, with the reason in `error`, if the driver has no room for it.
-    bool set_mesh(MeshPointer mesh, std::string& error);
+    bool set_mesh(MeshPointer mesh, bool with_materials, std::string& error);
     bool set_map(MapPointer map, std::string& error);
     bool set_light(LightPointer light, std::string& error);
     const MeshPointer& mesh() const { return m_mesh; }
@@ -65,6 +65,7 @@ private:
     MapPointer m_map;
     LightPointer m_light;
     std::unique_ptr<MeshBuffers> m_buffers;
+    MaterialTextures m_materials;
     MapTextures m_map_textures;
     LightTextures m_light_textures;
     LitTexture m_panorama;

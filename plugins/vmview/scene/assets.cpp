@@ -32,15 +32,12 @@ MeshPointer read_mesh_asset(VismapRecipe recipe, bool has_map, const std::string
                             const std::string& colorconfig, const MakeOptions& options, std::string& error)
 {
     auto asset = std::make_shared<MeshAsset>();
-    std::shared_ptr<Mesh> mesh;
-    const auto say = [&](const std::string& line) {
-        asset->is_unwrapped = asset->is_unwrapped || !recipe.unwrap; // all that it says
-        options.report(line);
-    };
-    MakeOptions telling = options;
-    telling.say = say;
-    if (!read_object_mesh(mesh, asset->material_uvs, recipe, !has_map, telling, error))
+    ObjectMesh object;
+    if (!read_object_mesh(object, recipe, !has_map, options, error))
         return nullptr;
+    const std::shared_ptr<Mesh> mesh = object.mesh;
+    asset->is_unwrapped = object.is_unwrapped;
+    asset->material_uvs = std::move(object.material_uvs);
     const std::vector<int> tiles = mesh_udims(*mesh);
     if (!recipe.udim_given && !tiles.empty())
         recipe.vismap_params.udim = tiles[0];
@@ -51,7 +48,7 @@ MeshPointer read_mesh_asset(VismapRecipe recipe, bool has_map, const std::string
         return nullptr;
     asset->recipe = std::move(recipe);
     asset->subject.add(*mesh);
-    asset->mesh = std::move(mesh);
+    asset->mesh = mesh;
     asset->scene = std::move(scene);
     return asset;
 }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 in vec3 position; // relative to the mesh's centre
 in vec2 st; // v down, as images are stored
-in vec3 normal;
+in vec2 material_st; // v up
 uniform vec2 depth_range; // nearest and farthest depth of the mesh
 
 out vec3 seen; // to the right, up, and depth, from the eye
 out vec2 texture_st;
-out vec3 surface_normal;
+out vec2 material_uv;
 
 void main()
 {
     vec3 from_eye = position - eye;
     seen = vec3(dot(from_eye, right), dot(from_eye, up), dot(from_eye, forward));
     texture_st = st;
-    surface_normal = normal;
+    material_uv = material_st;
     float w = is_orthographic ? 1.0 : seen.z;
     vec2 shift = vec2(-2.0, 2.0) * offset / size;
     // Depth is 1 - near / z in perspective, so that floats resolve near and far alike; w times that is linear.
