@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace vmlight::view {
@@ -41,6 +42,7 @@ bool bench_frames(const Assets& assets, const Request& request, StageMain& stage
     PictureSum sum;
     sum.start(size.width, size.height, 1, request.render.filter);
     std::vector<double> times;
+    double relight = 0, draw = 0; // of all frames
     // One more than asked for: the first compiles.
     for (int i = 0; i <= request.view.bench; ++i) {
         const Stopwatch timer;
@@ -50,14 +52,21 @@ bool bench_frames(const Assets& assets, const Request& request, StageMain& stage
             || !show_surface(renderer, 0, request.view.show, light, error)
             || !lightmap_rotation(params.to_environment, light, error))
             return false;
+        glFinish();
+        const double relit = timer();
         params.view.camera = turned(camera, turn, assets.mesh->subject.centre());
         sum.start(size.width, size.height, 1, request.render.filter);
         sum.add(renderer, params);
+        glFinish();
+        const double drawn = timer();
         screen.bind();
         display.run(sum.mean(), float(std::exp2(request.light.exposure)), size.width, size.height);
         glFinish();
-        if (i > 0)
+        if (i > 0) {
             times.push_back(1000 * timer());
+            relight += 1000 * relit;
+            draw += 1000 * (drawn - relit);
+        }
     }
     error = gl_fault();
     if (!error.empty())
@@ -65,8 +74,11 @@ bool bench_frames(const Assets& assets, const Request& request, StageMain& stage
     std::sort(times.begin(), times.end());
     const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const size_t p99 = std::min(times.size() - 1, size_t(std::ceil(0.99 * double(times.size()))) - 1);
-    stage.say(format("bench: {} frames of {}x{}, relit and drawn: median {:.2f} ms, p99 {:.2f} ms ({})", times.size(),
-                     size.width, size.height, times[times.size() / 2], times[p99], driver ? driver : "unknown"));
+    const double frames = double(times.size()), total = std::accumulate(times.begin(), times.end(), 0.0);
+    stage.say(format("bench: {} frames of {}x{}: median {:.2f} ms, p99 {:.2f} ms; mean of relighting {:.2f}, drawing "
+                     "{:.2f}, display {:.2f} ({})",
+                     times.size(), size.width, size.height, times[times.size() / 2], times[p99], relight / frames,
+                     draw / frames, (total - relight - draw) / frames, driver ? driver : "unknown"));
     return true;
 }
 

@@ -12,7 +12,7 @@ namespace vmlight {
 /// How far a lookup reaches: texture coordinates, and how they change from pixel to pixel.
 struct TextureFootprint
 {
-    Imath::V2d st, dx { 0 }, dy { 0 };
+    Imath::V2d st { 0 }, dx { 0 }, dy { 0 };
 };
 
 /// What is beyond [0, 1].

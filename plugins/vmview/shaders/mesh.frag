@@ -106,7 +106,9 @@ void main()
     } else {
         rgb = look_up(steps);
     }
-    if (isnan(texture_st.x) || isnan(texture_st.y))
+    // What has no UVs, or UVs in another UDIM tile, is black. Written so that NaN is outside.
+    vec2 uv = vec2(texture_st.x, 1.0 - texture_st.y);
+    if (!(all(greaterThanEqual(uv, vec2(0))) && all(lessThanEqual(uv, vec2(1.0 + 1e-6)))))
         rgb = vec3(0);
     color = vec4(rgb * surface.a, surface.a);
 }
