@@ -36,8 +36,7 @@ bool bench_frames(const Assets& assets, const Request& request, StageMain& stage
         || !config.open(request.filter.colorconfig, error) || !config.settle(choice, error)
         || !display.build(config.processor(choice, error), error))
         return false;
-    const Camera camera
-        = place_camera(request.camera, assets.mesh->subject, double(size.width) / size.height, true);
+    const Camera camera = place_camera(request.camera, assets.mesh->subject, double(size.width) / size.height, true);
     const Framebuffer screen(size.width, size.height, GL_RGBA8, false);
     PictureSum sum;
     sum.start(size.width, size.height, 1, request.render.filter);

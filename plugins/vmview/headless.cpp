@@ -11,10 +11,13 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/image/color.h>
 #include <vmlight/image/picture_file.h>
+#include <vmlight/lightmap/light_level.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -41,6 +44,28 @@ bool frame_object(PictureParams& dst, const MeshAsset& mesh, const Request& requ
     return true;
 }
 
+// As vmframes measures: of a quarter of the size, what the object covers.
+double automatic_stops(const Renderer& renderer, PictureParams params, RenderParams render, const std::string& space,
+                       std::string& error)
+{
+    render.size = { std::max(1, render.size.width / 4), std::max(1, render.size.height / 4) };
+    render.spp = 1;
+    params.has_background = false;
+    OIIO::ImageBuf image;
+    if (!render_picture(image, renderer, params, render, error))
+        return 0;
+    OIIO::ImageSpec spec;
+    tag_scene_linear(spec, space);
+    const std::array<double, 3> weights = luminance_weights(spec);
+    double sum = 0, alpha = 0;
+    for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel) {
+        for (int c = 0; c < 3; ++c)
+            sum += weights[size_t(c)] * double(pixel[c]);
+        alpha += double(pixel[3]);
+    }
+    return sum > 0 ? std::clamp(std::log2(kMiddleGray * alpha / sum), -64.0, 64.0) : 0;
+}
+
 } // namespace
 
 bool render_headless(OIIO::ImageBuf& dst, const Assets& assets, const Request& request, std::string& error)
@@ -54,8 +79,7 @@ bool render_headless(OIIO::ImageBuf& dst, const Assets& assets, const Request& r
     const bool has_background = request.view.background == "environment";
     if (!renderer.build(error) || !renderer.set_mesh(assets.mesh, !request.view.white, error)
         || !renderer.set_map(assets.map, error) || !renderer.set_light(assets.light, error)
-        || !light_params(light, request.light, 0, error)
-        || !show_surface(renderer, 0, request.view.show, light, error)
+        || !light_params(light, request.light, 0, error) || !show_surface(renderer, 0, request.view.show, light, error)
         || !frame_object(params, *assets.mesh, request, error))
         return false;
     if (has_background && !assets.light->panorama) {
@@ -66,13 +90,17 @@ bool render_headless(OIIO::ImageBuf& dst, const Assets& assets, const Request& r
     }
     params.has_background = has_background;
     params.show = surface_show(request.view.show);
+    const std::string space = assets.light ? assets.light->light.space : "";
+    double stops = request.light.exposure;
+    if (request.is_auto_exposed)
+        stops = automatic_stops(renderer, params, request.render, space, error);
     if (!render_picture(dst, renderer, params, request.render, error)) {
         error = format("OpenGL: {}", error);
         return false;
     }
-    const float gain = float(std::exp2(request.light.exposure));
+    const float gain = float(std::exp2(stops));
     OIIO::ImageBufAlgo::mul(dst, dst, { gain, gain, gain, 1.0f });
-    const std::string space = assets.light ? assets.light->light.space : "";
+    dst.specmod().attribute("vmlight:exposure", float(stops));
     if (space.empty())
         dst.specmod().attribute("colorInteropID", "unknown");
     else

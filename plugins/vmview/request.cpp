@@ -11,10 +11,9 @@ namespace vmlight::view {
 std::string request_fault(const Request& request)
 {
     const ViewParams& view = request.view;
-    const bool draws_once = !request.output.empty() || view.headless || view.bench > 0;
     if (view.headless && request.output.empty() && view.bench == 0)
         return "--headless needs -o PICTURE, or --bench";
-    if (!draws_once)
+    if (request.has_window())
         return "";
     if (request.mesh.mesh.empty())
         return "MESH is missing; only a window opens without one";

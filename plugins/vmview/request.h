@@ -19,6 +19,7 @@ struct ViewParams
     bool white = false, headless = false;
     std::string show = "lit";
     int bench = 0;
+    bool gl_debug = false;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -40,6 +41,7 @@ struct ViewParams
         field("headless", headless, Flag {}, "Without a window or a display server; -o implies it");
         field("bench", bench, Range { 1, 100000, "none", 0 },
               advanced("Draw as many frames without a window, the object turning, and print the milliseconds of one"));
+        field("gl_debug", gl_debug, Flag {}, advanced("Let OpenGL check each call, and fail if one is wrong"));
     }
 };
 
@@ -55,7 +57,10 @@ struct Request
     ViewParams view;
     DisplayParams display;
     std::string output; ///< "": a window
-    bool size_given = false, model_given = false, display_given = false;
+    bool size_given = false, model_given = false, display_given = false, exposure_given = false;
+    bool is_auto_exposed = false;
+
+    bool has_window() const { return output.empty() && !view.headless && view.bench == 0; }
 };
 
 /// What is wrong with the request as a whole, or "".

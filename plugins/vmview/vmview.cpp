@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headless.h"
 #include "request.h"
+#include "ui/app.h"
 
 #include <vmlight/cli/main.h>
+
+#include <utility>
 
 using namespace vmlight;
 using namespace vmlight::view;
@@ -20,11 +23,12 @@ int main(int argc, const char** argv)
 {
     Request request;
     request.render.size = { 1280, 720 };
-    StageMain stage("vmview", "look at a mesh, lit by its visibility map, while it turns", { "[MESH]", "[ENVIRONMENT]" },
-                    kExamples, OutputKind::OptionalPicture);
+    StageMain stage("vmview", "look at a mesh, lit by its visibility map, while it turns",
+                    { "[MESH]", "[ENVIRONMENT]" }, kExamples, OutputKind::OptionalPicture);
     stage.params("Picture:", request.view);
     stage.group("Picture:");
-    stage.option("size", "WxH", "Width and height of the window or picture in pixels; one number for a square [1280x720]",
+    stage.option("size", "WxH",
+                 "Width and height of the window or picture in pixels; one number for a square [1280x720]",
                  [&](auto text, auto& error) {
                      request.size_given = true;
                      return set_param(request.render, "size", text, error);
@@ -33,10 +37,28 @@ int main(int argc, const char** argv)
                  [&](auto text, auto& error) { return set_param(request.render, "spp", text, error); });
     stage.option("filter", "NAME", advanced("Pixel filter, as vmframes has it [blackman-harris]"),
                  [&](auto text, auto& error) { return set_param(request.render, "filter", text, error); });
-    stage.params("Picture:", request.display);
+    for (const auto& [name, help] :
+         { std::pair { "display", "Display of the OCIO config; default: the last one, or the config's" },
+           std::pair { "view", "View of that display; default: likewise" },
+           std::pair { "look", "Look in place of those of the view" } })
+        stage.option(name, "TEXT", help, [&request, name = std::string(name)](auto text, auto& error) {
+            request.display_given = true;
+            return set_param(request.display, name, text, error);
+        });
     stage.params("Camera:", request.camera);
     stage.group("Light:");
     stage.option("vismap", "FILE", "Visibility map of the mesh, instead of baking one", request.vismap);
+    stage.option("model", "NAME", "Shading model, as makelightmap has it [auto]", [&](auto text, auto& error) {
+        request.model_given = true;
+        return set_param(request.light, "model", text, error);
+    });
+    stage.option("exposure", "-64..64|auto",
+                 "Exposure in stops; auto: brings the mean luminance of the object to 0.18 [0; in a window auto]",
+                 [&](OIIO::string_view text, std::string& error) {
+                     request.is_auto_exposed = text == "auto";
+                     request.exposure_given = !request.is_auto_exposed;
+                     return request.is_auto_exposed || set_param(request.light, "exposure", text, error);
+                 });
     stage.params("Light:", request.light);
     stage.option("colorspace", "NAME", advanced("Colour space of the environment; default: from its name and metadata"),
                  request.filter.colorspace);
@@ -58,5 +80,8 @@ int main(int argc, const char** argv)
         request.output = stage.output();
         return request_fault(request);
     });
-    return stage.run(argc, argv, [&](std::string& error) { return run_headless(request, stage, error); });
+    return stage.run(argc, argv, [&](std::string& error) {
+        return request.has_window() ? run_window(request, stage.make_options().threads, error)
+                                    : run_headless(request, stage, error);
+    });
 }

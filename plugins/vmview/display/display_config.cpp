@@ -94,6 +94,11 @@ bool DisplayConfig::settle(DisplayChoice& choice, std::string& error) const
         && (choice.look.empty() || fail_unless_known("look", choice.look, looks(), error));
 }
 
+OCIO::ConstProcessorRcPtr DisplayConfig::no_change() const
+{
+    return m_config->getProcessor(OCIO::MatrixTransform::Create());
+}
+
 OCIO::ConstProcessorRcPtr DisplayConfig::processor(const DisplayChoice& choice, std::string& error) const
 {
     try {

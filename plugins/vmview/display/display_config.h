@@ -39,6 +39,9 @@ public:
     /// nullptr, with the reason in `error`, if the config cannot make it.
     OCIO_NAMESPACE::ConstProcessorRcPtr processor(const DisplayChoice& choice, std::string& error) const;
 
+    /// What changes no colour: for pictures of data.
+    OCIO_NAMESPACE::ConstProcessorRcPtr no_change() const;
+
 private:
     OCIO_NAMESPACE::ConstConfigRcPtr m_config;
 };

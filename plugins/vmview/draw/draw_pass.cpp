@@ -65,8 +65,8 @@ void DrawPass::begin(const Backdrop& backdrop, const View& view) const
     draw_whole_viewport();
 }
 
-void DrawPass::draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject, const LitTexture& lit, Show show,
-                    const View& view, int first, int end) const
+void DrawPass::draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject,
+                    const LitTexture& lit, Show show, const View& view, int first, int end) const
 {
     m_mesh.use();
     set_view(m_mesh, view, mesh.centre());

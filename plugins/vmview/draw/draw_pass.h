@@ -49,8 +49,8 @@ public:
     /// Start a picture in the bound framebuffer, which has a depth buffer.
     void begin(const Backdrop& backdrop, const View& view) const;
     /// Draw the mesh into it, in columns [`first`, `end`) only.
-    void draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject, const LitTexture& lit, Show show, const View& view,
-              int first, int end) const;
+    void draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject, const LitTexture& lit,
+              Show show, const View& view, int first, int end) const;
     /// Add `share` of `picture` to the bound framebuffer.
     void accumulate(const Texture& picture, double share) const;
 

@@ -10,7 +10,10 @@ namespace vmlight::view {
 
 Show surface_show(const std::string& word)
 {
-    return word == "checker" ? Show::checker : word == "density" ? Show::density : word == "lit" ? Show::lit : Show::colors;
+    return word == "checker" ? Show::checker
+        : word == "density"  ? Show::density
+        : word == "lit"      ? Show::lit
+                             : Show::colors;
 }
 
 bool is_light(const std::string& word)

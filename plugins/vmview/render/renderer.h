@@ -50,6 +50,12 @@ public:
     /// R, G, B of a texture, times weight, and the weight.
     std::vector<float> read_texture(int slot) const { return m_lit[size_t(slot)].read(); }
 
+    /// The same of one texel.
+    void read_texel(int slot, int x, int y, float* rgba) const
+    {
+        m_lit[size_t(slot)].level(0).read_rect(x, y, 1, 1, rgba);
+    }
+
     /// Draw one sample of each pixel into `target`, of the view's size with a depth buffer.
     void draw(const PictureParams& params, const Framebuffer& target) const;
     /// Add `share` of one picture to another.

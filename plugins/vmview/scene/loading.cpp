@@ -41,8 +41,7 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
 {
     std::string space;
     if (!request.environment.empty()) {
-        dst.light
-            = read_light_asset(request.environment, request.filter, request.view.background_blur, options, error);
+        dst.light = read_light_asset(request.environment, request.filter, request.view.background_blur, options, error);
         if (!dst.light)
             return false;
         space = dst.light->light.space;

@@ -17,8 +17,8 @@ VismapParams bake_params(const VismapParams& asked, const std::string& model);
 
 /// Bake the whole map of `mesh` with `samples` rays per texel. nullptr, with the reason in `error`: "interrupted" if
 /// `progress` stopped it.
-MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, int threads,
-                    const Progress& progress, std::string& error);
+MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, int threads, const Progress& progress,
+                    std::string& error);
 
 /// All that a picture needs, read or baked one after the other.
 struct Assets
