@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 usage() {
     cat <<'END'
 usage: ./bootstrap.sh demo|test [CMAKE_ARGUMENT...]
-  demo   build the three executables, light the bundled mesh with them, write pictures to demo-out/
+  demo   build the executables, light and render the bundled mesh with them, write pictures to demo-out/
   test   build everything and run the test suite
 Further arguments are passed to cmake: -DVMLIGHT_WERROR=ON
 END
@@ -65,7 +65,7 @@ configured=$(cmake --preset release "$@" 2>&1) || { echo "$configured" >&2; exit
 case $mode in
 demo)
     say "building"
-    cmake --build --preset release -j "$jobs" --target makevismap makecfem makelightmap
+    cmake --build --preset release -j "$jobs" --target makevismap makecfem makelightmap vmframes
     say "running the demo"
     bench/demo.sh build/release demo-out
     ;;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Lights a bundled mesh with a bundled studio, using the three executables, and makes pictures of the results.
+# Lights a bundled mesh with a bundled studio, using the executables, and makes pictures of the results.
 #   bench/demo.sh BUILD_FOLDER OUTPUT_FOLDER
 set -euo pipefail
 [[ $# == 2 ]] || { echo "usage: $0 BUILD_FOLDER OUTPUT_FOLDER" >&2; exit 2; }
@@ -68,8 +68,20 @@ make_pictures() {
 }
 stage "pictures" make_pictures
 
+# The lit object itself: a turntable, and the models beside the traced truth.
+frames() {
+    "$bin/vmframes" "$data/$mesh.obj" "$data/$environment.hdr" --colorconfig "$config" --view "ACES 1.0 - SDR Video" --quiet \
+        --resolution $resolution --exposure $stops "$@"
+}
+stage "12 frames of a turntable" frames -o "$out/turntable.####.png" --frames 1-12 --turntable --ground white --size 384 \
+    --contact-sheet "$out/turntable.png" --keep "$out/kept"
+stage "ao, paper, lobe, cells and the traced truth" frames -o "$out/comparison.png" \
+    --side-by-side ao,paper,lobe,cells,reference --size 384 --azimuth 40 --reference-samples 256
+
 cat <<END
 Pictures in $out
+  turntable.png           the lit object from all sides, on a white ground; turntable.*.png are the frames
+  comparison.png          from left to right: ambient occlusion, the paper's model, lobe, cells, the traced truth
   contact_sheet.png       all of them. Top: visibility, directions, studio, filtered studio.
                           Bottom: the texture of the mesh, lit at ${angles[*]} degrees
   ${mesh}_lit_*.exr          the lit textures, scene-linear ACEScg

@@ -9,7 +9,6 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/frames.h>
 #include <vmlight/base/output_file.h>
-#include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/image/picture_file.h>
@@ -72,7 +71,6 @@ public:
     {
         if (!m_shot.open(m_options, error) || !find_exposure(error))
             return false;
-        const Stopwatch timer;
         for (size_t i = 0; i < m_request.frames.size(); ++i) {
             ImageBuf frame;
             if (!make_frame(frame, i, error) || !finish_frame(frame, i, error))
@@ -80,10 +78,11 @@ public:
             if (i == 0)
                 m_options.say = [](const std::string&) {}; // the rest have nothing new to say
         }
-        const double seconds = timer();
-        m_stage.say(format("render: {} of {}x{} in {:.2f} s",
+        const double frames = double(m_request.frames.size());
+        m_stage.say(format("render: {} of {}x{}; a frame took {:.3f} s to light and {:.3f} s to render",
                            count_text(int64_t(m_request.frames.size()), "frame", "frames"), m_request.render.size.width,
-                           m_request.render.size.height, seconds));
+                           m_request.render.size.height, m_shot.light_seconds() / frames,
+                           m_shot.render_seconds() / frames));
         return write_films(error) && (m_request.sheet.keep.empty() || keep_maps(m_shot, m_request, error));
     }
 

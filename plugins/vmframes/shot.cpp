@@ -2,7 +2,7 @@
 #include "shot.h"
 
 #include <vmlight/base/format.h>
-#include <vmlight/base/frames.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/frame/ground.h>
 #include <vmlight/image/color.h>
 #include <vmlight/lightmap/light_level.h>
@@ -24,6 +24,14 @@ bool needs_stack(const std::vector<std::string>& models)
         const ModelEntry* entry = find_model_entry(model);
         return model == "auto" || (entry && entry->light != ModelLight::cfem);
     });
+}
+
+// Position, right, up and back in the space of the mesh, and half the height of the picture.
+std::string camera_text(const Camera& camera)
+{
+    const auto text = [](const Imath::V3d& v) { return format("({}, {}, {})", v.x, v.y, v.z); };
+    return format("({}, {}, {}, {}, {})", text(camera.position), text(camera.right), text(camera.up),
+                  text(-camera.forward), camera.half_height);
 }
 
 std::vector<Mesh> copies(const std::vector<const Mesh*>& meshes)
@@ -181,9 +189,10 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
     if (m_request.environment.empty() || (m_lit_index == index && m_lit_model == model))
         return true;
     LightmapParams params = light_at(index);
-    params.model = model;
+    params.model = "auto"; // the rotation is that of every model
     if (!lightmap_rotation(m_scene.background.rotation, params, error))
         return false;
+    params.model = model;
     size_t i = 0;
     std::vector<LitObject*> all;
     for (const auto& object : m_objects)
@@ -216,14 +225,27 @@ bool Shot::render_at(OIIO::ImageBuf& dst, size_t index, const RenderParams& para
 bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const MakeOptions& options,
                   std::string& error)
 {
-    if (!light_all(index, model, options, error) || !render_at(dst, index, m_request.render, options, error))
+    if (!light_all(index, model, options, error))
         return false;
+    const Stopwatch timer;
+    if (!render_at(dst, index, m_request.render, options, error))
+        return false;
+    m_render_seconds += timer();
     if (m_light.space.empty())
         dst.specmod().attribute("colorInteropID", "unknown");
     else
         tag_scene_linear(dst.specmod(), m_light.space);
     dst.specmod().attribute("vmlight:model", model);
+    dst.specmod().attribute("vmlight:camera", camera_text(camera_at(index)));
     return true;
+}
+
+double Shot::light_seconds() const
+{
+    double seconds = m_ground ? m_ground->light_seconds() : 0;
+    for (const auto& object : m_objects)
+        seconds += object->light_seconds();
+    return seconds;
 }
 
 bool Shot::measure(double& mean, size_t index, const std::string& model, const MakeOptions& options, std::string& error)
@@ -236,8 +258,12 @@ bool Shot::measure(double& mean, size_t index, const std::string& model, const M
     const bool is_visible = m_scene.background.is_visible;
     const bool lit = light_all(index, model, options, error);
     m_scene.background.is_visible = false;
+    if (m_ground)
+        m_scene.surfaces.back().opacity = 0;
     const bool rendered = lit && render_at(image, index, small, options, error);
     m_scene.background.is_visible = is_visible;
+    if (m_ground)
+        m_scene.surfaces.back().opacity = 1;
     if (!rendered)
         return false;
     OIIO::ImageSpec spec;

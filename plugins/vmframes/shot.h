@@ -36,6 +36,10 @@ public:
     /// small.
     bool measure(double& mean, size_t index, const std::string& model, const MakeOptions& options, std::string& error);
 
+    /// Seconds spent so far: lighting objects and ground, without baking, and in render().
+    double light_seconds() const;
+    double render_seconds() const { return m_render_seconds; }
+
     /// Interop id of the space of the light.
     const std::string& space() const { return m_light.space; }
     /// The objects, without the ground.
@@ -67,6 +71,7 @@ private:
     // What the objects are lit with now: a frame is lit once for all that is rendered of it.
     size_t m_lit_index = ~size_t(0);
     std::string m_lit_model;
+    double m_render_seconds = 0;
 };
 
 } // namespace vmlight::frames

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 const std::map<std::string, Main> kMains { { "makevismap", makevismap_main },
                                            { "makecfem", makecfem_main },
                                            { "makelightmap", makelightmap_main },
-                                           { "vmcost", vmcost_main } };
+                                           { "vmcost", vmcost_main },
+                                           { "vmframes", vmframes_main } };
 
 // What mains do to a process that is theirs.
 class ProcessState

@@ -12,7 +12,7 @@ import unittest
 
 BIN = os.environ["VMLIGHT_BIN"]
 SHARE = os.environ["VMLIGHT_SHARE"]
-TOOLS = ["makevismap", "makecfem", "makelightmap", "vmcost"]
+TOOLS = ["makevismap", "makecfem", "makelightmap", "vmcost", "vmframes"]
 
 
 def path(kind, tool):

@@ -8,3 +8,4 @@ int makevismap_main(int argc, const char** argv);
 int makecfem_main(int argc, const char** argv);
 int makelightmap_main(int argc, const char** argv);
 int vmcost_main(int argc, const char** argv);
+int vmframes_main(int argc, const char** argv);

@@ -48,8 +48,9 @@ void Subject::add(const Mesh& mesh, const Rotation& pose)
     }
 }
 
-// Points whose hull holds the subject in every position of a turn: at some heights, the outermost circle.
-void Subject::rings(std::vector<V3d>& dst) const
+// Points whose hull holds the subject in every position of a turn: at some heights, the outermost circle. Its corners
+// are where they are as seen from the camera, so that all cameras of one height are equally far.
+void Subject::rings(std::vector<V3d>& dst, double azimuth) const
 {
     std::array<double, kHeights> radius {};
     const V3d middle = centre();
@@ -62,7 +63,7 @@ void Subject::rings(std::vector<V3d>& dst) const
     for (int bin = 0; bin < kHeights; ++bin)
         for (int end = 0; end < 2 && radius[bin] > 0; ++end)
             for (int k = 0; k < kAngles; ++k) {
-                const double angle = 2 * kRadians * 180 * k / kAngles, r = radius[bin] * outside;
+                const double angle = 2 * kRadians * 180 * k / kAngles + azimuth * kRadians, r = radius[bin] * outside;
                 dst.emplace_back(middle.x + r * std::sin(angle), m_low.y + (bin + end) * step,
                                  middle.z + r * std::cos(angle));
             }
@@ -85,7 +86,7 @@ Camera place_camera(const CameraParams& params, const Subject& subject, double a
         target = V3d(params.look_at[0], params.look_at[1], params.look_at[2]);
     std::vector<V3d> outline;
     if (turns)
-        subject.rings(outline);
+        subject.rings(outline, params.azimuth);
     const std::vector<V3d>& points = turns ? outline : subject.m_points;
 
     const double tangent = std::tan(0.5 * params.fov * kRadians);

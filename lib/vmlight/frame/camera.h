@@ -78,7 +78,7 @@ public:
 
 private:
     friend Camera place_camera(const CameraParams&, const Subject&, double, bool);
-    void rings(std::vector<Imath::V3d>& dst) const;
+    void rings(std::vector<Imath::V3d>& dst, double azimuth) const;
 
     Imath::V3d m_low { HUGE_VAL }, m_high { -HUGE_VAL };
     std::vector<Imath::V3d> m_points;

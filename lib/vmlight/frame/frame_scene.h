@@ -39,6 +39,8 @@ struct FrameSurface
     std::vector<SurfaceMaterial> materials;
     /// For each UV set that materials ask for, three uvs a triangle. Sets that are not there are those of the mesh.
     std::vector<std::vector<Imath::V2f>> material_uvs;
+    /// Multiplied to what materials have.
+    double opacity = 1;
     /// Opacity falls to 0 from `fade_start` to `fade_end` away from `fade_centre`: of the ground. 0: does not.
     Imath::V3d fade_centre { 0 };
     double fade_start = 0, fade_end = 0;

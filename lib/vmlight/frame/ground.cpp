@@ -63,7 +63,7 @@ bool find_unshadowed(float& dst, const Mesh& ground, const SceneLight& light, co
     const float texel[7] { 1, b.x, b.y, b.z, n.x, n.y, n.z };
     open.setpixel(0, 0, texel);
     LightmapParams any = params;
-    any.model = "paper"; // where nothing is in the way, it is exact
+    any.model = "paper"; // where nothing is in the way, it is exact, and traced light has its limit there
     float rgb[3];
     if (!make_lightmap(lit, open, light.filtered, any)) {
         error = lit.geterror();

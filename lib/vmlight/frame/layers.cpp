@@ -2,6 +2,7 @@
 #include <vmlight/frame/layers.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vmlight {
 namespace {
@@ -72,8 +73,9 @@ const std::vector<FrameLayer>& frame_layers()
           0,
           false,
           [](const SeenPoint& seen, float* dst) {
-              dst[0] = float(seen.uv.st.x);
-              dst[1] = float(seen.uv.st.y);
+              // A triangle without UVs has none.
+              dst[0] = std::isfinite(seen.uv.st.x) ? float(seen.uv.st.x) : 0;
+              dst[1] = std::isfinite(seen.uv.st.y) ? float(seen.uv.st.y) : 0;
           } },
         { "depth",
           "along the view axis, in mesh units, unfiltered; 1e10 where nothing is",

@@ -140,6 +140,10 @@ bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOpt
             error = map.geterror();
             return false;
         }
+        if (report.covered == 0 && tiles.size() > 1) { // corners that reach into it by rounding
+            dst.erase(udim);
+            continue;
+        }
         const std::string tile = tiles.size() > 1 ? format(" tile {}", udim) : "";
         options.report(format("bake: {}{}: {} of {}x{}, {} rays each, in {:.2f} s", m_mesh->name, tile,
                               count_text(report.covered, "texel", "texels"), size.width, size.height, report.samples,
@@ -188,6 +192,7 @@ bool LitObject::light(const SceneLight& light, const LightmapParams& params, con
     const bool is_traced = params.model == kReferenceModel;
     if (is_traced && !prepare_scene(options, error))
         return false;
+    const Stopwatch timer;
     if (!m_light)
         m_surface.light = m_light = std::make_shared<TileTexture>(3);
     for (const auto& [udim, map] : m_maps[m_basis]) {
@@ -225,6 +230,7 @@ bool LitObject::light(const SceneLight& light, const LightmapParams& params, con
         if (used)
             *used = is_traced ? kReferenceModel : lightmap.spec().get_string_attribute("vmlight:model");
     }
+    m_light_seconds += timer();
     return true;
 }
 

@@ -65,6 +65,8 @@ public:
     bool light(const SceneLight& light, const LightmapParams& params, const ReferenceParams& reference,
                const MakeOptions& options, std::string& error, std::string* used = nullptr);
 
+    /// Seconds that light() took so far, without baking.
+    double light_seconds() const { return m_light_seconds; }
     /// Whether open() made the mesh's UVs.
     bool is_unwrapped() const { return m_is_unwrapped; }
     /// Whether light() has used maps.
@@ -94,6 +96,7 @@ private:
     std::shared_ptr<TileTexture> m_light;
     FrameSurface m_surface;
     bool m_is_unwrapped = false;
+    double m_light_seconds = 0;
 };
 
 } // namespace vmlight

@@ -54,7 +54,7 @@ void look_up_material(SeenPoint& seen)
     const Mesh& mesh = *seen.surface->mesh;
     if (!mesh.uvs.empty())
         seen.uv = seen.point.footprint(mesh_uvs(mesh, seen.triangle));
-    seen.alpha = fade(*seen.surface, seen.point.position);
+    seen.alpha = seen.surface->opacity * fade(*seen.surface, seen.point.position);
     if (seen.surface->materials.empty() || mesh.triangle_materials.empty())
         return;
     const SurfaceMaterial& material = seen.surface->materials[mesh.triangle_materials[seen.triangle]];

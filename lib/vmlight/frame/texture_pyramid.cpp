@@ -104,37 +104,48 @@ double TexturePyramid::level_of(const TextureFootprint& at) const
     return reach > 1 ? std::log2(reach) : 0;
 }
 
+// A number of channels that is known when compiling makes vectors of the sums.
+template <int Channels>
 void TexturePyramid::add_bilinear(float* sum, const Level& level, const Imath::V2d& st, float share) const
 {
     const Neighbours s = neighbours(st.x, level.width, m_wrap_s), t = neighbours(st.y, level.height, m_wrap_t);
-    const size_t stride = size_t(m_channels) + 1;
-    const auto add = [&](int x, int y, float weight) {
-        const float* texel = &level.texels[(size_t(y) * size_t(level.width) + size_t(x)) * stride];
-        for (size_t c = 0; c < stride; ++c)
-            sum[c] += texel[c] * weight;
-    };
-    add(s.low, t.low, share * (1 - s.share) * (1 - t.share));
-    add(s.high, t.low, share * s.share * (1 - t.share));
-    add(s.low, t.high, share * (1 - s.share) * t.share);
-    add(s.high, t.high, share * s.share * t.share);
+    const size_t stride = Channels ? size_t(Channels) + 1 : size_t(m_channels) + 1;
+    const auto texel
+        = [&](int x, int y) { return &level.texels[(size_t(y) * size_t(level.width) + size_t(x)) * stride]; };
+    const float *a = texel(s.low, t.low), *b = texel(s.high, t.low), *c = texel(s.low, t.high),
+                *d = texel(s.high, t.high);
+    const float wa = share * (1 - s.share) * (1 - t.share), wb = share * s.share * (1 - t.share);
+    const float wc = share * (1 - s.share) * t.share, wd = share * s.share * t.share;
+    for (size_t i = 0; i < stride; ++i)
+        sum[i] += a[i] * wa + b[i] * wb + c[i] * wc + d[i] * wd;
 }
 
-void TexturePyramid::lookup(const TextureFootprint& at, float* dst) const
+template <int Channels> void TexturePyramid::look_up(const TextureFootprint& at, float* dst) const
 {
     constexpr int kMostChannels = 16;
-    std::array<float, kMostChannels + 1> sum {};
+    std::array<float, (Channels ? Channels : kMostChannels) + 1> sum {};
     const int last = int(m_levels.size()) - 1;
     const double lambda = std::min(level_of(at), double(last));
     int level = int(lambda);
     const float blend = float(lambda - level);
-    add_bilinear(sum.data(), m_levels[level], at.st, 1 - blend);
+    add_bilinear<Channels>(sum.data(), m_levels[level], at.st, 1 - blend);
     if (blend > 0)
-        add_bilinear(sum.data(), m_levels[std::min(level + 1, last)], at.st, blend);
+        add_bilinear<Channels>(sum.data(), m_levels[std::min(level + 1, last)], at.st, blend);
     while (!(sum[m_channels] > 0) && level < last)
-        add_bilinear(sum.data(), m_levels[++level], at.st, 1);
+        add_bilinear<Channels>(sum.data(), m_levels[++level], at.st, 1);
     const float scale = sum[m_channels] > 0 ? 1 / sum[m_channels] : 0;
     for (int c = 0; c < m_channels; ++c)
         dst[c] = sum[c] * scale;
+}
+
+void TexturePyramid::lookup(const TextureFootprint& at, float* dst) const
+{
+    if (m_channels == 3)
+        look_up<3>(at, dst);
+    else if (m_channels == 4)
+        look_up<4>(at, dst);
+    else
+        look_up<0>(at, dst);
 }
 
 } // namespace vmlight

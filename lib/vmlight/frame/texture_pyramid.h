@@ -39,6 +39,7 @@ public:
     };
 
     TexturePyramid() = default;
+    /// @param channels at most 16
     /// @param pixels   `channels` floats a texel, row 0 at t = 0
     /// @param weights  one a texel, in [0, 1]; nullptr: 1 everywhere
     TexturePyramid(int width, int height, int channels, const float* pixels, const float* weights,
@@ -57,7 +58,8 @@ public:
     void lookup(const TextureFootprint& at, float* dst) const;
 
 private:
-    void add_bilinear(float* sum, const Level& level, const Imath::V2d& st, float share) const;
+    template <int Channels> void add_bilinear(float* sum, const Level& level, const Imath::V2d& st, float share) const;
+    template <int Channels> void look_up(const TextureFootprint& at, float* dst) const;
 
     int m_channels = 0;
     TextureWrap m_wrap_s = TextureWrap::clamp, m_wrap_t = TextureWrap::clamp;

@@ -77,7 +77,7 @@ bool show_on_display(OIIO::ImageBuf& image, const DisplayParams& params, const s
         OIIO::ImageBufAlgo::parallel_image(color, nthreads, [&](OIIO::ROI roi) {
             for (OIIO::ImageBuf::Iterator<float> pixel(image, roi); !pixel.done(); ++pixel)
                 for (int c = 0; c < 3; ++c)
-                    pixel[c] = OIIO::linear_to_sRGB(std::clamp(float(pixel[c]), 0.0f, 1.0f));
+                    pixel[c] = std::clamp(OIIO::linear_to_sRGB(float(pixel[c])), 0.0f, 1.0f);
         });
         return true;
     }

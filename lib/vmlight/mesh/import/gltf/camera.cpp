@@ -10,21 +10,21 @@ namespace vmlight::gltf {
 
 using Imath::V3d;
 
-MeshCamera read_camera(const tinygltf::Model& model, const tinygltf::Node& node, const Imath::M44d& to_object)
+MeshCamera read_camera(const std::vector<CameraShape>& cameras, const tinygltf::Node& node,
+                       const Imath::M44d& to_object)
 {
-    if (node.camera < 0 || size_t(node.camera) >= model.cameras.size())
-        throw Error(
-            format("node \"{}\" has camera {}, but there are only {}", node.name, node.camera, model.cameras.size()));
-    const tinygltf::Camera& source = model.cameras[size_t(node.camera)];
+    if (node.camera < 0 || size_t(node.camera) >= cameras.size())
+        throw Error(format("node \"{}\" has camera {}, but there are only {}", node.name, node.camera, cameras.size()));
+    const CameraShape& source = cameras[size_t(node.camera)];
     MeshCamera camera;
     camera.name = source.name.empty() ? node.name : source.name;
     camera.is_orthographic = source.type == "orthographic";
     if (camera.is_orthographic) {
-        camera.half_height = std::abs(source.orthographic.ymag);
-        camera.aspect = std::abs(source.orthographic.xmag) / camera.half_height;
+        camera.half_height = std::abs(source.ymag);
+        camera.aspect = std::abs(source.xmag) / camera.half_height;
     } else {
-        camera.half_height = std::tan(0.5 * source.perspective.yfov);
-        camera.aspect = source.perspective.aspectRatio;
+        camera.half_height = std::tan(0.5 * source.yfov);
+        camera.aspect = source.aspect;
     }
     to_object.multVecMatrix(V3d(0), camera.position);
     V3d up, back;

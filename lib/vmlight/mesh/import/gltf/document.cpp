@@ -30,6 +30,8 @@ template <class T> T member(const json& object, const char* name, T otherwise)
         return found->is_string() ? found->get<T>() : otherwise;
     else if constexpr (std::is_same_v<T, bool>)
         return found->is_boolean() ? found->get<T>() : otherwise;
+    else if constexpr (std::is_same_v<T, double>)
+        return found->is_number() ? found->get<T>() : otherwise;
     else
         return found->is_number_unsigned() ? T(found->get<uint64_t>()) : otherwise;
 }
@@ -49,6 +51,27 @@ std::vector<json*> objects_of(json& root, const char* name)
         objects.push_back(&element);
     }
     return objects;
+}
+
+// What is no camera has no type, and nothing is thrown: pictures are not what the mesh is read for.
+std::vector<CameraShape> cameras_of(const json& root)
+{
+    std::vector<CameraShape> cameras;
+    const auto array = root.find("cameras");
+    if (array == root.end() || !array->is_array())
+        return cameras;
+    const auto part_of = [](const json& camera, const char* name) {
+        const auto found = camera.is_object() ? camera.find(name) : camera.end();
+        return found != camera.end() && found->is_object() ? *found : json::object();
+    };
+    for (const json& element : *array) {
+        const json camera = element.is_object() ? element : json::object();
+        const json lens = part_of(camera, "perspective"), flat = part_of(camera, "orthographic");
+        cameras.push_back({ member(camera, "name", std::string()), member(camera, "type", std::string()),
+                            member(lens, "yfov", 0.0), member(lens, "aspectRatio", 0.0), member(flat, "xmag", 0.0),
+                            member(flat, "ymag", 0.0) });
+    }
+    return cameras;
 }
 
 Bytes bytes_of(const std::string& text)
@@ -127,6 +150,7 @@ void Document::parse(const std::string& text)
     }
     for (json* object : objects_of(root, "images"))
         m_images.push_back({ member(*object, "uri", std::string()), int(member(*object, "bufferView", int64_t(-1))) });
+    m_cameras = cameras_of(root);
     for (json* view : objects_of(root, "bufferViews")) {
         m_strides.push_back(member(*view, "byteStride", size_t(0)));
         view->erase("byteStride"); // tinygltf refuses those that are no multiple of 4

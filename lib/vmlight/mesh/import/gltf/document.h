@@ -3,6 +3,7 @@
 /// external ones that are longer than stated, and the placeholders of compressed ones.
 #pragma once
 
+#include <vmlight/mesh/import/gltf/camera.h>
 #include <vmlight/mesh/import/gltf/container.h>
 #include <vmlight/mesh/import/importer.h>
 #include <vmlight/mesh/tinygltf.h>
@@ -36,6 +37,7 @@ public:
     size_t stride(int view) const;
     /// Whether an accessor has a buffer view: without one it is zeros.
     bool has_view(int accessor) const { return m_has_view[size_t(accessor)]; }
+    const std::vector<CameraShape>& cameras() const { return m_cameras; }
     /// Set where the image is in `texture`. If there is no such image, warns, and leaves `texture` as it was.
     void find_image(MaterialTexture& texture, int index);
 
@@ -63,9 +65,10 @@ private:
     MeshBuilder& m_builder;
     std::string m_file; // all of it
     Bytes m_binary;
-    tinygltf::Model m_model; // less what is below, animations and cameras
+    tinygltf::Model m_model; // less what is below, and animations
     std::vector<Buffer> m_buffers;
     std::vector<Image> m_images;
+    std::vector<CameraShape> m_cameras;
     std::vector<size_t> m_strides;
     std::vector<bool> m_has_view;
     std::vector<std::unique_ptr<std::vector<uint8_t>>> m_decompressed; // by view

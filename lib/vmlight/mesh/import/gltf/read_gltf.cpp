@@ -81,7 +81,7 @@ private:
     void add_camera(const tinygltf::Node& node, const M44d& to_object)
     {
         try {
-            m_document.builder().add_camera(read_camera(m_model, node, to_object));
+            m_document.builder().add_camera(read_camera(m_document.cameras(), node, to_object));
         } catch (const gltf::Error& reason) {
             m_document.builder().warn(shortened_line(reason.what()) + "; it is left out");
         }

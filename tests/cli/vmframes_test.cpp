@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// vmframes on the command line: what it refuses, and what it writes.
+#include "command_test.h"
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <cstdlib>
+
+using namespace vmlight;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+class Vmframes : public CommandTest
+{
+protected:
+    Vmframes()
+    {
+        write("quad.obj", kQuad);
+        make_sky({ 1, 2, 3 });
+    }
+    const std::string small = " --size 16 --spp 4 --resolution 16 --samples 4 --cfem-resolution 16";
+};
+
+} // namespace
+
+TEST_F(Vmframes, WrongUsageIsRefusedBeforeAnythingIsMade)
+{
+    const std::string line = "vmframes quad.obj sky.exr ";
+    refused(2, "-o PICTURE is missing", line);
+    refused(2, "MESH is missing", "vmframes -o a.png");
+    refused(2, "ENVIRONMENT is missing, and there is no --texture", "vmframes quad.obj -o a.png");
+    refused(2, "unexpected argument \"more.exr\"", line + "more.exr -o a.png");
+    refused(2, "\"a.txt\": the extension must be exr, png", line + "-o a.txt");
+    refused(2, "\"a.png\": 3 frames need ####", line + "-o a.png --frames 1-3");
+    refused(2, "--turntable and --turn-environment need --frames", line + "-o a.png --turntable");
+    refused(2, "\"pink\" is neither none, environment nor a colour", line + "-o a.png --background pink");
+    refused(2, "--layers need an .exr", line + "-o a.png --layers depth");
+    refused(2, "layers: \"shadow\" is not one of", line + "-o a.exr --layers shadow");
+    refused(2, "--wipe needs two models", line + "-o a.png --wipe paper");
+    refused(2, "--side-by-side needs two models or more", line + "-o a.png --side-by-side paper");
+    refused(2, "give only one of --wipe and --side-by-side", line + "-o a.png --wipe ao,sh --side-by-side ao,sh");
+    refused(2, "model: \"phong\" is not one of", line + "-o a.png --model phong");
+    refused(2, "give only one of --vismap and --texture", line + "-o a.png --vismap v.exr --texture t.exr");
+    refused(2, "the extension must be png, jpg, webp or tif", line + "-o a.png --contact-sheet sheet.exr");
+    refused(2, "spp: 0 is not in [1, 4096]", line + "-o a.png --spp 0");
+    refused(1, "\"a/b.png\": no such folder: \"a\"", line + "-o a/b.png");
+    EXPECT_THAT(done("vmframes --help"),
+                AllOf(HasSubstr("vmframes MESH [ENVIRONMENT] -o PICTURE"), HasSubstr("--turntable"),
+                      HasSubstr("blackman-harris"), Not(HasSubstr("RECIPE"))));
+}
+
+TEST_F(Vmframes, InputsOfTheWrongKindAreRefused)
+{
+    refused(1, "\"no.obj\": ", "vmframes no.obj sky.exr -o a.png" + small);
+    refused(1, "\"no.exr\": no such file", "vmframes quad.obj no.exr -o a.png" + small);
+    refused(1, "\"sky.exr\": ", "vmframes quad.obj sky.exr --vismap sky.exr -o a.png" + small);
+    refused(1, "has no camera \"main\"; it has none", "vmframes quad.obj sky.exr --camera main -o a.png" + small);
+    refused(1, "displays, views and looks need an OCIO config",
+            "vmframes quad.obj sky.exr --view Film -o a.png" + small);
+    make_vismap();
+    done("makecfem sky.exr -o cfem.exr --resolution 16");
+    refused(1, "--background environment needs the environment itself",
+            "vmframes quad.obj cfem.exr --background environment -o a.png" + small);
+    refused(1, "the model reference needs the environment itself",
+            "vmframes quad.obj cfem.exr --model reference -o a.png" + small);
+}
+
+// The open quad sends out the sky's one colour.
+TEST_F(Vmframes, AnExrIsTheLight)
+{
+    done("vmframes quad.obj sky.exr -o a.exr --layers lit,depth --elevation 0 --fill 4" + small);
+    EXPECT_THAT(channel_names("a.exr"), ElementsAre("R", "G", "B", "A", "lit.R", "lit.G", "lit.B", "depth.Z"));
+    OIIO::ImageBuf image(path("a.exr"));
+    EXPECT_NEAR(image.getchannel(8, 8, 0, 0), 1, 1e-6);
+    EXPECT_NEAR(image.getchannel(8, 8, 0, 2), 3, 3e-6);
+    EXPECT_EQ(image.getchannel(8, 8, 0, 3), 1);
+    EXPECT_EQ(attribute("a.exr", "colorInteropID"), "lin_rec709_scene");
+    done("vmframes quad.obj sky.exr -o b.exr --elevation 0 --fill 4 --exposure 1 --format half" + small);
+    EXPECT_NEAR(OIIO::ImageBuf(path("b.exr")).getchannel(8, 8, 0, 0), 2, 1e-3);
+}
+
+TEST_F(Vmframes, AutoExposureBringsTheObjectToMiddleGrey)
+{
+    EXPECT_THAT(done("vmframes quad.obj sky.exr -o a.exr --elevation 0 --exposure auto --ground white" + small),
+                HasSubstr("exposure: -"));
+    OIIO::ImageBuf image(path("a.exr"));
+    double luminance = 0;
+    for (int c = 0; c < 3; ++c)
+        luminance += std::vector<double> { 0.2126, 0.7152, 0.0722 }[size_t(c)] * double(image.getchannel(8, 8, 0, c));
+    EXPECT_NEAR(luminance, 0.18, 0.01); // the ground is in the way of a little
+    EXPECT_THAT(done("vmframes quad.obj sky.exr -o a.exr --elevation 0" + small), HasSubstr("brings it to 0.18"));
+}
+
+TEST_F(Vmframes, FramesTurnOnceAround)
+{
+    const std::string line = "vmframes " + kSpot + " " + kSky + small + " --frames 1-4 -o ";
+    done(line + "'a.##.exr' --turntable --contact-sheet sheet.png");
+    EXPECT_THAT(names("a."), ElementsAre("a.01.exr", "a.02.exr", "a.03.exr", "a.04.exr"));
+    EXPECT_TRUE(exists("sheet.png"));
+    // Turning the object by a quarter is seen by a camera that goes a quarter the other way, in light turned along.
+    done("vmframes " + kSpot + " " + kSky + small + " --azimuth -90 --env-rotate 0,-90,0 -o b.exr");
+    done("vmframes " + kSpot + " " + kSky + small + " --rotate 0,90,0 -o c.exr");
+    const Pixels second = pixels("a.02.exr"), other = pixels("c.exr");
+    ASSERT_EQ(second.values.size(), other.values.size());
+    expect_same_pixels("b.exr", "c.exr", 1e-3f);
+    done(line + "film.gif --turn-environment");
+    EXPECT_EQ(OIIO::ImageBuf(path("film.gif")).nsubimages(), 4);
+    EXPECT_THAT(names(), Not(testing::Contains(HasSubstr(".part"))));
+}
+
+TEST_F(Vmframes, ModelsAreCompared)
+{
+    const std::string text = done("vmframes " + kSpot + " " + kSky + small
+                                  + " --reference-samples 8 --side-by-side ao,paper,lobe,sh,cells,reference -o a.exr");
+    EXPECT_THAT(text, HasSubstr("relative RMS against reference: ao "));
+    EXPECT_EQ(pixels("a.exr").width, 6 * 16);
+    EXPECT_THAT(attribute("a.exr", "vmlight:compared"), HasSubstr("against reference: ao "));
+    EXPECT_THAT(done("vmframes " + kSpot + " " + kSky + small + " --wipe paper,paper -o b.png"),
+                HasSubstr("against paper: paper 0.0000"));
+}
+
+TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
+{
+    const std::string line = "vmframes " + kSpot + " " + kSky + small;
+    done(line + " --keep kept -o a.exr");
+    EXPECT_THAT(names("", "kept"), ElementsAre("spot_lightmap.exr", "spot_vismap.exr"));
+    EXPECT_THAT(done(line + " --vismap kept/spot_vismap.exr -o b.exr"), Not(HasSubstr("bake:")));
+    expect_same_pixels("a.exr", "b.exr", 0);
+    // The lightmap itself, through OIIO's texture system: the margin and other filters alone are different.
+    done("vmframes " + kSpot + " --texture kept/spot_lightmap.exr --size 16 --spp 4 -o c.exr");
+    expect_same_pixels("a.exr", "c.exr", 0.2f);
+    write("bare.obj", kQuadWithoutUv);
+    EXPECT_THAT(done("vmframes bare.obj sky.exr --keep made -o d.png" + small), HasSubstr("no UVs; "));
+    EXPECT_THAT(names("", "made"), testing::Contains("bare_unwrapped.glb"));
+    refused(1, "texture coordinates", "vmframes bare.obj sky.exr --vismap kept/spot_vismap.exr -o e.png" + small);
+}
+
+TEST_F(Vmframes, SeveralObjectsAreInEachOthersWay)
+{
+    write("roof.obj",
+          "v -9 2 -9\nv 9 2 -9\nv 9 2 9\nv -9 2 9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 -1 0\n"
+          "f 1/1/1 2/2/1 3/3/1 4/4/1\n");
+    const std::string line = "vmframes quad.obj sky.exr --look-at 0,0,0 --elevation 0 -o ";
+    done(line + "open.exr" + small);
+    done(line + "under.exr --object roof.obj" + small);
+    EXPECT_LT(pixels("under.exr").greatest(), 0.99f * pixels("open.exr").greatest());
+    done(line + "shadow.exr --ground shadow" + small);
+    expect_finite("shadow.exr");
+}
+
+TEST_F(Vmframes, PicturesAreShownThroughTheConfig)
+{
+    const std::string line = "vmframes quad.obj sky.exr --colorconfig {config} --exposure -3 -o ";
+    EXPECT_THAT(done(line + "a.png" + small), HasSubstr("display: "));
+    EXPECT_TRUE(exists("a.png"));
+    refused(1, "has no display \"Tube\"; it has ", line + "b.png --display Tube" + small);
+}
