@@ -45,7 +45,7 @@ bool frame_object(PictureParams& dst, const MeshAsset& mesh, const Request& requ
 }
 
 // As vmframes measures: of a quarter of the size, what the object covers.
-double automatic_stops(const Renderer& renderer, PictureParams params, RenderParams render, const std::string& space,
+double automatic_stops(Renderer& renderer, PictureParams params, RenderParams render, const std::string& space,
                        std::string& error)
 {
     render.size = { std::max(1, render.size.width / 4), std::max(1, render.size.height / 4) };

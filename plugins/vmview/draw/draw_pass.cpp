@@ -38,9 +38,12 @@ void set_texture(const Program& program, const char* name, const LitTexture& tex
 
 bool DrawPass::build(std::string& error)
 {
-    return m_mesh.build({ shader_text::camera_glsl, shader_text::mesh_vert },
-                        { shader_text::camera_glsl, shader_text::mesh_frag }, error,
+    const std::string camera = shader_text::camera_glsl, point = shader_text::point_glsl;
+    return m_mesh.build({ camera, shader_text::mesh_vert },
+                        { camera, point, shader_text::drawn_point_glsl, shader_text::mesh_frag }, error,
                         { std::begin(kMeshAttributes), std::end(kMeshAttributes) })
+        && m_exact.build({ camera, shader_text::exact_vert },
+                         { camera, point, shader_text::exact_point_glsl, shader_text::mesh_frag }, error)
         && m_backdrop.build_whole({ shader_text::camera_glsl, shader_text::backdrop_frag }, error)
         && m_accumulate.build_whole({ shader_text::accumulate_frag }, error);
 }
@@ -65,31 +68,45 @@ void DrawPass::begin(const Backdrop& backdrop, const View& view) const
     draw_whole_viewport();
 }
 
-void DrawPass::draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject,
-                    const LitTexture& lit, Show show, const View& view, int first, int end) const
+void DrawPass::draw(const MeshBuffers& mesh, const ExactMesh* exact, const MaterialTextures& materials,
+                    const Subject& subject, const LitTexture& lit, Show show, const View& view, int first,
+                    int end) const
 {
-    m_mesh.use();
-    set_view(m_mesh, view, mesh.centre());
-    const Camera& camera = view.camera;
-    const double distance = (subject.centre() - camera.position).dot(camera.forward), radius = subject.radius();
-    const double nearest = std::max(distance - 1.001 * radius, 1e-4 * radius);
-    m_mesh.set("depth_range", float(nearest), float(std::max(distance + 1.001 * radius, 2 * nearest)));
-    set_texture(m_mesh, "lit", lit);
-    m_mesh.set("show", int(show));
+    const bool is_exact = exact && !exact->is_empty();
+    const Program& program = is_exact ? m_exact : m_mesh;
+    program.use();
+    set_view(program, view, mesh.centre());
+    const Imath::V2d range = depth_range_of(view.camera, subject);
+    program.set("depth_range", float(range.x), float(range.y));
+    set_texture(program, "lit", lit);
+    program.set("show", int(show));
     const double texels = std::sqrt(double(lit.texture().width()) * lit.texture().height());
-    m_mesh.set("density_scale", float(std::max(mesh.texture_share() * texels, 1e-30)));
+    program.set("density_scale", float(std::max(mesh.texture_share() * texels, 1e-30)));
+    if (is_exact)
+        program.set("corners", 1, exact->corners());
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_SCISSOR_TEST);
     glScissor(first, 0, std::max(0, end - first), view.height);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    for (const MeshPart& part : mesh.parts()) {
-        materials.set(m_mesh, part.material);
+    for (const MeshPart& part : is_exact ? exact->parts() : mesh.parts()) {
+        materials.set(program, part.material);
         (materials.is_blended(part.material) ? glEnable : glDisable)(GL_BLEND);
-        mesh.draw(part);
+        if (is_exact)
+            glDrawArrays(GL_TRIANGLES, part.first, part.count);
+        else
+            mesh.draw(part);
     }
     glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
+}
+
+Imath::V2d depth_range_of(const Camera& camera, const Subject& subject)
+{
+    const double distance = (subject.centre() - camera.position).dot(camera.forward), radius = subject.radius();
+    const double nearest = distance - 1.001 * radius;
+    const double least = camera.is_orthographic ? nearest : std::max(nearest, 1e-4 * radius);
+    return { least, std::max(distance + 1.001 * radius, least + 1e-4 * radius) };
 }
 
 void DrawPass::accumulate(const Texture& picture, double share) const

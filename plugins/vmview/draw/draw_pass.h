@@ -4,6 +4,7 @@
 
 #include "../gl/program.h"
 #include "../relight/lit_texture.h"
+#include "exact_mesh.h"
 #include "material_textures.h"
 #include "mesh_buffers.h"
 
@@ -48,14 +49,17 @@ public:
 
     /// Start a picture in the bound framebuffer, which has a depth buffer.
     void begin(const Backdrop& backdrop, const View& view) const;
-    /// Draw the mesh into it, in columns [`first`, `end`) only.
-    void draw(const MeshBuffers& mesh, const MaterialTextures& materials, const Subject& subject, const LitTexture& lit,
-              Show show, const View& view, int first, int end) const;
+    /// Draw the mesh into it, in columns [`first`, `end`) only; `exact`, unless it is nullptr or empty, in its place.
+    void draw(const MeshBuffers& mesh, const ExactMesh* exact, const MaterialTextures& materials,
+              const Subject& subject, const LitTexture& lit, Show show, const View& view, int first, int end) const;
     /// Add `share` of `picture` to the bound framebuffer.
     void accumulate(const Texture& picture, double share) const;
 
 private:
-    Program m_mesh, m_backdrop, m_accumulate;
+    Program m_mesh, m_exact, m_backdrop, m_accumulate;
 };
+
+/// The depths between which a subject lies; the nearest is above 0 in perspective.
+Imath::V2d depth_range_of(const Camera& camera, const Subject& subject);
 
 } // namespace vmlight::view

@@ -48,16 +48,6 @@ std::vector<uint32_t> draw_order(const Mesh& mesh, const std::vector<SurfaceMate
     return order;
 }
 
-// The UVs of a triangle's texture if they are not the mesh's, or nullptr.
-const Imath::V2f* material_uvs_of(const Mesh& mesh, uint32_t triangle, const std::vector<SurfaceMaterial>& materials,
-                                  const std::vector<std::vector<Imath::V2f>>& sets)
-{
-    if (materials.empty() || mesh.triangle_materials.empty())
-        return nullptr;
-    const size_t set = size_t(materials[mesh.triangle_materials[triangle]].uv_set);
-    return set < sets.size() && !sets[set].empty() ? &sets[set][3 * size_t(triangle)] : nullptr;
-}
-
 double texture_share_of(const Mesh& mesh)
 {
     double surface = 0, texture = 0;
@@ -73,6 +63,15 @@ double texture_share_of(const Mesh& mesh)
 
 } // namespace
 
+const Imath::V2f* material_uvs_of(const Mesh& mesh, uint32_t triangle, const std::vector<SurfaceMaterial>& materials,
+                                  const std::vector<std::vector<Imath::V2f>>& sets)
+{
+    if (materials.empty() || mesh.triangle_materials.empty())
+        return nullptr;
+    const size_t set = size_t(materials[mesh.triangle_materials[triangle]].uv_set);
+    return set < sets.size() && !sets[set].empty() ? &sets[set][3 * size_t(triangle)] : nullptr;
+}
+
 MeshBuffers::MeshBuffers(const Mesh& mesh, const Imath::V3d& centre, int udim,
                          const std::vector<SurfaceMaterial>& materials,
                          const std::vector<std::vector<Imath::V2f>>& material_uvs)
@@ -81,16 +80,16 @@ MeshBuffers::MeshBuffers(const Mesh& mesh, const Imath::V3d& centre, int udim,
     , m_vertices(make_vertex_array())
 {
     const Imath::V2f corner = udim_corner(udim);
-    const std::vector<uint32_t> order = draw_order(mesh, materials, m_parts);
+    m_order = draw_order(mesh, materials, m_parts);
     std::vector<float> floats;
     std::vector<uint32_t> indices;
-    indices.reserve(3 * order.size());
+    indices.reserve(3 * m_order.size());
     // Corners of a triangle have UVs of their own only where a material asks for another set.
     const bool is_shared = material_uvs.empty();
     if (is_shared)
         for (uint32_t v = 0; v < mesh.positions.size(); ++v)
             append_vertex(floats, mesh, v, centre, corner, nullptr);
-    for (const uint32_t triangle : order) {
+    for (const uint32_t triangle : m_order) {
         const Imath::V2f* uvs = material_uvs_of(mesh, triangle, materials, material_uvs);
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t v = mesh.triangles[triangle][k];

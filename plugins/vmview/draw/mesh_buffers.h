@@ -34,6 +34,8 @@ public:
     /// covers on average.
     double texture_share() const { return m_texture_share; }
     const std::vector<MeshPart>& parts() const { return m_parts; }
+    /// The mesh's triangles in the order in which they are drawn.
+    const std::vector<uint32_t>& order() const { return m_order; }
     /// Draw the triangles of a part, from both sides.
     void draw(const MeshPart& part) const;
 
@@ -43,7 +45,12 @@ private:
     VertexArray m_vertices;
     Buffer m_attributes, m_triangles;
     std::vector<MeshPart> m_parts;
+    std::vector<uint32_t> m_order;
 };
+
+/// The UVs of a triangle's material if they are not the mesh's, three of them, or nullptr.
+const Imath::V2f* material_uvs_of(const Mesh& mesh, uint32_t triangle, const std::vector<SurfaceMaterial>& materials,
+                                  const std::vector<std::vector<Imath::V2f>>& sets);
 
 /// The attributes' names, in order.
 constexpr const char* kMeshAttributes[] = { "position", "st", "material_st" };

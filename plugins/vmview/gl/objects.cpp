@@ -66,6 +66,16 @@ Texture Texture::of(GLenum target)
     return texture;
 }
 
+Texture Texture::of_buffer(const Buffer& buffer, GLenum format)
+{
+    Texture texture;
+    texture.m_name = GlName<free_texture>(new_texture());
+    texture.m_target = GL_TEXTURE_BUFFER;
+    texture.bind(0);
+    glTexBuffer(GL_TEXTURE_BUFFER, format, buffer.get());
+    return texture;
+}
+
 Texture Texture::image(int width, int height, GLenum format, int levels)
 {
     Texture texture = of(GL_TEXTURE_2D);

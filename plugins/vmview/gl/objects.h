@@ -63,6 +63,8 @@ public:
     static Texture image(int width, int height, GLenum format, GLenum pixels, const float* data);
     /// Layers of one size, without pixels.
     static Texture layers(int width, int height, int count, GLenum format);
+    /// The texels of a buffer, which must outlive it.
+    static Texture of_buffer(const Buffer& buffer, GLenum format);
     /// Any other kind, to be filled by the caller.
     static Texture of(GLenum target);
 

@@ -58,6 +58,11 @@ std::unique_ptr<Window> Window::open(int width, int height, const std::string& t
         Window& owner = owner_of(handle);
         owner.m_dropped.insert(owner.m_dropped.end(), paths, paths + count);
     });
+    // ImGui calls the callbacks that were there before its own.
+    glfwSetKeyCallback(window->m_window, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
+        if (action == GLFW_PRESS)
+            owner_of(handle).m_keys.push_back({ key, modifiers });
+    });
 
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
@@ -102,6 +107,13 @@ void Window::wait_for_events(double seconds)
 void Window::wake()
 {
     glfwPostEmptyEvent();
+}
+
+std::vector<PressedKey> Window::take_keys()
+{
+    std::vector<PressedKey> keys;
+    keys.swap(m_keys);
+    return keys;
 }
 
 std::vector<std::string> Window::take_dropped()

@@ -11,6 +11,12 @@ struct GLFWwindow;
 
 namespace vmlight::view {
 
+/// GLFW's numbers.
+struct PressedKey
+{
+    int key = 0, modifiers = 0;
+};
+
 class Window
 {
 public:
@@ -28,6 +34,8 @@ public:
     void wait_for_events(double seconds);
     /// Wake wait_for_events(), from any thread.
     static void wake();
+    /// Keys that were pressed since the last call, however briefly; ImGui knows only what is down when it looks.
+    std::vector<PressedKey> take_keys();
     /// Files that were dropped on the window since the last call.
     std::vector<std::string> take_dropped();
 
@@ -51,6 +59,7 @@ private:
     GLFWwindow* m_window = nullptr;
     bool m_has_imgui = false;
     std::vector<std::string> m_dropped;
+    std::vector<PressedKey> m_keys;
 };
 
 } // namespace vmlight::view

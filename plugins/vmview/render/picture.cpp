@@ -61,13 +61,18 @@ OIIO::ImageBuf read_image_of(const Framebuffer& framebuffer)
     return image;
 }
 
-bool render_picture(OIIO::ImageBuf& dst, const Renderer& renderer, const PictureParams& params,
-                    const RenderParams& render, std::string& error)
+bool render_picture(OIIO::ImageBuf& dst, Renderer& renderer, const PictureParams& params, const RenderParams& render,
+                    std::string& error)
 {
     PictureSum sum;
     sum.start(render.size.width, render.size.height, render.spp, render.filter);
+    View view = params.view;
+    view.width = render.size.width;
+    view.height = render.size.height;
+    renderer.prepare_exact(view);
     while (!sum.is_complete())
         sum.add(renderer, params);
+    renderer.reset_exact();
     dst = read_image_of(sum.mean_framebuffer());
     error = gl_fault();
     return error.empty();

@@ -33,10 +33,10 @@ private:
     size_t m_next = 0;
 };
 
-/// Render a picture, R, G, B times alpha and A, scene-linear, rows from the top. False, with the reason in `error`, if
-/// the driver finds a wrong call.
-bool render_picture(OIIO::ImageBuf& dst, const Renderer& renderer, const PictureParams& params,
-                    const RenderParams& render, std::string& error);
+/// Render a picture, R, G, B times alpha and A, scene-linear, rows from the top, right at every edge. False, with the
+/// reason in `error`, if the driver finds a wrong call.
+bool render_picture(OIIO::ImageBuf& dst, Renderer& renderer, const PictureParams& params, const RenderParams& render,
+                    std::string& error);
 
 /// The pixels of a framebuffer, rows from the top.
 OIIO::ImageBuf read_image_of(const Framebuffer& framebuffer);

@@ -21,14 +21,28 @@ bool Renderer::set_mesh(MeshPointer mesh, bool with_materials, std::string& erro
 {
     m_mesh = std::move(mesh);
     m_buffers.reset();
+    m_exact = ExactMesh();
     m_materials = MaterialTextures();
     if (!m_mesh)
         return true;
-    static const std::vector<SurfaceMaterial> kWhite;
-    const std::vector<SurfaceMaterial>& materials = with_materials ? m_mesh->materials : kWhite;
+    m_has_materials = with_materials;
     m_buffers = std::make_unique<MeshBuffers>(*m_mesh->mesh, m_mesh->subject.centre(),
-                                              m_mesh->recipe.vismap_params.udim, materials, m_mesh->material_uvs);
-    return m_materials.load(materials, error);
+                                              m_mesh->recipe.vismap_params.udim, materials(), m_mesh->material_uvs);
+    return m_materials.load(materials(), error);
+}
+
+const std::vector<SurfaceMaterial>& Renderer::materials() const
+{
+    static const std::vector<SurfaceMaterial> kWhite;
+    return m_has_materials ? m_mesh->materials : kWhite;
+}
+
+void Renderer::prepare_exact(const View& view)
+{
+    if (!m_buffers)
+        return;
+    m_exact = ExactMesh(*m_mesh->mesh, *m_buffers, m_mesh->recipe.vismap_params.udim, materials(), m_mesh->material_uvs,
+                        view.camera, view.width, view.height, depth_range_of(view.camera, m_mesh->subject).x);
 }
 
 bool Renderer::set_map(MapPointer map, std::string& error)
@@ -87,9 +101,10 @@ void Renderer::draw(const PictureParams& params, const Framebuffer& target) cons
         return;
     const int width = params.view.width;
     const int wiped = int(std::lround(std::clamp(params.wipe, 0.0, 1.0) * width));
-    m_draw.draw(*m_buffers, m_materials, m_mesh->subject, m_lit[0], params.show, params.view, 0, wiped);
+    m_draw.draw(*m_buffers, &m_exact, m_materials, m_mesh->subject, m_lit[0], params.show, params.view, 0, wiped);
     if (wiped < width)
-        m_draw.draw(*m_buffers, m_materials, m_mesh->subject, m_lit[1], params.show, params.view, wiped, width);
+        m_draw.draw(*m_buffers, &m_exact, m_materials, m_mesh->subject, m_lit[1], params.show, params.view, wiped,
+                    width);
 }
 
 void Renderer::accumulate(const Framebuffer& sum, const Texture& picture, double share) const

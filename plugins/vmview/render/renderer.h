@@ -56,6 +56,11 @@ public:
         m_lit[size_t(slot)].level(0).read_rect(x, y, 1, 1, rgba);
     }
 
+    /// Prepare pictures of `view`, whatever its offset, that are right at every edge, to float's precision; draw() then
+    /// makes such until reset_exact().
+    void prepare_exact(const View& view);
+    void reset_exact() { m_exact = ExactMesh(); }
+
     /// Draw one sample of each pixel into `target`, of the view's size with a depth buffer.
     void draw(const PictureParams& params, const Framebuffer& target) const;
     /// Add `share` of one picture to another.
@@ -63,6 +68,7 @@ public:
 
 private:
     void bind_no_vertices() const;
+    const std::vector<SurfaceMaterial>& materials() const;
 
     VertexArray m_no_vertices;
     RelightPass m_relight;
@@ -72,6 +78,8 @@ private:
     LightPointer m_light;
     std::unique_ptr<MeshBuffers> m_buffers;
     MaterialTextures m_materials;
+    ExactMesh m_exact;
+    bool m_has_materials = true;
     MapTextures m_map_textures;
     LightTextures m_light_textures;
     LitTexture m_panorama;

@@ -2,7 +2,7 @@
 in vec3 position; // relative to the mesh's centre
 in vec2 st; // v down, as images are stored
 in vec2 material_st; // v up
-uniform vec2 depth_range; // nearest and farthest depth of the mesh
+uniform vec2 depth_range;
 
 out vec3 seen; // to the right, up, and depth, from the eye
 out vec2 texture_st;

@@ -160,25 +160,22 @@ void draw_display_menu(App& app)
     ImGui::EndMenu();
 }
 
-void handle_keys(App& app)
+void handle_key(App& app, const PressedKey& pressed)
 {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput)
-        return;
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
     ViewState& state = app.state();
     const Request& request = app.workshop().request();
-    if (pressed(GLFW_KEY_F12))
+    const bool is_control = pressed.modifiers & GLFW_MOD_CONTROL;
+    if (pressed.key == GLFW_KEY_F12)
         app.take_screenshot();
-    if (io.KeyCtrl && pressed(GLFW_KEY_Q))
-        app.window().close();
-    if (io.KeyCtrl && pressed(GLFW_KEY_C) && !request.mesh.mesh.empty() && !request.environment.empty())
-        copy(app, vmframes_command(request, state, app.viewport().model()));
-    if (pressed(GLFW_KEY_HOME))
+    else if (pressed.key == GLFW_KEY_HOME)
         app.reset_camera();
-    if (!io.KeyCtrl && pressed(GLFW_KEY_B))
+    else if (is_control && pressed.key == GLFW_KEY_Q)
+        app.window().close();
+    else if (is_control && pressed.key == GLFW_KEY_C && !request.mesh.mesh.empty() && !request.environment.empty())
+        copy(app, vmframes_command(request, state, app.viewport().model()));
+    else if (!is_control && pressed.key == GLFW_KEY_B)
         state.has_background = !state.has_background;
-    if (!io.KeyCtrl && pressed(GLFW_KEY_W))
+    else if (!is_control && pressed.key == GLFW_KEY_W)
         state.is_white = !state.is_white;
 }
 
@@ -186,7 +183,9 @@ void handle_keys(App& app)
 
 void draw_menus(App& app)
 {
-    handle_keys(app);
+    for (const PressedKey& pressed : app.window().take_keys())
+        if (!ImGui::GetIO().WantTextInput)
+            handle_key(app, pressed);
     if (!ImGui::BeginMainMenuBar())
         return;
     draw_file_menu(app);
