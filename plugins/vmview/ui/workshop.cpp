@@ -61,7 +61,8 @@ bool Workshop::open(const std::string& path, std::string& error)
     case AssetKind::none:
         return false;
     case AssetKind::mesh:
-        m_request.vismap.clear();
+        if (!m_request.mesh.mesh.empty()) // the map is that of another mesh
+            m_request.vismap.clear();
         read_mesh(path);
         return true;
     case AssetKind::light:
