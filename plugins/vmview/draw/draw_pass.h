@@ -11,6 +11,8 @@
 #include <vmlight/frame/camera.h>
 #include <vmlight/math/rotation.h>
 
+#include <array>
+#include <map>
 #include <string>
 
 namespace vmlight::view {
@@ -48,7 +50,7 @@ public:
     bool build(std::string& error);
 
     /// Start a picture in the bound framebuffer, which has a depth buffer.
-    void begin(const Backdrop& backdrop, const View& view) const;
+    void begin(const Backdrop& backdrop, const View& view, bool is_exact) const;
     /// Draw the mesh into it, in columns [`first`, `end`) only; `exact`, unless it is nullptr or empty, in its place.
     void draw(const MeshBuffers& mesh, const ExactMesh* exact, const MaterialTextures& materials,
               const Subject& subject, const LitTexture& lit, Show show, const View& view, int first, int end) const;
@@ -56,7 +58,11 @@ public:
     void accumulate(const Texture& picture, double share) const;
 
 private:
-    Program m_mesh, m_exact, m_backdrop, m_accumulate;
+    // A program for each way to draw, made when it is first needed.
+    const Program& mesh_program(bool is_exact, Show show, int material) const;
+
+    Program m_backdrop, m_exact_backdrop, m_accumulate;
+    mutable std::map<std::array<int, 3>, Program> m_mesh;
 };
 
 /// The depths between which a subject lies; the nearest is above 0 in perspective.

@@ -56,10 +56,16 @@ bool MaterialTextures::is_blended(int material) const
     return material >= 0 && m_materials[size_t(material)].alpha_mode == AlphaMode::blend;
 }
 
+int MaterialTextures::kind(int material) const
+{
+    return material < 0 ? 0 : m_materials[size_t(material)].texture ? 2 : 1;
+}
+
 void MaterialTextures::set(const Program& program, int index) const
 {
-    static const SurfaceMaterial kWhite;
-    const SurfaceMaterial& material = index < 0 ? kWhite : m_materials[size_t(index)];
+    if (index < 0)
+        return;
+    const SurfaceMaterial& material = m_materials[size_t(index)];
     const float color[4] = { material.color.x, material.color.y, material.color.z, material.alpha };
     program.set_vectors("material_color", color, 1);
     program.set("alpha_mode",
@@ -67,8 +73,6 @@ void MaterialTextures::set(const Program& program, int index) const
                     : material.alpha_mode == AlphaMode::blend ? 2
                                                               : 0);
     program.set("alpha_cutoff", material.alpha_cutoff);
-    program.set("has_material_texture", int(material.texture != nullptr));
-    program.set("material_texture", kUnit); // a unit of its own, though nothing may be bound there
     if (!material.texture)
         return;
     const Texture& texture = m_textures.at(material.texture.get());

@@ -20,6 +20,8 @@ public:
     /// Set the uniforms of mesh.frag for one of them, or, for -1, for a white surface.
     void set(const Program& program, int material) const;
     bool is_blended(int material) const;
+    /// What mesh.frag calls MATERIAL.
+    int kind(int material) const;
 
 private:
     std::vector<SurfaceMaterial> m_materials;

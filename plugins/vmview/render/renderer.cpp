@@ -39,6 +39,7 @@ const std::vector<SurfaceMaterial>& Renderer::materials() const
 
 void Renderer::prepare_exact(const View& view)
 {
+    m_is_exact = true;
     if (!m_buffers)
         return;
     m_exact = ExactMesh(*m_mesh->mesh, *m_buffers, m_mesh->recipe.vismap_params.udim, materials(), m_mesh->material_uvs,
@@ -96,7 +97,7 @@ void Renderer::draw(const PictureParams& params, const Framebuffer& target) cons
     Backdrop backdrop;
     backdrop.environment = params.has_background && m_panorama.texture() ? &m_panorama : nullptr;
     backdrop.to_environment = params.to_environment;
-    m_draw.begin(backdrop, params.view);
+    m_draw.begin(backdrop, params.view, m_is_exact);
     if (!m_buffers)
         return;
     const int width = params.view.width;

@@ -59,7 +59,11 @@ public:
     /// Prepare pictures of `view`, whatever its offset, that are right at every edge, to float's precision; draw() then
     /// makes such until reset_exact().
     void prepare_exact(const View& view);
-    void reset_exact() { m_exact = ExactMesh(); }
+    void reset_exact()
+    {
+        m_exact = ExactMesh();
+        m_is_exact = false;
+    }
 
     /// Draw one sample of each pixel into `target`, of the view's size with a depth buffer.
     void draw(const PictureParams& params, const Framebuffer& target) const;
@@ -79,7 +83,7 @@ private:
     std::unique_ptr<MeshBuffers> m_buffers;
     MaterialTextures m_materials;
     ExactMesh m_exact;
-    bool m_has_materials = true;
+    bool m_has_materials = true, m_is_exact = false;
     MapTextures m_map_textures;
     LightTextures m_light_textures;
     LitTexture m_panorama;

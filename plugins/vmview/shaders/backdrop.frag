@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment behind the object, along each pixel's ray: frame/background.h. The level is from differences of
-// directions, not of texture coordinates on the screen, so that the seam of the lat-long map shows nowhere.
+// directions, not of texture coordinates on the screen, so that the seam of the lat-long map shows nowhere; unless EXACT
+// it is the same everywhere.
 uniform sampler2D environment;
 uniform float rotation[9]; // object space to environment space, row major
 uniform vec2 texels;
@@ -32,9 +33,14 @@ void main()
     vec2 st = position(ray);
     float level = 0.0;
     if (!is_orthographic) {
+#if EXACT
         vec3 across = right * (2.0 * half_size.x / size.x * footprint);
         vec3 down = up * (-2.0 * half_size.y / size.y * footprint);
         float texel = max(reach(position(ray + across) - st), reach(position(ray + down) - st));
+#else
+        // A pixel's angle over a texel's, on the equator: atan() is slow where there is no graphics card.
+        float texel = 2.0 * half_size.y / size.y * footprint * texels.x / (2.0 * kPi);
+#endif
         level = texel > 1.0 ? min(log2(texel), float(last_level)) : 0.0;
     }
     color = vec4(textureLod(environment, st, level).rgb, 1);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface, with the lookup of frame/texture_pyramid.h. find_point() comes before it.
+// The surface, with the lookup of frame/texture_pyramid.h. find_point() comes before it, and what is the same for all
+// of a draw: SHOW (0: lit; 1: checker; 2: texel density; 3: the texture as it is) and MATERIAL (0: white; 1: a colour;
+// 2: a texture). Software renderers compute both sides of every branch.
 uniform sampler2D lit;
 uniform vec2 texels; // of its level 0
 uniform int last_level;
-uniform int show; // 0: lit; 1: checker; 2: texel density; 3: the texture as it is
 uniform float density_scale; // texels per unit that are shown as middle grey
 
 uniform vec4 material_color;
-uniform bool has_material_texture;
 uniform sampler2D material_texture;
 uniform vec2 material_texels;
 uniform int material_last_level;
@@ -35,21 +35,24 @@ vec3 look_up(Point point)
 // frame/surface_color.h: colour, and opacity.
 vec4 surface_of_material(Point point)
 {
+#if MATERIAL == 0
+    return vec4(1);
+#else
     vec4 surface = material_color;
-    if (has_material_texture) {
-        vec3 st = material_transform * vec3(point.uv, 1);
-        st.y = 1.0 - st.y;
-        mat2 turn = mat2(material_transform);
-        float level
-            = level_of(turn * point.uv_across, turn * point.uv_down, material_texels, material_last_level);
-        if (!isnan(st.x + st.y))
-            surface *= textureLod(material_texture, st.xy, level);
-    }
+#if MATERIAL == 2
+    vec3 st = material_transform * vec3(point.uv, 1);
+    st.y = 1.0 - st.y;
+    mat2 turn = mat2(material_transform);
+    float level = level_of(turn * point.uv_across, turn * point.uv_down, material_texels, material_last_level);
+    if (!isnan(st.x + st.y))
+        surface *= textureLod(material_texture, st.xy, level);
+#endif
     if (alpha_mode == 0)
         surface.a = 1.0;
     else if (alpha_mode == 1)
         surface.a = surface.a >= alpha_cutoff ? 1.0 : 0.0;
     return vec4(surface.rgb, clamp(surface.a, 0.0, 1.0));
+#endif
 }
 
 // Dark red for few texels, over green, to light blue for many; a factor of 16 from end to end.
@@ -65,18 +68,17 @@ void main()
     vec4 surface = surface_of_material(point);
     if (!is_inside || !(surface.a > 0.0))
         discard;
-    vec3 rgb = vec3(0);
-    if (show == 1) {
-        ivec2 cell = ivec2(floor(point.st * 16.0));
-        rgb = vec3((cell.x + cell.y) % 2 == 0 ? 0.7 : 0.25) * vec3(0.5 + 0.5 * point.st, 1.0);
-    } else if (show == 2) {
-        float density = point.density * sqrt(texels.x * texels.y);
-        rgb = heat(clamp(0.5 + log2(density / density_scale) / 4.0, 0.0, 1.0));
-    } else if (show == 0) {
-        rgb = look_up(point) * surface.rgb;
-    } else {
-        rgb = look_up(point);
-    }
+#if SHOW == 1
+    ivec2 cell = ivec2(floor(point.st * 16.0));
+    vec3 rgb = vec3((cell.x + cell.y) % 2 == 0 ? 0.7 : 0.25) * vec3(0.5 + 0.5 * point.st, 1.0);
+#elif SHOW == 2
+    float density = point.density * sqrt(texels.x * texels.y);
+    vec3 rgb = heat(clamp(0.5 + log2(density / density_scale) / 4.0, 0.0, 1.0));
+#elif SHOW == 0
+    vec3 rgb = look_up(point) * surface.rgb;
+#else
+    vec3 rgb = look_up(point);
+#endif
     // What has no UVs, or UVs in another UDIM tile, is black. Written so that NaN is outside.
     vec2 uv = vec2(point.st.x, 1.0 - point.st.y);
     if (!(all(greaterThanEqual(uv, vec2(0))) && all(lessThanEqual(uv, vec2(1.0 + 1e-6)))))

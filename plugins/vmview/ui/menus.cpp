@@ -113,9 +113,12 @@ void draw_model_menu(App& app)
     ViewState& state = app.state();
     if (!ImGui::BeginMenu("Model"))
         return;
+    // What they mean is a tooltip: with it beside them the menus would be too wide to lie side by side.
     const auto list = [](std::string& chosen, const char* word, const char* meaning) {
-        if (ImGui::MenuItem(word, meaning, chosen == word))
+        if (ImGui::MenuItem(word, nullptr, chosen == word))
             chosen = word;
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", meaning);
     };
     for (const Choice& choice : model_choices().choices)
         list(state.light.model, choice.word, choice.meaning);
