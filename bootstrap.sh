@@ -24,6 +24,20 @@ packages=(
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )
 
+# Used where the suite has them.
+optional_packages=(libalembic-graphics-dev)
+
+is_installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }
+
+apt_get() {
+    local as_root=()
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null || { echo "bootstrap: need root or sudo to install packages" >&2; exit 1; }
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq "$@" >/dev/null
+}
+
 install_packages() {
     if ! command -v apt-get >/dev/null; then
         echo "bootstrap: no apt-get; building with the installed libraries. Required Debian packages: ${packages[*]}"
@@ -31,17 +45,15 @@ install_packages() {
     fi
     local missing=() package
     for package in "${packages[@]}"; do
-        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+        is_installed "$package" || missing+=("$package")
+    done
+    ((${#missing[@]} == 0)) || apt_get update
+    for package in "${optional_packages[@]}"; do
+        if ! is_installed "$package" && apt-cache show "$package" >/dev/null 2>&1; then missing+=("$package"); fi
     done
     ((${#missing[@]})) || return 0
     echo "bootstrap: installing ${missing[*]}"
-    local as_root=()
-    if ((EUID != 0)); then
-        command -v sudo >/dev/null || { echo "bootstrap: need root or sudo to install packages" >&2; exit 1; }
-        as_root=(sudo)
-    fi
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq update
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "${missing[@]}" >/dev/null
+    apt_get install -y --no-install-recommends "${missing[@]}"
 }
 
 say() { echo "bootstrap: $* (${SECONDS} s)"; }

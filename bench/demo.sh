@@ -73,10 +73,10 @@ frames() {
     "$bin/vmframes" "$data/$mesh.obj" "$data/$environment.hdr" --colorconfig "$config" --view "ACES 1.0 - SDR Video" --quiet \
         --resolution $resolution --exposure $stops "$@"
 }
-stage "12 frames of a turntable" frames -o "$out/turntable.####.png" --frames 1-12 --turntable --ground white --size 384 \
+stage "12 frames of a turntable" frames -o "$out/turntable.####.png" --frames 1-12 --turntable --azimuth 215 --ground white --size 384 \
     --contact-sheet "$out/turntable.png" --keep "$out/kept"
 stage "ao, paper, lobe, cells and the traced truth" frames -o "$out/comparison.png" \
-    --side-by-side ao,paper,lobe,cells,reference --size 384 --azimuth 40 --reference-samples 256
+    --side-by-side ao,paper,lobe,cells,reference --size 384 --azimuth 215 --reference-samples 256
 
 cat <<END
 Pictures in $out

@@ -28,10 +28,11 @@ ImageBuf blank(int width, int height, const OIIO::ImageSpec& like)
 
 double relative_rms(const ImageBuf& frame, const ImageBuf& reference)
 {
+    const int covered = reference.nchannels() - 1;
     double squares = 0, mean = 0, count = 0;
     ImageBuf::ConstIterator<float> a(frame);
     for (ImageBuf::ConstIterator<float> b(reference); !b.done(); ++a, ++b) {
-        if (!(b[3] > 0))
+        if (!(b[covered] > 0))
             continue;
         for (int c = 0; c < 3; ++c) {
             const double difference = double(a[c]) - double(b[c]);

@@ -10,7 +10,7 @@
 namespace vmlight::frames {
 
 /// The root mean square of the differences of R, G, B between two frames, over the mean of `reference`; of pixels that
-/// an object covers. 0 if nothing is covered.
+/// an object covers, by the channel `coverage`, which is the last. 0 if nothing is covered.
 double relative_rms(const OIIO::ImageBuf& frame, const OIIO::ImageBuf& reference);
 
 /// The frames in a row, from left to right.

@@ -39,7 +39,8 @@ std::vector<uint8_t> raw_pixels(const OIIO::ImageBuf& picture, int width, int he
     const bool has_alpha = picture.spec().alpha_channel == 3;
     std::vector<uint8_t> bytes;
     bytes.reserve(size_t(width) * size_t(height) * 3);
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(picture, OIIO::ROI(0, width, 0, height)); !pixel.done(); ++pixel)
+    const OIIO::ImageBuf image = picture.copy(OIIO::TypeFloat);
+    for (OIIO::ImageBuf::ConstIterator<float> pixel(image, OIIO::ROI(0, width, 0, height)); !pixel.done(); ++pixel)
         for (int c = 0; c < 3; ++c) {
             const float value = pixel[c] * (has_alpha ? float(pixel[3]) : 1.0f);
             bytes.push_back(uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)));

@@ -111,8 +111,14 @@ private:
     bool make_frame(ImageBuf& dst, size_t index, std::string& error)
     {
         std::vector<ImageBuf> images;
+        RenderParams params = m_request.render;
+        // Comparisons are of what objects cover.
+        const bool wants_coverage
+            = std::find(params.layers.begin(), params.layers.end(), kCoverageLayer) != params.layers.end();
+        if (m_models.size() > 1 && !wants_coverage)
+            params.layers.emplace_back(kCoverageLayer);
         for (const std::string& model : m_models) {
-            if (!m_shot.render(images.emplace_back(), index, model, m_options, error))
+            if (!m_shot.render(images.emplace_back(), index, model, params, m_options, error))
                 return false;
             expose(images.back(), m_stops);
         }
@@ -120,6 +126,9 @@ private:
             dst = std::move(images[0]);
         } else {
             const std::string text = rms_text(images);
+            if (!wants_coverage)
+                for (ImageBuf& image : images)
+                    image = OIIO::ImageBufAlgo::channels(image, image.nchannels() - 1, {});
             m_stage.say(format("frame {}: {}", m_request.frames[index], text));
             dst = m_request.sheet.wipe.empty() ? side_by_side(images) : wipe(images[0], images[1]);
             dst.specmod().attribute("vmlight:compared", text);
@@ -159,7 +168,7 @@ private:
         if (!is_exr_name(path) && !holds_all_frames(path) && !write_picture(picture, path, error))
             return false;
         if (is_kept)
-            m_pictures.push_back(std::move(picture));
+            m_pictures.push_back(picture.copy(OIIO::TypeUInt8)); // films are long
         return true;
     }
 
@@ -226,6 +235,8 @@ std::string request_fault(const Request& request)
     const bool has_light = !request.environment.empty();
     if (!has_light && request.object.texture.empty())
         return "ENVIRONMENT is missing, and there is no --texture";
+    if (request.object.texture.find('#') != std::string::npos && !request.has_frames)
+        return format("--texture: \"{}\" is a sequence: --frames is missing, such as 1-48", request.object.texture);
     if (!request.object.vismap.empty() && !request.object.texture.empty())
         return "give only one of --vismap and --texture";
     if (!has_light && (request.stage.background == "environment" || request.is_auto_exposed))

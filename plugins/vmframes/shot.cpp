@@ -2,6 +2,7 @@
 #include "shot.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/frames.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/frame/ground.h>
 #include <vmlight/image/color.h>
@@ -186,7 +187,17 @@ LightmapParams Shot::light_at(size_t index) const
 
 bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& options, std::string& error)
 {
-    if (m_request.environment.empty() || (m_lit_index == index && m_lit_model == model))
+    if (m_lit_index == index && m_lit_model == model)
+        return true;
+    const std::string& texture = m_request.object.texture;
+    if (texture.find('#') != std::string::npos) {
+        if (!m_objects[0]->show_texture(frame_path(texture, m_request.frames[index]), error))
+            return false;
+        m_scene.surfaces[0] = m_objects[0]->surface();
+    }
+    m_lit_index = index;
+    m_lit_model = model;
+    if (m_request.environment.empty())
         return true;
     LightmapParams params = light_at(index);
     params.model = "auto"; // the rotation is that of every model
@@ -210,8 +221,6 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
             return false;
         surface = object->surface();
     }
-    m_lit_index = index;
-    m_lit_model = model;
     return true;
 }
 
@@ -222,13 +231,13 @@ bool Shot::render_at(OIIO::ImageBuf& dst, size_t index, const RenderParams& para
                         options.step("render", params.size.width, params.size.height), error);
 }
 
-bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const MakeOptions& options,
-                  std::string& error)
+bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const RenderParams& params,
+                  const MakeOptions& options, std::string& error)
 {
     if (!light_all(index, model, options, error))
         return false;
     const Stopwatch timer;
-    if (!render_at(dst, index, m_request.render, options, error))
+    if (!render_at(dst, index, params, options, error))
         return false;
     m_render_seconds += timer();
     if (m_light.space.empty())

@@ -29,8 +29,8 @@ public:
     bool open(const MakeOptions& options, std::string& error);
 
     /// Render frame number `index` by a model: see render_frame(). Scene-linear, without exposure.
-    bool render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const MakeOptions& options,
-                std::string& error);
+    bool render(OIIO::ImageBuf& dst, size_t index, const std::string& model, const RenderParams& params,
+                const MakeOptions& options, std::string& error);
 
     /// The mean luminance of what covers frame number `index`, the background left out; 0 if nothing does. Renders it
     /// small.

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/frames.h>
 #include <vmlight/cli/main.h>
+#include <vmlight/stage/reader.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -26,10 +27,27 @@ StageMain::Take store_models(std::vector<std::string>& dst)
     };
 }
 
+// OIIO's texture system opens recipes by their readers, which are in this process already.
+void declare_readers()
+{
+    static const char *vismap[] = { "vismap", nullptr }, *cfem[] = { "cfem", nullptr },
+                      *lightmap[] = { "lightmap", nullptr };
+    const auto declare = [](const char* name, OIIO::ImageInput::Creator creator, const char** extensions) {
+        OIIO::declare_imageio_format(name, creator, extensions, nullptr, nullptr, "vmlight");
+    };
+    declare(
+        "vismap", []() -> OIIO::ImageInput* { return new StageInput("vismap"); }, vismap);
+    declare(
+        "cfem", []() -> OIIO::ImageInput* { return new StageInput("cfem"); }, cfem);
+    declare(
+        "lightmap", []() -> OIIO::ImageInput* { return new StageInput("lightmap"); }, lightmap);
+}
+
 } // namespace
 
 int main(int argc, const char** argv)
 {
+    declare_readers();
     Request request;
     StageMain stage("vmframes", "render pictures of a mesh, lit by its visibility map", { "MESH", "[ENVIRONMENT]" },
                     kExamples, OutputKind::Picture);

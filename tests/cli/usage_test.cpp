@@ -154,6 +154,8 @@ TEST_F(Usage, AFlagThatCannotChangeThePictureIsRefused)
         { "--albedo-layer a: no albedo is given", environment + "--albedo-layer a" },
         { "--cfem-resolution 8: no environment to filter", environment + "--is-cfem --cfem-resolution 8" },
         { "--crease-angle 30: flat normals", bake + "--normals flat --crease-angle 30" },
+        { "--frame 3: only Alembic files have frames", bake + "--frame 3" },
+        { "--fps 25: no frame is given", bake + "--fps 25" },
         { "--samples 8: target_error sets the number", bake + "--samples 8 --target-error 0.1" },
         { "--samples 8: time_budget sets the number", bake + "--time-budget=1 --samples 8" },
         { "--time-budget 1: target_error sets the number", bake + "--time-budget=1 --target-error=0.1" },

@@ -45,6 +45,7 @@ TEST_F(Vmframes, WrongUsageIsRefusedBeforeAnythingIsMade)
     refused(2, "give only one of --wipe and --side-by-side", line + "-o a.png --wipe ao,sh --side-by-side ao,sh");
     refused(2, "model: \"phong\" is not one of", line + "-o a.png --model phong");
     refused(2, "give only one of --vismap and --texture", line + "-o a.png --vismap v.exr --texture t.exr");
+    refused(2, "\"t.##.exr\" is a sequence: --frames is missing", "vmframes quad.obj -o a.png --texture t.##.exr");
     refused(2, "the extension must be png, jpg, webp or tif", line + "-o a.png --contact-sheet sheet.exr");
     refused(2, "spp: 0 is not in [1, 4096]", line + "-o a.png --spp 0");
     refused(1, "\"a/b.png\": no such folder: \"a\"", line + "-o a/b.png");
@@ -133,6 +134,15 @@ TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
     // The lightmap itself, through OIIO's texture system: the margin and other filters alone are different.
     done("vmframes " + kSpot + " --texture kept/spot_lightmap.exr --size 16 --spp 4 -o c.exr");
     expect_same_pixels("a.exr", "c.exr", 0.2f);
+    // A sequence, and a recipe that is lit as it is looked up.
+    for (const char* name : { "t.1.exr", "t.2.exr" })
+        write(name, read("kept/spot_lightmap.exr"));
+    done("vmframes " + kSpot + " --texture 't.#.exr' --size 16 --spp 4 --frames 1-2 -o 'd.#.exr'");
+    expect_same_pixels("c.exr", "d.2.exr", 0);
+    refused(1, "\"t.3.exr\"", "vmframes " + kSpot + " --texture 't.#.exr' --size 16 --frames 3 -o 'e.#.exr'");
+    write("live.lightmap", "vismap = \"kept/spot_vismap.exr\"\nenvironment = \"" + kSky + "\"\n");
+    done("vmframes " + kSpot + " --texture live.lightmap --size 16 --spp 4 -o f.exr");
+    expect_same_pixels("c.exr", "f.exr", 0.2f);
     write("bare.obj", kQuadWithoutUv);
     EXPECT_THAT(done("vmframes bare.obj sky.exr --keep made -o d.png" + small), HasSubstr("no UVs; "));
     EXPECT_THAT(names("", "made"), testing::Contains("bare_unwrapped.glb"));

@@ -72,7 +72,7 @@ inside /vmlight/bootstrap.sh test -DVMLIGHT_WERROR=OFF || status=$?
 
 say "versions"
 inside dpkg-query -f '${db:Status-Abbrev} ${source:Package} ${Version}\n' -W 'libopenimageio*' 'libopencolorio*' 'libembree*' \
-    'libassimp*' 'libhwy*' 'libimath*' 'libopenexr*' 'libgtest*' 'libbenchmark*' g++ cmake 2>/dev/null |
+    'libassimp*' 'libalembic*' 'libeigen3*' 'libhwy*' 'libimath*' 'libopenexr*' 'libgtest*' 'libbenchmark*' g++ cmake 2>/dev/null |
     awk '$1 == "ii" { print "  " $2, $3 }' | sort -u
 inside g++ --version | head -n 1
 ((status == 0)) || fail "$suite failed"

@@ -161,7 +161,7 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
     HardCase row("An X3D whose group contains itself; a glTF 1.0 with a cycle of nodes; a zip archive");
     row.naive("assimp 5.2 recurses until its stack overflows: a crash from 209 bytes (measured)");
     const TemporaryFolder folder;
-    const std::string none = "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX";
+    const std::string none = "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic";
     EXPECT_EQ(
         refusal(
             folder, "a.x3d",

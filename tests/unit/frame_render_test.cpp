@@ -2,6 +2,7 @@
 // Frames of scenes whose pictures are known.
 #include "scenes.h"
 
+#include <vmlight/frame/corner_grid.h>
 #include <vmlight/frame/lit_object.h>
 #include <vmlight/frame/render.h>
 #include <vmlight/lightmap/lightmap.h>
@@ -339,6 +340,82 @@ TEST(RenderFrame, HardMeshesGiveFinitePictures)
             ASSERT_TRUE(std::isfinite(values[i])) << image.spec().channelnames[i % size_t(image.nchannels())]
                                                   << " of pixel " << i / size_t(image.nchannels());
         EXPECT_EQ(pixel(image, 2, 8)[3], 1) << shift;
+    }
+}
+
+// Light that varies over a ball: what is mixed from corners, and what all samples say.
+TEST(RenderFrame, CornersAreEnoughInsideASurface)
+{
+    const int side = 64;
+    std::vector<float> texels;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            for (int c = 0; c < 3; ++c)
+                texels.push_back(1 + 0.5f * std::sin(0.2f * float(x + c)) * std::cos(0.3f * float(y)));
+    FrameSurface ball;
+    ball.mesh = shared(scenes::sphere(V3d(0), 0.9, 32));
+    ball.light = texture_of(side, side, texels);
+    const FrameScene scene = scene_of({ ball });
+    for (const char* filter : { "blackman-harris", "gaussian", "box" }) {
+        RenderParams params = params_of(128, 64, filter);
+        const ImageBuf edges = rendered(scene, square_on(), params);
+        params.sampling = "all";
+        const ImageBuf all = rendered(scene, square_on(), params);
+        double squares = 0, sum = 0;
+        int same = 0, covered = 0;
+        for (int y = 0; y < 128; ++y)
+            for (int x = 0; x < 128; ++x) {
+                const auto a = pixel(edges, x, y), b = pixel(all, x, y);
+                EXPECT_EQ(a[3], b[3]); // what is covered in part is sampled
+                if (b[3] < 1) {
+                    EXPECT_EQ(a, b);
+                }
+                covered += b[3] == 1;
+                same += b[3] == 1 && a == b;
+                squares += double(a[0] - b[0]) * double(a[0] - b[0]);
+                sum += double(b[0]);
+            }
+        EXPECT_LT(std::sqrt(squares * 128 * 128) / sum, 4e-3) << filter;
+        EXPECT_LT(same, covered / 2) << filter; // most are mixed
+    }
+}
+
+// Two halves of one mesh whose textures do not go on in each other: the pixels on the seam get all samples.
+TEST(RenderFrame, SeamsAreSampled)
+{
+    Mesh mesh;
+    scenes::add_quad(mesh, V3d(-1, -1, 0), V3d(0, -1, 0), V3d(0, 1, 0), V3d(-1, 1, 0), V2f(0, 0), V2f(0.4f, 1));
+    scenes::add_quad(mesh, V3d(0, -1, 0), V3d(1, -1, 0), V3d(1, 1, 0), V3d(0, 1, 0), V2f(0.6f, 0), V2f(1, 1));
+    std::vector<float> texels;
+    for (int x = 0; x < 10; ++x)
+        texels.insert(texels.end(), 3, x < 5 ? 1.0f : 3.0f);
+    FrameSurface surface;
+    surface.mesh = shared(mesh);
+    surface.light = texture_of(10, 1, texels);
+    const FrameScene scene = scene_of({ surface });
+    RenderParams params = params_of(15, 16);
+    const ImageBuf edges = rendered(scene, square_on(), params);
+    params.sampling = "all";
+    const ImageBuf all = rendered(scene, square_on(), params);
+    for (int y = 2; y < 13; ++y) {
+        EXPECT_EQ(pixel(edges, 7, y), pixel(all, 7, y)); // the seam is in its middle
+        EXPECT_NEAR(edges.getchannel(7, y, 0, 0), 2, 1e-5);
+        EXPECT_NEAR(edges.getchannel(3, y, 0, 0), 1, 1e-5);
+        EXPECT_NEAR(edges.getchannel(11, y, 0, 0), 3, 1e-5);
+    }
+}
+
+TEST(CornerGrid, WeightsHaveTheVarianceOfTheFilter)
+{
+    for (const Choice& filter : pixel_filter_choices().choices) {
+        const auto weights = CornerGrid::weights(filter_variance(filter.word));
+        double sum = 0, variance = 0;
+        for (int i = 0; i < CornerGrid::kAround; ++i) {
+            sum += weights[size_t(i)];
+            variance += weights[size_t(i)] * (i - 1.5) * (i - 1.5);
+        }
+        EXPECT_NEAR(sum, 1, 1e-12) << filter.word;
+        EXPECT_NEAR(variance, filter_variance(filter.word), 1e-12) << filter.word;
     }
 }
 

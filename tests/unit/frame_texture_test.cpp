@@ -208,6 +208,31 @@ TEST(FileTexture, GivesTheTexelsOfAPlainFile)
         }
 }
 
+TEST(FileTexture, TilesAreNotUpsideDown)
+{
+    const TemporaryFolder folder;
+    for (const int udim : { 1001, 1012 }) {
+        OIIO::ImageBuf image(OIIO::ImageSpec(1, 2, 3, OIIO::TypeFloat));
+        for (int y = 0; y < 2; ++y) {
+            const std::array<float, 3> pixel { float(udim), float(y), 0 };
+            image.setpixel(0, y, pixel.data());
+        }
+        ASSERT_TRUE(image.write(folder / ("tile." + std::to_string(udim) + ".exr")));
+    }
+    FileTexture texture;
+    std::string error;
+    ASSERT_TRUE(texture.open(folder / "tile.<UDIM>.exr", error)) << error;
+    const auto look = [&](double u, double v) {
+        std::array<float, 3> rgb {};
+        EXPECT_TRUE(texture.lookup({ V2d(u, v) }, rgb.data(), error)) << error;
+        return rgb;
+    };
+    EXPECT_THAT(look(0.5, 0.75), testing::ElementsAre(1001, 0, 0)); // row 0 is the upper half
+    EXPECT_THAT(look(0.5, 0.25), testing::ElementsAre(1001, 1, 0));
+    EXPECT_THAT(look(1.5, 1.75), testing::ElementsAre(1012, 0, 0));
+    EXPECT_THAT(look(1.5, 0.75), testing::ElementsAre(0, 0, 0)); // no file
+}
+
 TEST(FileTexture, WhatIsNoTextureIsRefused)
 {
     const TemporaryFolder folder;
@@ -258,6 +283,7 @@ TEST(PixelSamples, HaveTheShapeOfTheirFilter)
         for (const PixelSample& sample : samples)
             sum += sample.y * sample.y;
         EXPECT_NEAR(sum / 1024, variance, 0.002) << filter;
+        EXPECT_NEAR(filter_variance(filter), variance, 1e-4) << filter;
     }
     EXPECT_EQ(pixel_filter_choices().choices.size(), variances.size());
 }

@@ -113,10 +113,8 @@ TEST_F(MeshFiles, MeshoptFiltersAreUndone)
     file.root["bufferViews"][1]["byteStride"] = 4;
     file.accessor(1)["componentType"] = 5120;
     file.accessor(1)["normalized"] = true;
-    // Positions by their exponents: powers of two are exact.
-    const float positions[] = { 0, 0, 0, 4, 0, 0, 0, 0.5f, 0 };
-    std::vector<uint32_t> exponential(9);
-    meshopt_encodeFilterExp(exponential.data(), 3, 12, 20, positions);
+    // Positions as an exponent of 8 bits and a whole number of 24: 1 * 2^2 is 4, 1 * 2^-1 is 0.5.
+    const std::vector<uint32_t> exponential { 0, 0, 0, 0x02000001, 0x02000000, 0, 0, 0xff000001, 0xff000000 };
     compress(file, 0, encode_vertices(exponential.data(), 3, 12), "ATTRIBUTES", 3, 12)["filter"] = "EXPONENTIAL";
     const Mesh mesh = read("a.gltf", with_placeholder(file));
     EXPECT_EQ(mesh.positions, (std::vector<V3d> { V3d(0, 0, 0), V3d(4, 0, 0), V3d(0, 0.5, 0) }));

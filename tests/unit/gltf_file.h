@@ -16,13 +16,13 @@ namespace mesh_files {
 using nlohmann::json;
 
 /// glTF's names of component types.
-template <class T> constexpr int kComponentType = 0;
-template <> constexpr int kComponentType<int8_t> = 5120;
-template <> constexpr int kComponentType<uint8_t> = 5121;
-template <> constexpr int kComponentType<int16_t> = 5122;
-template <> constexpr int kComponentType<uint16_t> = 5123;
-template <> constexpr int kComponentType<uint32_t> = 5125;
-template <> constexpr int kComponentType<float> = 5126;
+template <class T> inline constexpr int kComponentType = 0;
+template <> inline constexpr int kComponentType<int8_t> = 5120;
+template <> inline constexpr int kComponentType<uint8_t> = 5121;
+template <> inline constexpr int kComponentType<int16_t> = 5122;
+template <> inline constexpr int kComponentType<uint16_t> = 5123;
+template <> inline constexpr int kComponentType<uint32_t> = 5125;
+template <> inline constexpr int kComponentType<float> = 5126;
 
 /// The bytes of numbers, in this machine's order.
 template <class T> std::string bytes_of(const std::vector<T>& numbers)

@@ -150,6 +150,8 @@ TEST_F(MeshFiles, EachFormatIsReadWhateverTheFileIsCalled)
 {
     const auto all = samples();
     for (const MeshFormat& format : mesh_formats()) {
+        if (std::string(format.name) == "Alembic") // its files are written by its library: alembic_test.cpp
+            continue;
         ASSERT_GT(all.count(format.name), 0u) << "add a sample of " << format.name;
         const std::string usual = OIIO::Strutil::splits(format.extensions).front();
         for (auto [sample, end] = all.equal_range(format.name); sample != end; ++sample)
@@ -224,7 +226,8 @@ TEST_F(MeshFiles, AFormatOfItsOwnIsRefusedLikeAny)
     EXPECT_EQ(reason("a.tri", tri(-1)), "the tri library says no");
     EXPECT_EQ(reason("a.tri", tri(2)), "a triangle of \"leaf\" uses vertex 7, but there are only 3");
     EXPECT_EQ(reason("a.tri", tri(std::nanf(""))).find("vertex 2 of \"leaf\" is not finite"), 0u);
-    EXPECT_EQ(reason("a", "noise"), "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Tri");
+    EXPECT_EQ(reason("a", "noise"),
+              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, Tri");
     EXPECT_EQ(refusal(folder.write("a", tri())),
-              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX");
+              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic");
 }

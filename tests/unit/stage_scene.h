@@ -68,6 +68,8 @@ public:
         EXPECT_TRUE(read_mesh(mesh, *this / "spot.obj", {}, error)) << error;
         EXPECT_TRUE(make_vismap(image, mesh, {}, params)) << image.geterror();
         append_params(image.specmod(), MeshParams {});
+        for (const char* name : { "frame", "fps" }) // no frame is given
+            image.specmod().erase_attribute(metadata_name(name));
         return image;
     }
     OIIO::ImageBuf cfem() const

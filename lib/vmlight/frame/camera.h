@@ -19,6 +19,14 @@ struct CameraRay
 {
     Imath::V3d origin, direction;
     Imath::V3d origin_dx { 0 }, origin_dy { 0 }, direction_dx { 0 }, direction_dy { 0 };
+
+    void scale_differentials(double factor)
+    {
+        origin_dx *= factor;
+        origin_dy *= factor;
+        direction_dx *= factor;
+        direction_dy *= factor;
+    }
 };
 
 /// A pinhole or orthographic camera in object space. Its axes are of unit length and orthogonal.

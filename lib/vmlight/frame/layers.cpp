@@ -84,6 +84,13 @@ const std::vector<FrameLayer>& frame_layers()
           kFarAway,
           false,
           [](const SeenPoint& seen, float* dst) { dst[0] = float(seen.point.depth); } },
+        { kCoverageLayer,
+          "alpha of the objects, whatever is behind",
+          { "coverage" },
+          true,
+          0,
+          false,
+          [](const SeenPoint&, float* dst) { dst[0] = 1; } },
     };
     return layers;
 }

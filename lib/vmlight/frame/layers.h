@@ -13,6 +13,8 @@
 namespace vmlight {
 
 constexpr int kMostLayerChannels = 4;
+/// The last layer, of one channel of the same name.
+constexpr const char* kCoverageLayer = "coverage";
 
 /// What is known of the nearest point that a camera ray meets.
 struct SeenPoint

@@ -60,10 +60,14 @@ bool LitObject::open(const ObjectRecipe& recipe, const MakeOptions& options, std
     m_surface.material_uvs = std::move(mesh.material_uvs);
     m_mesh = std::move(mesh.mesh);
     m_surface.mesh = m_mesh;
-    if (recipe.texture.empty())
-        return true;
+    return recipe.texture.empty() || recipe.texture.find('#') != std::string::npos
+        || show_texture(recipe.texture, error);
+}
+
+bool LitObject::show_texture(const std::string& name, std::string& error)
+{
     auto texture = std::make_shared<FileTexture>();
-    if (!texture->open(recipe.texture, error))
+    if (!texture->open(name, error))
         return false;
     m_surface.light = std::move(texture);
     return true;

@@ -28,7 +28,8 @@ struct ObjectRecipe
     VismapRecipe map;
     /// Visibility maps that are there: a file or recipe, with `<UDIM>` if there are several; "" to bake them.
     std::string vismap;
-    /// Light that is there: looked up as it is, and no map is needed; "" for none.
+    /// Light that is there: looked up as it is, and no map is needed; "" for none. A sequence, with #, is opened by
+    /// show_texture() only.
     std::string texture;
 };
 
@@ -43,6 +44,9 @@ public:
     ///
     /// @returns false, with the reason in `error`, if an input cannot be read
     bool open(const ObjectRecipe& recipe, const MakeOptions& options, std::string& error);
+    /// Look the light up in another file from now on, of an object that was opened with one. False, with the reason in
+    /// `error`, if it cannot be opened.
+    bool show_texture(const std::string& name, std::string& error);
     /// A mesh in memory, with UVs.
     void open(std::shared_ptr<const Mesh> mesh, const VismapParams& params);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/frame/pixel_samples.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -50,6 +51,13 @@ double warp(const Filter& filter, double u)
     return u == 0.5 ? 0 : is_upper ? -x : x;
 }
 
+const Filter& filter_named(const std::string& name)
+{
+    const auto found
+        = std::find_if(kFilters.begin(), kFilters.end(), [&](const Filter& filter) { return filter.name == name; });
+    return found == kFilters.end() ? kFilters[0] : *found;
+}
+
 // The step of a lattice of `count` points along the second axis: without a common divisor, near the golden section.
 int lattice_step(int count)
 {
@@ -70,12 +78,27 @@ Choices pixel_filter_choices()
     return choices;
 }
 
+double filter_radius(const std::string& filter)
+{
+    return filter_named(filter).radius;
+}
+
+double filter_variance(const std::string& filter)
+{
+    constexpr int kSteps = 4096;
+    const Filter& shape = filter_named(filter);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double x = (i + 0.5) / kSteps * 2 - 1, density = shape.density(x);
+        sum += density;
+        squares += density * x * x;
+    }
+    return squares / sum * shape.radius * shape.radius;
+}
+
 std::vector<PixelSample> pixel_samples(int count, const std::string& filter)
 {
-    const Filter* found = &kFilters[0];
-    for (const Filter& candidate : kFilters)
-        if (candidate.name == filter)
-            found = &candidate;
+    const Filter* found = &filter_named(filter);
     std::vector<double> position(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i)
         position[i] = warp(*found, (i + 0.5) / count);

@@ -12,6 +12,11 @@ namespace vmlight {
 /// The filters that pixel_samples() knows.
 Choices pixel_filter_choices();
 
+/// How far a filter reaches from the pixel's centre along an axis, in pixels.
+double filter_radius(const std::string& filter);
+/// The variance of a filter along an axis, in square pixels.
+double filter_variance(const std::string& filter);
+
 /// An offset from the pixel's centre, in pixels.
 struct PixelSample
 {

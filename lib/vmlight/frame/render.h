@@ -21,6 +21,10 @@ struct RenderParams
     Size size { 1024, 1024 };
     int spp = 16;
     std::string filter = "blackman-harris";
+    /// Which pixels get all samples. `edges`: those around which a surface ends, has a seam or is not opaque; the
+    /// others are mixed from what is seen through their corners, with weights that have the variance of the filter.
+    /// `all`: all of them. Measured: docs/frames.md.
+    std::string sampling = "edges";
     std::vector<std::string> layers;
 
     template <class Visit> void visit(Visit&& field)
@@ -29,6 +33,11 @@ struct RenderParams
               "Width and height of the picture in pixels; one number for a square");
         field("spp", spp, Range { 1, 4096 }, "Samples per pixel");
         field("filter", filter, pixel_filter_choices(), advanced("Pixel filter"));
+        field("sampling", sampling,
+              Choices {
+                  { { "edges", "pixels inside a smooth surface are mixed from their corners: several times as fast" },
+                    { "all", "every pixel gets all samples; sees what is thinner than a pixel everywhere" } } },
+              advanced("Which pixels get all samples"));
         field("layers", layers, frame_layer_choices(), "Layers to write besides the colour, into an EXR");
     }
 };

@@ -56,34 +56,41 @@ bool TileTexture::lookup(const TextureFootprint& uv, float* dst, std::string&) c
     return true;
 }
 
-bool FileTexture::open(const std::string& name, std::string& error)
+bool FileTexture::open_tile(int udim, const std::string& file, std::string& error)
 {
-    m_name = name;
-    m_file = OIIO::ustring(name);
-    m_is_udim = has_udim_pattern(name);
-    std::string first = name;
-    if (m_is_udim) {
-        const std::vector<int> tiles = existing_udims(name);
-        if (tiles.empty()) {
-            error = format("\"{}\": no files match", name);
-            return false;
-        }
-        first = udim_path(name, tiles[0]);
-    }
-    const auto in = open_image(first, error);
+    const auto in = open_image(file, error);
     if (!in)
         return false;
     std::array<int, 3> channels;
     if (!find_color_channels(in->spec(), channels, error)) {
-        error = format("\"{}\": {}", first, error);
+        error = format("\"{}\": {}", file, error);
         return false;
     }
-    m_is_gray = channels[1] == channels[0];
-    if (channels[0] != 0 || (!m_is_gray && (channels[1] != 1 || channels[2] != 2))) {
+    const bool is_gray = channels[1] == channels[0];
+    if (channels[0] != 0 || (!is_gray && (channels[1] != 1 || channels[2] != 2))) {
         error
-            = format("\"{}\": its colour must be the first channels, R G B; the texture system reads no others", first);
+            = format("\"{}\": its colour must be the first channels, R G B; the texture system reads no others", file);
         return false;
     }
+    m_tiles[udim] = { OIIO::ustring(file), is_gray };
+    return true;
+}
+
+bool FileTexture::open(const std::string& name, std::string& error)
+{
+    m_tiles.clear();
+    error.clear();
+    if (has_udim_pattern(name)) {
+        for (const int udim : existing_udims(name))
+            if (!open_tile(udim, udim_path(name, udim), error))
+                return false;
+        if (m_tiles.empty())
+            error = format("\"{}\": no files match", name);
+    } else {
+        open_tile(0, name, error);
+    }
+    if (!error.empty())
+        return false;
     // A system of its own: others may have other limits.
     m_system.reset(OIIO::TextureSystem::create(false),
                    [](OIIO::TextureSystem* system) { OIIO::TextureSystem::destroy(system); });
@@ -98,22 +105,28 @@ bool FileTexture::open(const std::string& name, std::string& error)
 bool FileTexture::lookup(const TextureFootprint& uv, float* dst, std::string& error) const
 {
     TextureFootprint at = uv;
-    if (!m_is_udim) {
+    auto tile = m_tiles.find(0);
+    if (tile == m_tiles.end()) {
+        tile = m_tiles.find(to_tile(at));
+    } else {
         at.st.y = 1 - at.st.y;
         at.dx.y = -at.dx.y;
         at.dy.y = -at.dy.y;
     }
+    std::fill_n(dst, 3, 0.0f);
+    if (tile == m_tiles.end())
+        return true;
     OIIO::TextureOpt options;
     options.swrap = options.twrap = OIIO::TextureOpt::WrapClamp;
     options.interpmode = OIIO::TextureOpt::InterpBilinear;
     options.mipmode = OIIO::TextureOpt::MipModeTrilinear;
-    const bool good = m_system->texture(m_file, options, float(at.st.x), float(at.st.y), float(at.dx.x), float(at.dx.y),
-                                        float(at.dy.x), float(at.dy.y), m_is_gray ? 1 : 3, dst);
-    if (!good) {
-        error = format("\"{}\": {}", m_name, m_system->geterror());
+    const auto& [file, is_gray] = tile->second;
+    if (!m_system->texture(file, options, float(at.st.x), float(at.st.y), float(at.dx.x), float(at.dx.y),
+                           float(at.dy.x), float(at.dy.y), is_gray ? 1 : 3, dst)) {
+        error = format("\"{}\": {}", file.string(), m_system->geterror());
         return false;
     }
-    if (m_is_gray)
+    if (is_gray)
         dst[1] = dst[2] = dst[0];
     return true;
 }

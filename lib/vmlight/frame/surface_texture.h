@@ -47,7 +47,8 @@ private:
 };
 
 /// Colour of a file, or of a recipe of one of the readers, through OIIO's TextureSystem with ray differentials:
-/// trilinear, between texels bilinear; what is beyond the edge is the edge. `<UDIM>` in the name stands for the tile.
+/// trilinear, between texels bilinear; what is beyond the edge is the edge. `<UDIM>` in the name stands for the tile;
+/// tiles without a file are black.
 class FileTexture : public SurfaceTexture
 {
 public:
@@ -58,9 +59,16 @@ public:
     bool lookup(const TextureFootprint& at, float* dst, std::string& error) const override;
 
 private:
-    std::string m_name;
-    OIIO::ustring m_file;
-    bool m_is_udim = false, m_is_gray = false;
+    struct Tile
+    {
+        OIIO::ustring file;
+        bool is_gray = false;
+    };
+    bool open_tile(int udim, const std::string& file, std::string& error);
+
+    // By UDIM tile; the only one of a file without tiles is 0. OIIO's own search for tiles takes v as it is and rows
+    // from the top, which turns each tile upside down.
+    std::map<int, Tile> m_tiles;
     std::shared_ptr<OIIO::TextureSystem> m_system;
 };
 

@@ -53,7 +53,7 @@ OIIO::ImageSpec spec_for(const OIIO::ImageBuf& picture, const PictureFormat& for
 // The channels that are written, on black where the format has no alpha.
 OIIO::ImageBuf prepared(const OIIO::ImageBuf& picture, const OIIO::ImageSpec& spec)
 {
-    OIIO::ImageBuf image = OIIO::ImageBufAlgo::channels(picture, spec.nchannels, {});
+    OIIO::ImageBuf image = OIIO::ImageBufAlgo::channels(picture, spec.nchannels, {}).copy(OIIO::TypeFloat);
     if (spec.nchannels == 3 && picture.spec().alpha_channel == 3) {
         for (OIIO::ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel) {
             const float alpha = picture.getchannel(pixel.x(), pixel.y(), 0, 3);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,8 @@ struct Mesh
 
 struct MeshParams
 {
+    static constexpr double kFirstSample = -std::numeric_limits<double>::infinity();
+
     /// `file` keeps the file's normals, and computes missing ones as its format asks (see read_mesh()); `smooth` and
     /// `flat` compute all.
     std::string normals = "file";
@@ -80,6 +83,10 @@ struct MeshParams
     int uv_set = 0;
     /// `file` follows the file's axis metadata; y is up in files without any.
     std::string up = "file";
+    /// Of meshes that change over time: the frame to read, at `frame` / `fps` seconds. Beyond the ends of the animation
+    /// it stands still. kFirstSample is the first sample of everything; as text, only the word "first" is.
+    double frame = kFirstSample;
+    double fps = 24;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -96,6 +103,9 @@ struct MeshParams
                           { "y", "y is up: no rotation" },
                           { "z", "z is up: rotate to y up" } } },
               "Up axis of the mesh");
+        field("frame", frame, Range { -999999, 999999, "first", kFirstSample },
+              "Frame of an animated Alembic mesh and its occluders; may have a fraction. first: the first sample");
+        field("fps", fps, Range { 1e-3, 1e4 }, advanced("Frames per second that frame counts in"));
     }
 };
 

@@ -25,7 +25,10 @@ namespace {
 void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
 {
     append_params(spec, recipe.mesh_params);
-    // A map of the whole mesh in its own UVs has the metadata that it always had.
+    // A map of the whole mesh in its own UVs, at no frame, has the metadata that it always had.
+    if (recipe.mesh_params.frame == MeshParams::kFirstSample)
+        for (const char* name : { "frame", "fps" })
+            spec.erase_attribute(metadata_name(name));
     if (recipe.unwrap)
         spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
     MeshSelection selection = recipe.selection;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/mesh/import/alembic.h>
 #include <vmlight/mesh/import/assimp_importer.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/gltf.h>
@@ -31,6 +32,7 @@ const std::vector<MeshFormat>& mesh_formats()
         { "glTF 2.0", "gltf glb", is_gltf, nullptr, read_gltf },
         { "Collada", "dae xml", is_collada, inspect_collada, read_with_assimp },
         { "FBX", "fbx", is_fbx, inspect_fbx, read_with_assimp },
+        { "Alembic", "abc", is_alembic, nullptr, read_alembic, true },
     };
     return formats;
 }

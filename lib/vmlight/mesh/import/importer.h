@@ -62,6 +62,8 @@ struct MeshFormat
     /// is freed before it returns. Runs on a deep stack: see run_on_deep_stack().
     /// @returns false, with the reason in `error` (on one line, without the path), if the file cannot be read
     bool (*read)(MeshBuilder& dst, const ImportRequest& request, std::string& error);
+    /// Does it hold meshes that change over time? Their `read` follows MeshParams::frame.
+    bool has_time = false;
 };
 
 /// Every format that read_mesh() reads.
@@ -77,6 +79,9 @@ std::string file_bytes(const std::string& path);
 
 /// Whether `path` ends in an extension of mesh_formats(), in any case. Does not look at the file.
 bool is_mesh_name(const std::string& path);
+
+/// Can what is read of a file depend on MeshParams::frame? By its content; of a file that cannot be read, by its name.
+bool has_time(const std::string& path);
 
 /// As read_mesh(), for a table of formats.
 bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,

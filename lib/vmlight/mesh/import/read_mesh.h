@@ -10,8 +10,8 @@
 
 namespace vmlight {
 
-/// Read all meshes of an OBJ, PLY, STL, glTF 2.0 (.gltf, .glb), Collada or FBX file, each at its place in the node
-/// hierarchy. The format is detected by content, and by the extension only where content cannot tell.
+/// Read all meshes of an OBJ, PLY, STL, glTF 2.0 (.gltf, .glb), Collada, FBX or Alembic file, each at its place in the
+/// node hierarchy. The format is detected by content, and by the extension only where content cannot tell.
 ///
 /// Polygons are triangulated, points, lines and curves dropped, vertices that agree bit for bit merged. Triangles
 /// without area are kept (they occlude nothing).
@@ -23,6 +23,8 @@ namespace vmlight {
 ///
 /// A glTF is read in the pose that its nodes have: skins, morph targets by their default weights, instances, hidden
 /// nodes left out. One that requires an extension that is not read is refused.
+///
+/// An Alembic file is read at MeshParams::frame; other formats ignore it. Without the Alembic library it is refused.
 ///
 /// Texture coordinates of face corners, in an OBJ or PLY, split vertices where they differ. Materials and textures come
 /// along as far as the format has them: MTL files beside an OBJ, TextureFile comments of a PLY. One that is not there

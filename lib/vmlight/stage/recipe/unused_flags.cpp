@@ -3,9 +3,12 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/lightmap/model.h>
+#include <vmlight/mesh/import/importer.h>
 #include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/strutil.h>
+
+#include <algorithm>
 
 namespace vmlight {
 
@@ -13,6 +16,11 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
 {
     if (key == "crease_angle" && recipe.mesh_params.normals == "flat")
         return "flat normals ignore it";
+    if (key == "frame" && !has_time(recipe.mesh)
+        && std::none_of(recipe.occluder.begin(), recipe.occluder.end(), has_time))
+        return "only Alembic files have frames";
+    if (key == "fps" && recipe.mesh_params.frame == MeshParams::kFirstSample)
+        return "no frame is given";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
         return "width and height override it";
     const std::string other_basis = unused_basis_parameter(recipe.vismap_params, key);

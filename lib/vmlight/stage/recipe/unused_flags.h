@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which parameters have no effect, whatever the files that a recipe names hold. Flags are checked, keys in a file
-/// are not.
+/// Which parameters have no effect, whatever the files that a recipe names hold (but of a mesh, its format counts).
+/// Flags are checked, keys in a file are not.
 #pragma once
 
 #include <vmlight/stage/recipe/recipe.h>
