@@ -19,6 +19,7 @@ packages=(
     ca-certificates cmake g++ ninja-build
     libopenimageio-dev libimath-dev libembree-dev libassimp-dev zlib1g-dev libhwy-dev libtomlplusplus-dev nlohmann-json3-dev
     libpugixml-dev libeigen3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
+    libglfw3-dev libepoxy-dev libimgui-dev libopencolorio-dev libegl1 libgl1-mesa-dri xvfb xdotool
     libgmock-dev libgtest-dev libbenchmark-dev
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )

@@ -13,6 +13,8 @@ import unittest
 BIN = os.environ["VMLIGHT_BIN"]
 SHARE = os.environ["VMLIGHT_SHARE"]
 TOOLS = ["makevismap", "makecfem", "makelightmap", "vmcost", "vmframes"]
+if os.path.exists(os.path.join(BIN, "vmview")):  # where its libraries are installed
+    TOOLS.append("vmview")
 
 
 def path(kind, tool):

@@ -95,8 +95,9 @@ bool CommandLine::given_recipe() const
 
 std::vector<std::string> CommandLine::synopses() const
 {
-    std::vector<std::string> lines { format("{} {} -o {} [options]", name, OIIO::Strutil::join(operand_names, " "),
-                                            output_metavar) };
+    const std::string output = format(needs_output ? "-o {}" : "[-o {}]", output_metavar);
+    std::vector<std::string> lines { format("{} {} {} [options]", name, OIIO::Strutil::join(operand_names, " "),
+                                            output) };
     if (!stage.empty())
         lines.push_back(format("{} RECIPE.{} -o {} [options]", name, stage, output_metavar));
     return lines;
@@ -154,9 +155,10 @@ bool CommandLine::parse_flag(const char**& argument, const char** end, std::stri
 bool CommandLine::check_operands(std::string& error) const
 {
     const bool takes_more = OIIO::Strutil::ends_with(operand_names.back(), "...");
-    const bool may_lack_last = OIIO::Strutil::starts_with(operand_names.back(), "[");
     const size_t most = given_recipe() ? 1 : operand_names.size();
-    const size_t least = may_lack_last && !given_recipe() ? most - 1 : most;
+    size_t least = 0;
+    while (least < most && !OIIO::Strutil::starts_with(operand_names[least], "["))
+        ++least;
     if (operands.size() < least)
         error = format("{} is missing", operand_names[operands.size()]);
     else if (operands.size() > most && !takes_more)

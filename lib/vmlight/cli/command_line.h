@@ -45,9 +45,10 @@ struct CommandLine
 
     /// For the help: the executable, what it does, example command lines with their remarks, and what -o names.
     std::string name, purpose, example, output_metavar;
+    bool needs_output = true;
     /// The stage whose recipe may replace the operands, or "".
     std::string stage;
-    /// The last may end in "...": one or more; or be in brackets, "[ENVIRONMENT]": none or one.
+    /// The last may end in "...": one or more. Those from the first in brackets on, "[ENVIRONMENT]", may be left out.
     std::vector<std::string> operand_names;
     std::vector<Option> options;
 

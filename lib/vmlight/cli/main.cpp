@@ -43,8 +43,13 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
           { "PICTURE",
             "Picture to write: .exr for scene-linear light, .png, .jpg, .webp or .tif "
             "as the display shows it, .gif or .mp4 for a film" } },
+        { OutputKind::OptionalPicture,
+          { "PICTURE",
+            "Write a picture instead of opening a window: .exr for scene-linear light, .png, .jpg, .webp or .tif "
+            "as the display shows it" } },
     };
     line.output_metavar = outputs.at(output).metavar;
+    line.needs_output = output != OutputKind::OptionalPicture;
     m_command.output_kind = output;
     group("Output:");
     option("o", line.output_metavar, outputs.at(output).help, m_command.output);

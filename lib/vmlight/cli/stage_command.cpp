@@ -14,7 +14,9 @@ namespace vmlight {
 
 std::string StageCommand::output_fault() const
 {
-    if (output_kind == OutputKind::Picture)
+    if (output_kind == OutputKind::OptionalPicture && output.empty())
+        return "";
+    if (output_kind == OutputKind::Picture || output_kind == OutputKind::OptionalPicture)
         return output_file_fault(output);
     return output_kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
 }
@@ -76,7 +78,7 @@ std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
     const bool works = makes_image();
     if (prints_recipe || saves_recipe())
         fault = unsavable();
-    else if (works && output.empty())
+    else if (works && output.empty() && output_kind != OutputKind::OptionalPicture)
         fault = format("-o {} is missing", line.output_metavar);
     else if (works && output_kind == OutputKind::Image)
         fault = image_name_fault();

@@ -13,12 +13,13 @@
 namespace vmlight {
 
 /// What -o names: an EXR, a folder, which is created if necessary, or a picture or film of any kind that the executable
-/// knows, whose name it checks itself.
+/// knows, whose name it checks itself; or a picture that need not be written.
 enum class OutputKind
 {
     Image,
     Folder,
-    Picture
+    Picture,
+    OptionalPicture
 };
 
 /// Parameters of every executable that writes an image.

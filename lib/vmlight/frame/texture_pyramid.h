@@ -47,6 +47,8 @@ public:
 
     bool is_empty() const { return m_levels.empty(); }
     int channels() const { return m_channels; }
+    TextureWrap wrap_s() const { return m_wrap_s; }
+    TextureWrap wrap_t() const { return m_wrap_t; }
     const std::vector<Level>& levels() const { return m_levels; }
 
     /// lambda of a lookup, without an upper limit.

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assets.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/frame/background.h>
+#include <vmlight/frame/object_mesh.h>
+#include <vmlight/frame/surface_materials.h>
+#include <vmlight/frame/texel_weights.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/open_source.h>
+#include <vmlight/uv/udim.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vmlight::view {
+namespace {
+
+std::vector<float> weights_of(const OIIO::ImageBuf& map, const MeshAsset& mesh, int threads)
+{
+    return texel_weights(*mesh.mesh, map, mesh.recipe.vismap_params.udim, threads);
+}
+
+} // namespace
+
+MeshPointer read_mesh_asset(VismapRecipe recipe, bool has_map, const std::string& light_space,
+                            const std::string& colorconfig, const MakeOptions& options, std::string& error)
+{
+    auto asset = std::make_shared<MeshAsset>();
+    ObjectMesh object;
+    if (!read_object_mesh(object, recipe, !has_map, options, error))
+        return nullptr;
+    const std::shared_ptr<Mesh> mesh = object.mesh;
+    asset->is_unwrapped = object.is_unwrapped;
+    asset->material_uvs = std::move(object.material_uvs);
+    const std::vector<int> tiles = mesh_udims(*mesh);
+    if (!recipe.udim_given && !tiles.empty())
+        recipe.vismap_params.udim = tiles[0];
+    auto scene = std::make_shared<BakeScene>();
+    if (!read_materials(asset->materials, *mesh, light_space, colorconfig, options, error)
+        || !scene->build(mesh, {}, options.threads, error)
+        || !asset->surface.build({ mesh.get() }, scene->frame(), options.threads, error))
+        return nullptr;
+    asset->recipe = std::move(recipe);
+    asset->subject.add(*mesh);
+    asset->mesh = mesh;
+    asset->scene = std::move(scene);
+    return asset;
+}
+
+MapPointer read_map_asset(const std::string& path, const MeshAsset& mesh, const MakeOptions& options,
+                          std::string& error)
+{
+    LightmapRecipe recipe;
+    recipe.vismap = path;
+    recipe.udim = mesh.recipe.vismap_params.udim;
+    if (has_udim_pattern(path))
+        recipe.vismap = udim_path(path, recipe.udim);
+    const PixelSourcePointer source = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, {});
+    std::vector<OIIO::ImageBuf> images;
+    std::array<int, 4> ignored;
+    if (!source || !make_input(images, *source, {}, recipe, "vismap", recipe.vismap, options, error))
+        return nullptr;
+    if (!find_vismap_channels(images[0].spec(), ignored, error)) {
+        error = format("\"{}\": {}", path, error);
+        return nullptr;
+    }
+    auto asset = std::make_shared<MapAsset>();
+    asset->path = path;
+    asset->image = std::move(images[0]);
+    asset->weights = weights_of(asset->image, mesh, options.threads);
+    return asset;
+}
+
+MapPointer make_map_asset(OIIO::ImageBuf image, int samples, const MeshAsset& mesh, int threads)
+{
+    auto asset = std::make_shared<MapAsset>();
+    asset->samples = samples;
+    asset->image = std::move(image);
+    asset->weights = weights_of(asset->image, mesh, threads);
+    return asset;
+}
+
+LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const MakeOptions& options,
+                              std::string& error)
+{
+    auto asset = std::make_shared<LightAsset>();
+    asset->path = path;
+    recipe.stack = true;
+    if (!asset->light.open(path, recipe, true, options, error))
+        return nullptr;
+    const OIIO::ImageBuf* seen
+        = asset->light.environment.initialized() ? &asset->light.environment : find_radiance(asset->filtered());
+    return !seen || make_background(asset->panorama, *seen, blur, options.threads, error) ? asset : nullptr;
+}
+
+AssetKind kind_of_file(const std::string& path, std::string& error)
+{
+    static constexpr const char* kMeshes[] = { ".obj", ".ply", ".gltf", ".glb", ".dae", ".fbx" };
+    const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(recipe_path(path)));
+    if (std::find(std::begin(kMeshes), std::end(kMeshes), extension) != std::end(kMeshes))
+        return AssetKind::mesh;
+    const std::string stage = image_stage(path);
+    if (stage == kVismapStage)
+        return AssetKind::map;
+    if (stage == kLightmapStage) {
+        error = format("\"{}\": a lit texture; open its mesh, its visibility map or an environment instead", path);
+        return AssetKind::none;
+    }
+    const PixelSourcePointer source = open_source(path, error);
+    if (!source)
+        return AssetKind::none;
+    std::array<int, 4> ignored;
+    std::string no_map;
+    return find_vismap_channels(source->spec(), ignored, no_map) ? AssetKind::map : AssetKind::light;
+}
+
+} // namespace vmlight::view

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From a request to assets: what is read, and what is baked because it is not there.
+#pragma once
+
+#include "../request.h"
+#include "assets.h"
+
+#include <vmlight/lightmap/model.h>
+
+#include <functional>
+#include <string>
+
+namespace vmlight::view {
+
+/// The bake that a model needs, for a mesh without a map: its basis, and what `ao` and false colours look at.
+VismapParams bake_params(const VismapParams& asked, const std::string& model);
+
+/// Bake the whole map of `mesh` with `samples` rays per texel. nullptr, with the reason in `error`: "interrupted" if
+/// `progress` stopped it.
+MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, int threads, const Progress& progress,
+                    std::string& error);
+
+/// All that a picture needs, read or baked one after the other.
+struct Assets
+{
+    MeshPointer mesh;
+    MapPointer map;
+    LightPointer light; ///< nullptr without an environment
+};
+bool load_assets(Assets& dst, const Request& request, const MakeOptions& options, std::string& error);
+
+/// The model to shade with, and what it reads: choose_model() for these two. False, with the reason in `error`.
+bool model_for(ShadingModel& dst, const std::string& model, const MapAsset& map, const LightAsset& light,
+               std::string& error);
+
+/// The parameters of the light that falls on the object, `turn` degrees about y after its own rotation. Without
+/// exposure, which is the picture's. False, with the reason in `error`, if they are no rotation.
+bool light_params(LightmapParams& dst, const LightmapParams& asked, double turn, std::string& error);
+
+} // namespace vmlight::view

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "copied_command.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/frame/lit_object.h>
+
+#include <OpenImageIO/filesystem.h>
+
+#include <cmath>
+
+namespace vmlight::view {
+namespace {
+
+std::string numbers(const std::vector<double>& values)
+{
+    std::string text;
+    for (const double value : values)
+        text += (text.empty() ? "" : ",") + format("{:.10g}", value == 0 ? 0.0 : value);
+    return text;
+}
+
+void add_flag(std::string& line, const char* flag, const std::string& value)
+{
+    line += format(" {} {}", flag, shell_word(value));
+}
+
+// The object's rotation with its turn: as plain as it can be said.
+void add_rotation(std::string& line, const ViewState& state)
+{
+    const LightmapParams& light = state.light;
+    const bool only_y = light.matrix.empty() && light.quaternion.empty()
+        && (light.rotate.empty() || (light.rotate[0] == 0 && light.rotate[2] == 0));
+    if (only_y) {
+        const double y = state.turn + (light.rotate.empty() ? 0 : light.rotate[1]);
+        if (y != 0)
+            add_flag(line, "--rotate", numbers({ 0, y, 0 }));
+    } else {
+        LightmapParams own = light;
+        own.env_rotate.clear();
+        Rotation pose;
+        std::string ignored;
+        lightmap_rotation(pose, own, ignored);
+        pose = rotation_from_angles(0, state.turn, 0) * pose;
+        add_flag(line, "--matrix", numbers({ &pose[0][0], &pose[0][0] + 9 }));
+    }
+    if (!light.env_rotate.empty() && light.env_rotate != std::vector<double> { 0, 0, 0 })
+        add_flag(line, "--env-rotate", numbers(light.env_rotate));
+}
+
+void add_light(std::string& line, const Request& request, const ViewState& state, const std::string& model)
+{
+    if (!model.empty() && model != "auto")
+        add_flag(line, "--model", model);
+    add_rotation(line, state);
+    if (state.light.exposure != 0)
+        add_flag(line, "--exposure", format("{:.4g}", state.light.exposure));
+    if (!request.filter.colorconfig.empty())
+        add_flag(line, "--colorconfig", request.filter.colorconfig);
+    if (!request.filter.colorspace.empty())
+        add_flag(line, "--colorspace", request.filter.colorspace);
+}
+
+std::string stem_of(const std::string& path)
+{
+    const std::string file = OIIO::Filesystem::filename(path);
+    return file.substr(0, file.size() - OIIO::Filesystem::extension(file).size());
+}
+
+} // namespace
+
+std::string shell_word(const std::string& text)
+{
+    static const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos)
+        return text;
+    std::string word = "'";
+    for (const char c : text)
+        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+std::string makelightmap_command(const Request& request, const ViewState& state, const std::string& model)
+{
+    const std::string stem = stem_of(request.mesh.mesh);
+    const std::string map = request.vismap.empty() ? stem + "_vismap.exr" : request.vismap;
+    std::string line = format("makelightmap {} {}", shell_word(map), shell_word(request.environment));
+    add_light(line, request, state, model);
+    add_flag(line, "-o", stem + "_lit.exr");
+    return line;
+}
+
+std::string vmframes_command(const Request& request, const ViewState& state, const std::string& model)
+{
+    std::string line = format("vmframes {} {}", shell_word(request.mesh.mesh), shell_word(request.environment));
+    if (!request.vismap.empty())
+        add_flag(line, "--vismap", request.vismap);
+    const bool is_compared = !state.second.empty();
+    add_light(line, request, state, is_compared ? "" : model);
+    if (is_compared)
+        add_flag(line, "--wipe", (model.empty() ? "auto" : model) + "," + state.second);
+    const CameraParams plain;
+    if (!state.camera.camera.empty()) {
+        add_flag(line, "--camera", state.camera.camera);
+    } else {
+        if (state.camera.azimuth != plain.azimuth)
+            add_flag(line, "--azimuth", format("{:.6g}", state.camera.azimuth));
+        if (state.camera.elevation != plain.elevation)
+            add_flag(line, "--elevation", format("{:.6g}", state.camera.elevation));
+        if (state.camera.fov != plain.fov)
+            add_flag(line, "--fov", format("{:.6g}", state.camera.fov));
+        if (state.camera.fill != plain.fill)
+            add_flag(line, "--fill", format("{:.4g}", state.camera.fill));
+        if (!state.camera.look_at.empty())
+            add_flag(line, "--look-at", numbers(state.camera.look_at));
+    }
+    if (state.has_background)
+        add_flag(line, "--background", "environment");
+    if (state.is_white)
+        line += " --white";
+    if (!state.display.display.empty())
+        add_flag(line, "--display", state.display.display);
+    if (!state.display.view.empty())
+        add_flag(line, "--view", state.display.view);
+    if (!state.display.look.empty())
+        add_flag(line, "--look", state.display.look);
+    add_flag(line, "-o", stem_of(request.mesh.mesh) + ".png");
+    return line;
+}
+
+} // namespace vmlight::view

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewport.h"
+
+#include "../render/lighting.h"
+#include "../scene/loading.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
+#include <vmlight/frame/lit_object.h>
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight::view {
+namespace {
+
+// A drag stays smooth up to this.
+constexpr double kSlowFrame = 33;
+// Pairs of rays of the reference, from step to step.
+constexpr int kFirstPairs = 4, kMostPairs = 4096;
+
+std::string key_of(const LightmapParams& params)
+{
+    std::string key;
+    LightmapParams copy = params;
+    copy.visit(
+        [&](const char*, auto& value, const auto& allowed, const char*) { key += value_text(value, allowed) + "|"; });
+    return key;
+}
+
+std::string key_of(const Camera& c)
+{
+    std::string key;
+    for (const Imath::V3d& v : { c.position, c.right, c.up, c.forward })
+        key += format("{} {} {} ", v.x, v.y, v.z);
+    return key + format("{} {} {}", c.half_width, c.half_height, c.is_orthographic);
+}
+
+std::vector<float> three_channels(const OIIO::ImageBuf& image)
+{
+    const OIIO::ImageBuf rgb = OIIO::ImageBufAlgo::channels(image, 3, {});
+    std::vector<float> pixels(3 * rgb.spec().image_pixels());
+    rgb.get_pixels(rgb.roi(), OIIO::TypeFloat, pixels.data());
+    return pixels;
+}
+
+} // namespace
+
+Viewport::Viewport(int spp, const std::string& filter, int threads, std::function<void()> wake)
+    : m_spp(spp)
+    , m_threads(threads)
+    , m_filter(filter)
+    , m_slots { { Slot(wake), Slot(wake) } }
+{
+}
+
+bool Viewport::build(const std::string& colorconfig, std::string& error)
+{
+    m_no_vertices = make_vertex_array();
+    return m_renderer.build(error) && m_config.open(colorconfig, error)
+        && m_data_display.build(m_config.no_change(), error);
+}
+
+void Viewport::set_mesh(MeshPointer mesh)
+{
+    stop();
+    ++m_generation;
+    m_renderer.set_map(nullptr, m_problem);
+    m_renderer.set_mesh(std::move(mesh), !m_is_white, m_problem);
+}
+
+void Viewport::set_map(MapPointer map)
+{
+    stop();
+    ++m_generation;
+    m_renderer.set_map(std::move(map), m_problem);
+}
+
+void Viewport::set_light(LightPointer light)
+{
+    stop();
+    ++m_generation;
+    m_renderer.set_light(std::move(light), m_problem);
+}
+
+void Viewport::stop()
+{
+    for (Slot& slot : m_slots) {
+        slot.job.stop();
+        slot.key.clear();
+        slot.activity.clear();
+    }
+}
+
+std::string Viewport::activity() const
+{
+    return m_slots[0].job.is_running() ? m_slots[0].activity : m_slots[1].job.is_running() ? m_slots[1].activity : "";
+}
+
+bool Viewport::start_relight(int index, const LightmapParams& params)
+{
+    m_slots[size_t(index)].activity = format("light: {}", params.model);
+    const MapPointer map = m_renderer.map();
+    const LightPointer light = m_renderer.light();
+    m_slots[size_t(index)].job.start([map, light, params, threads = m_threads](const auto& post, const auto& go_on) {
+        JobResult<OIIO::ImageBuf> result;
+        result.is_last = true;
+        if (!make_lightmap(result.value, map->image, light->filtered(), params, nullptr, threads, go_on))
+            result.error = result.value.geterror();
+        post(std::move(result));
+    });
+    return true;
+}
+
+void Viewport::start_reference(int index, const LightmapParams& params)
+{
+    m_slots[size_t(index)].activity = "trace: reference";
+    const MeshPointer mesh = m_renderer.mesh();
+    const MapPointer map = m_renderer.map();
+    const LightPointer light = m_renderer.light();
+    m_slots[size_t(index)].job.start([=, threads = m_threads](const auto& post, const auto& go_on) {
+        VismapParams size = mesh->recipe.vismap_params;
+        size.width = map->image.spec().width;
+        size.height = map->image.spec().height;
+        LightmapParams turned = params;
+        turned.model = "auto";
+        for (int pairs = kFirstPairs; pairs <= kMostPairs; pairs *= 4) {
+            JobResult<OIIO::ImageBuf> result;
+            ReferenceParams reference;
+            reference.samples = pairs;
+            result.is_last = pairs == kMostPairs;
+            if (!make_reference(result.value, *mesh->scene, light->light.environment, size, turned, reference, threads,
+                                go_on)) {
+                result.error = result.value.geterror();
+                result.is_last = true;
+            }
+            const bool is_last = result.is_last;
+            post(std::move(result));
+            if (is_last)
+                return;
+        }
+    });
+}
+
+// Whether the texture has changed.
+bool Viewport::refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model)
+{
+    Slot& slot = m_slots[size_t(index)];
+    const bool needs_light = is_light(word);
+    if (!m_renderer.mesh() || !m_renderer.map() || (needs_light && !m_renderer.light()))
+        return false;
+    LightmapParams params;
+    if (!light_params(params, state.light, state.turn, m_problem))
+        return false;
+    params.model = model;
+    const std::string key = format("{}|{}|", m_generation, word) + (needs_light ? key_of(params) : "");
+    bool changed = false;
+    if (key != slot.key) {
+        slot.job.stop();
+        slot.key = key;
+        slot.used = needs_light ? model : "";
+        ShadingModel chosen;
+        if (needs_light && model == kReferenceModel) {
+            if (m_renderer.light()->light.environment.initialized())
+                start_reference(index, params);
+            else
+                m_problem = "a traced reference needs the environment itself, and this is only its filtered map";
+        } else if (needs_light && !model_for(chosen, model, *m_renderer.map(), *m_renderer.light(), m_problem)) {
+            slot.used.clear();
+        } else if (needs_light && !has_relight_shader(chosen.name)) {
+            slot.used = params.model = chosen.name;
+            start_relight(index, params);
+        } else {
+            if (needs_light)
+                slot.used = params.model = chosen.name;
+            changed = show_surface(m_renderer, index, word, params, m_problem);
+        }
+    }
+    if (const auto result = slot.job.take()) {
+        if (!result->error.empty() && result->error != "interrupted")
+            m_problem = result->error;
+        else if (result->error.empty()) {
+            m_renderer.set_texture(index, three_channels(result->value).data());
+            changed = true;
+        }
+    }
+    return changed;
+}
+
+bool Viewport::refresh_display(const ViewState& state)
+{
+    DisplayChoice choice = state.display;
+    if (!m_config.settle(choice, m_problem))
+        return false;
+    if (choice == m_choice)
+        return true;
+    const auto processor = m_config.processor(choice, m_problem);
+    if (!processor || !m_light_display.build(processor, m_problem))
+        return false;
+    m_choice = choice;
+    return true;
+}
+
+void Viewport::update(const ViewState& state, int width, int height, bool is_dragging)
+{
+    m_problem.clear();
+    m_has_more = false;
+    if (state.is_white != m_is_white) {
+        m_is_white = state.is_white;
+        m_renderer.set_mesh(m_renderer.mesh(), !m_is_white, m_problem);
+        ++m_generation;
+    }
+    glBindVertexArray(m_no_vertices.get());
+    const bool has_second = !state.second.empty() && is_light(state.show);
+    bool changed = refresh_texture(0, state, state.show, state.light.model);
+    if (has_second)
+        changed |= refresh_texture(1, state, state.show, state.second);
+    if (!refresh_display(state))
+        return;
+
+    PictureParams params;
+    LightmapParams light;
+    const MeshPointer& mesh = m_renderer.mesh();
+    if (mesh)
+        m_camera = camera_of(state, *mesh->mesh, mesh->subject, double(width) / height);
+    params.view.camera = m_camera;
+    params.has_background = state.has_background;
+    params.show = surface_show(state.show);
+    params.wipe = has_second && m_renderer.has_texture(1) ? state.wipe : 1;
+    if (!light_params(light, state.light, state.turn, m_problem)
+        || !lightmap_rotation(params.to_environment, light, m_problem))
+        return;
+    if (!is_dragging)
+        m_scale = 1;
+    else if (m_frame_ms > kSlowFrame && m_scale == 1)
+        m_scale = 0.5;
+    const int across = std::max(1, int(std::lround(width * m_scale)));
+    const int down = std::max(1, int(std::lround(height * m_scale)));
+    const int spp = is_dragging ? 1 : m_spp;
+    const std::string key = format("{}|{}|{}|{}x{}|{}|{}|{}|{}|", m_generation, m_slots[0].key, m_slots[1].key, across,
+                                   down, spp, params.has_background, int(params.show), params.wipe)
+        + key_of(m_camera) + key_of(light);
+    if (changed || key != m_picture_key) {
+        m_picture_key = key;
+        m_sum.start(across, down, spp, m_filter);
+        m_shown_key.clear();
+    }
+    if (!m_sum.is_complete()) {
+        const Stopwatch timer;
+        m_sum.add(m_renderer, params);
+        m_shown_key.clear();
+        glFinish();
+        if (m_scale == 1)
+            m_frame_ms = 1000 * timer();
+    }
+    m_has_more = !m_sum.is_complete();
+    const std::string shown = format("{}|{}|{}|{}|{}", state.light.exposure, m_choice.display, m_choice.view,
+                                     m_choice.look, is_light(state.show));
+    if (shown == m_shown_key)
+        return;
+    m_shown_key = shown;
+    if (m_shown.width() != across || m_shown.height() != down)
+        m_shown = Framebuffer(across, down, GL_RGBA8, false);
+    m_shown.bind();
+    glBindVertexArray(m_no_vertices.get());
+    if (is_light(state.show))
+        m_light_display.run(m_sum.mean(), float(std::exp2(state.light.exposure)), across, down);
+    else
+        m_data_display.run(m_sum.mean(), 1, across, down);
+}
+
+void Viewport::show(int width, int height) const
+{
+    if (!m_shown)
+        return;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, m_shown.get());
+    glBlitFramebuffer(0, 0, m_shown.width(), m_shown.height(), 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      m_shown.width() == width ? GL_NEAREST : GL_LINEAR);
+}
+
+OIIO::ImageBuf Viewport::screenshot() const
+{
+    return OIIO::ImageBufAlgo::channels(read_image_of(m_shown), 3, {});
+}
+
+bool Viewport::texel(int x, int y, float* rgb) const
+{
+    if (!m_renderer.has_texture(0))
+        return false;
+    float rgba[4];
+    m_renderer.read_texel(0, x, y, rgba);
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = rgba[3] > 0 ? rgba[c] / rgba[3] : 0;
+    return true;
+}
+
+} // namespace vmlight::view

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "headless.h"
+#include "request.h"
+#include "ui/app.h"
+
+#include <vmlight/cli/main.h>
+
+#include <utility>
+
+using namespace vmlight;
+using namespace vmlight::view;
+
+namespace {
+
+constexpr const char* kExamples = "  vmview shoe.glb studio.hdr\n"
+                                  "  vmview hero.obj studio.hdr --vismap hero_vismap.exr --model paper\n"
+                                  "  vmview hero.obj studio.hdr --headless --rotate 0,90,0 -o hero.exr\n"
+                                  "  vmview hero.obj studio.hdr --bench 200 --size 1920x1080";
+
+} // namespace
+
+int main(int argc, const char** argv)
+{
+    Request request;
+    request.render.size = { 1280, 720 };
+    StageMain stage("vmview", "look at a mesh, lit by its visibility map, while it turns",
+                    { "[MESH]", "[ENVIRONMENT]" }, kExamples, OutputKind::OptionalPicture);
+    stage.params("Picture:", request.view);
+    stage.group("Picture:");
+    stage.option("size", "WxH",
+                 "Width and height of the window or picture in pixels; one number for a square [1280x720]",
+                 [&](auto text, auto& error) {
+                     request.size_given = true;
+                     return set_param(request.render, "size", text, error);
+                 });
+    stage.option("spp", "1..4096", "Samples per pixel of a picture, and of a window at rest [16]",
+                 [&](auto text, auto& error) { return set_param(request.render, "spp", text, error); });
+    stage.option("filter", "NAME", advanced("Pixel filter, as vmframes has it [blackman-harris]"),
+                 [&](auto text, auto& error) { return set_param(request.render, "filter", text, error); });
+    for (const auto& [name, help] :
+         { std::pair { "display", "Display of the OCIO config; default: the last one, or the config's" },
+           std::pair { "view", "View of that display; default: likewise" },
+           std::pair { "look", "Look in place of those of the view" } })
+        stage.option(name, "TEXT", help, [&request, name = std::string(name)](auto text, auto& error) {
+            request.display_given = true;
+            return set_param(request.display, name, text, error);
+        });
+    stage.params("Camera:", request.camera);
+    stage.group("Light:");
+    stage.option("vismap", "FILE", "Visibility map of the mesh, instead of baking one", request.vismap);
+    stage.option("model", "NAME", "Shading model, as makelightmap has it [auto]", [&](auto text, auto& error) {
+        request.model_given = true;
+        return set_param(request.light, "model", text, error);
+    });
+    stage.option("exposure", "-64..64|auto",
+                 "Exposure in stops; auto: brings the mean luminance of the object to 0.18 [0; in a window auto]",
+                 [&](OIIO::string_view text, std::string& error) {
+                     request.is_auto_exposed = text == "auto";
+                     request.exposure_given = !request.is_auto_exposed;
+                     return request.is_auto_exposed || set_param(request.light, "exposure", text, error);
+                 });
+    stage.params("Light:", request.light);
+    stage.option("colorspace", "NAME", advanced("Colour space of the environment; default: from its name and metadata"),
+                 request.filter.colorspace);
+    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), request.filter.colorconfig);
+    stage.option("layer", "TEXT", advanced("Layer or part of the environment to read, such as ViewLayer.Combined"),
+                 request.filter.layer);
+    stage.option("layout", "auto|latlong", advanced("latlong: the environment is lat-long, whatever its shape [auto]"),
+                 [&](auto text, auto& error) { return set_param(request.filter, "layout", text, error); });
+    stage.params("Light:", request.filter.cfem_params, "cfem_");
+    stage.params("Visibility map:", request.mesh.vismap_params);
+    stage.params("Mesh:", request.mesh.selection);
+    stage.params("Mesh:", request.mesh.mesh_params);
+    stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
+                 [&](auto, auto&) { return request.mesh.unwrap = true; });
+    stage.check([&] {
+        const std::vector<std::string>& operands = stage.operands();
+        request.mesh.mesh = operands.empty() ? "" : operands[0];
+        request.environment = operands.size() > 1 ? operands[1] : "";
+        request.output = stage.output();
+        return request_fault(request);
+    });
+    return stage.run(argc, argv, [&](std::string& error) {
+        return request.has_window() ? run_window(request, stage.make_options().threads, error)
+                                    : run_headless(request, stage, error);
+    });
+}

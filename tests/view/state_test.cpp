@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view_test.h"
+
+#include "temporary_folder.h"
+#include "vmview/scene/job.h"
+#include "vmview/settings.h"
+#include "vmview/ui/copied_command.h"
+#include "vmview/ui/cursor.h"
+#include "vmview/ui/view_state.h"
+#include "vmview/ui/workshop.h"
+
+#include <vmlight/vismap/baker.h>
+
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+using namespace vmlight;
+using namespace vmlight::view;
+
+namespace {
+
+template <class Ready> bool wait_until(Ready&& ready)
+{
+    for (int i = 0; i < 6000; ++i) {
+        if (ready())
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+} // namespace
+
+TEST(Settings, ComeBack)
+{
+    const TemporaryFolder folder;
+    Settings settings;
+    settings.window = { 900, 600 };
+    settings.model = "paper";
+    settings.view = "ACES 1.0 - SDR Video";
+    remember_file(settings.recent_mesh, "/a/hero = 2.obj");
+    remember_file(settings.recent_mesh, "/a/other.obj");
+    remember_file(settings.recent_mesh, "/a/./hero = 2.obj");
+    const std::string path = folder / "deep/er/vmview.conf";
+    std::string error;
+    ASSERT_TRUE(write_settings(settings, path, error)) << error;
+    const Settings again = read_settings(path);
+    EXPECT_EQ(again.window.width, 900);
+    EXPECT_EQ(again.model, "paper");
+    EXPECT_EQ(again.view, "ACES 1.0 - SDR Video");
+    EXPECT_EQ(again.recent_mesh, (std::vector<std::string> { "/a/hero = 2.obj", "/a/other.obj" }));
+}
+
+TEST(Settings, WhatCannotBeReadIsDefault)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.write("vmview.conf", "window = a lot\nnonsense\nmodel = lobe\n\x01\x02 = 3\n");
+    const Settings settings = read_settings(path);
+    EXPECT_EQ(settings.window.width, 1280);
+    EXPECT_EQ(settings.model, "lobe");
+    EXPECT_EQ(read_settings(folder / "none").model, "auto");
+}
+
+TEST(CopiedCommand, SaysWhatIsSeen)
+{
+    Request request;
+    request.mesh.mesh = "/a/my hero.obj";
+    request.environment = "sky.hdr";
+    ViewState state = state_of(request);
+    EXPECT_EQ(makelightmap_command(request, state, "sh"),
+              "makelightmap 'my hero_vismap.exr' sky.hdr --model sh -o 'my hero_lit.exr'");
+    turn_object(state, 60, 0);
+    turn_environment(state, -20);
+    state.light.exposure = 1.5;
+    state.camera.elevation = 20;
+    EXPECT_EQ(makelightmap_command(request, state, ""),
+              "makelightmap 'my hero_vismap.exr' sky.hdr --rotate 0,30,0 --env-rotate 0,-10,0 --exposure 1.5 -o 'my "
+              "hero_lit.exr'");
+    state.second = "reference";
+    EXPECT_EQ(vmframes_command(request, state, "lobe"),
+              "vmframes '/a/my hero.obj' sky.hdr --rotate 0,30,0 --env-rotate 0,-10,0 --exposure 1.5 --wipe "
+              "lobe,reference --elevation 20 -o 'my hero.png'");
+    EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+}
+
+// The copied rotation is the one that the view lights with.
+TEST(CopiedCommand, RotationIsThatOfTheLight)
+{
+    ViewState state;
+    state.light.rotate = { 20, 30, 40 };
+    state.turn = 25;
+    const std::string line = makelightmap_command({}, state, "");
+    const size_t begin = line.find("--matrix ") + 9;
+    LightmapParams copied, seen;
+    std::string error;
+    ASSERT_TRUE(set_param(copied, "matrix", line.substr(begin, line.find(' ', begin) - begin), error)) << error;
+    ASSERT_TRUE(light_params(seen, state.light, state.turn, error)) << error;
+    for (size_t i = 0; i < 9; ++i)
+        EXPECT_NEAR(copied.matrix[i], seen.matrix[i], 1e-9);
+}
+
+TEST(Cursor, FindsTheTexel)
+{
+    auto mesh = std::make_shared<MeshAsset>();
+    const auto triangles = std::make_shared<Mesh>(square());
+    BakeScene scene;
+    std::string error;
+    ASSERT_TRUE(scene.build(triangles, {}, 1, error)
+                && mesh->surface.build({ triangles.get() }, scene.frame(), 1, error))
+        << error;
+    mesh->mesh = triangles;
+    mesh->subject.add(*triangles);
+    MapAsset map;
+    map.image = full_map(*triangles, { 8, 8 });
+    CameraParams straight;
+    straight.elevation = 0;
+    straight.fov = 0;
+    straight.fill = 1;
+    const Camera camera = place_camera(straight, mesh->subject, 1, false);
+    const CursorTexel texel = texel_under(*mesh, &map, camera, 25, 5, 80, 80);
+    EXPECT_TRUE(texel.has_texel);
+    EXPECT_EQ(texel.x, 2);
+    EXPECT_EQ(texel.y, 0);
+    EXPECT_EQ(describe_texel(map, texel.x, texel.y), "V 1.0000\nB 0.0000 0.0000 0.6667\n|B| / V 0.6667");
+    EXPECT_FALSE(texel_under(*mesh, &map, camera, 100, 5, 80, 80).is_on_mesh);
+}
+
+// The near side of the object follows the mouse.
+TEST(ViewState, ObjectTurnsWithTheMouse)
+{
+    const Mesh mesh = square();
+    Subject subject;
+    subject.add(mesh);
+    ViewState state;
+    state.camera.elevation = 0;
+    turn_object(state, 40, 0);
+    const Camera camera = camera_of(state, mesh, subject, 1.5);
+    const Imath::V3d near_side(0, 0, 0.1);
+    EXPECT_GT((near_side - camera.position).dot(camera.right), 0);
+    // At one distance, whatever the angle.
+    const double distance = (camera.position - subject.centre()).length();
+    turn_object(state, 77, 33);
+    EXPECT_NEAR((camera_of(state, mesh, subject, 1.5).position - subject.centre()).length(), distance, 1e-9);
+    state.turn = 175;
+    turn_object(state, 20, 0);
+    EXPECT_EQ(state.turn, -175);
+}
+
+TEST(Job, StopsAtOnceAndDropsItsResult)
+{
+    Job<int> job;
+    std::atomic<bool> has_stopped { false };
+    job.start([&](const Job<int>::Post& post, const Progress& go_on) {
+        post({ 1, "", false });
+        while (go_on(0.5))
+            std::this_thread::yield();
+        has_stopped = true;
+        post({ 2, "", true });
+    });
+    ASSERT_TRUE(wait_until([&] { return job.done() == 0.5; }));
+    job.stop();
+    EXPECT_TRUE(has_stopped);
+    EXPECT_FALSE(job.take());
+    EXPECT_FALSE(job.is_running());
+}
+
+TEST(Job, TellsOfExceptions)
+{
+    Job<int> job;
+    job.start([](const Job<int>::Post&, const Progress&) { throw std::runtime_error("out of luck"); });
+    ASSERT_TRUE(wait_until([&] { return !job.is_running(); }));
+    const auto result = job.take();
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->error, "out of luck");
+}
+
+// Maps of 1, 4, ... rays, the last one with as many as were asked for, and bit for bit the bake of the executable.
+TEST(Workshop, BakesEverFinerMaps)
+{
+    Request request;
+    request.mesh.mesh = data_path("cases/box.obj");
+    request.mesh.vismap_params.resolution = { 32, 32 };
+    request.mesh.vismap_params.samples = 20;
+    Workshop workshop(request, {});
+    MeshPointer mesh;
+    MapPointer map;
+    std::string problem;
+    ASSERT_TRUE(wait_until([&] { return workshop.take_mesh(mesh, problem); }) && problem.empty()) << problem;
+    workshop.bake_for("paper");
+    int last = 0;
+    ASSERT_TRUE(wait_until([&] {
+        if (workshop.take_map(map, problem)) {
+            EXPECT_GT(map->samples, last);
+            last = map->samples;
+        }
+        return last == 20;
+    }));
+    VismapParams params = bake_params(mesh->recipe.vismap_params, "paper");
+    OIIO::ImageBuf baked;
+    ASSERT_TRUE(make_vismap(baked, mesh->scene, params, nullptr, 0, {}));
+    EXPECT_EQ(std::memcmp(baked.localpixels(), map->image.localpixels(), baked.spec().image_bytes()), 0);
+    // A model that reads more: baked again.
+    workshop.bake_for("paper");
+    EXPECT_TRUE(workshop.is_baked());
+    workshop.bake_for("sh");
+    EXPECT_FALSE(workshop.is_baked());
+    workshop.stop();
+}
+
+TEST(Workshop, OpensWhatIsDropped)
+{
+    const TemporaryFolder folder;
+    Request request;
+    Workshop workshop(request, {});
+    MeshPointer mesh;
+    MapPointer map;
+    LightPointer light;
+    std::string problem, error;
+    // A map that comes before its mesh waits for it.
+    const Mesh spot = data_mesh("spot.obj");
+    const std::string path = folder / "spot_vismap.exr";
+    ASSERT_TRUE(full_map(spot, { 32, 32 }, 4).write(path));
+    ASSERT_TRUE(workshop.open(path, error)) << error;
+    ASSERT_TRUE(workshop.open(data_path("studio_small_03.hdr"), error)) << error;
+    EXPECT_TRUE(wait_until([&] { return workshop.take_light(light, problem); })) << problem;
+    ASSERT_TRUE(workshop.open(data_path("spot.obj"), error)) << error;
+    EXPECT_TRUE(wait_until([&] { return workshop.take_mesh(mesh, problem); })) << problem;
+    EXPECT_TRUE(wait_until([&] { return workshop.take_map(map, problem); })) << problem;
+    EXPECT_EQ(map ? map->path : "", path);
+    EXPECT_FALSE(workshop.open(data_path("README.md"), error));
+    EXPECT_NE(error, "");
+    EXPECT_EQ(kind_of_file(path, error), AssetKind::map);
+    EXPECT_EQ(kind_of_file(data_path("spot.obj"), error), AssetKind::mesh);
+    EXPECT_EQ(kind_of_file(data_path("studio_small_03.hdr"), error), AssetKind::light);
+}
