@@ -82,7 +82,8 @@ TEST_F(Vmframes, InputsOfTheWrongKindAreRefused)
 TEST_F(Vmframes, AnExrIsTheLight)
 {
     done("vmframes quad.obj sky.exr -o a.exr --layers lit,depth --elevation 0 --fill 4" + small);
-    EXPECT_THAT(channel_names("a.exr"), testing::UnorderedElementsAre("R", "G", "B", "A", "lit.R", "lit.G", "lit.B", "depth.Z"));
+    EXPECT_THAT(channel_names("a.exr"),
+                testing::UnorderedElementsAre("R", "G", "B", "A", "lit.R", "lit.G", "lit.B", "depth.Z"));
     OIIO::ImageBuf image(path("a.exr"));
     EXPECT_NEAR(image.getchannel(8, 8, 0, 0), 1, 1e-6);
     EXPECT_NEAR(image.getchannel(8, 8, 0, 2), 3, 3e-6);

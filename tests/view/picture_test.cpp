@@ -85,7 +85,9 @@ OIIO::ImageBuf traced(const Assets& assets, const Request& request)
     const Size size = request.render.size;
     const Camera camera
         = camera_for(place_camera(request.camera, subject, double(size.width) / size.height, false), pose);
-    EXPECT_TRUE(render_frame(picture, scene, camera, request.render, 0, {}, error)) << error;
+    RenderParams params = request.render;
+    params.sampling = "all"; // as the view samples every pixel
+    EXPECT_TRUE(render_frame(picture, scene, camera, params, 0, {}, error)) << error;
     return picture;
 }
 

@@ -53,7 +53,7 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
     m_command.output_kind = output;
     group("Output:");
     option("o", line.output_metavar, outputs.at(output).help, m_command.output);
-    if (output == OutputKind::Image)
+    if (output != OutputKind::Folder)
         params("Output:", m_command.file);
     params("Output:", m_command.common);
 }

@@ -30,7 +30,7 @@ struct FileParams
     template <class Visit> void visit(Visit&& field)
     {
         field("format", format, Choices { { { "float", "32 bits per channel" }, { "half", "16 bits per channel" } } },
-              "Pixel format of the output file");
+              "Pixel format of the output file, if an EXR");
     }
 };
 
