@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -217,33 +219,42 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
         error = oiio::with_path(path, OIIO::Strutil::replace(reason, file.temporary_path(), path, true));
         return false;
     };
-    auto out = OIIO::ImageOutput::create("openexr");
-    if (!out)
-        return failed(OIIO::geterror());
-    if (!file.ok())
-        return failed(file.reason());
-    const int count = int(specs.size());
-    if (!out->set_ioproxy(&file)
-        || !(count == 1 ? out->open(file.temporary_path(), specs[0])
-                        : out->open(file.temporary_path(), count, specs.data())))
-        return failed(oiio::error_line(*out));
-    WriteProgress watch { progress, file };
-    bool written = true;
-    for (int i = 0; i < count && written && !watch.stopped; ++i)
-        written = (i == 0 || out->open(file.temporary_path(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
-            && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
-                                OIIO::AutoStride, WriteProgress::report, &watch);
-    const bool closed = out->close();
-    if (watch.stopped)
-        return failed("interrupted");
-    if (file.ok() && (!written || !closed))
-        return failed(oiio::error_line(*out));
-    // OpenEXR writes its table of offsets last, from a destructor, which reports no failure; and a file of several
-    // parts by its name, of which the last buffer may be lost unseen.
-    const std::string fault = file.ok() ? unreadable(file.temporary_path(), images) : "";
-    if (!fault.empty())
-        return failed("what was written cannot be read: " + fault);
-    return file.commit() || failed(file.reason());
+    const auto write = [&] {
+        auto out = OIIO::ImageOutput::create("openexr");
+        if (!out)
+            return failed(OIIO::geterror());
+        if (!file.ok())
+            return failed(file.reason());
+        const int count = int(specs.size());
+        if (!out->set_ioproxy(&file)
+            || !(count == 1 ? out->open(file.temporary_path(), specs[0])
+                            : out->open(file.temporary_path(), count, specs.data())))
+            return failed(oiio::error_line(*out));
+        WriteProgress watch { progress, file };
+        bool written = true;
+        for (int i = 0; i < count && written && !watch.stopped; ++i)
+            written = (i == 0 || out->open(file.temporary_path(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
+                && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
+                                    OIIO::AutoStride, WriteProgress::report, &watch);
+        const bool closed = out->close();
+        if (watch.stopped)
+            return failed("interrupted");
+        if (file.ok() && (!written || !closed))
+            return failed(oiio::error_line(*out));
+        // OpenEXR writes its table of offsets last, from a destructor, which reports no failure; and a file of several
+        // parts by its name, of which the last buffer may be lost unseen.
+        const std::string fault = file.ok() ? unreadable(file.temporary_path(), images) : "";
+        if (!fault.empty())
+            return failed("what was written cannot be read: " + fault);
+        return file.commit() || failed(file.reason());
+    };
+    try {
+        return write();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) { // OpenEXR 3.4 throws where a file grows too large
+        return failed(exception.what());
+    }
 }
 
 } // namespace vmlight
