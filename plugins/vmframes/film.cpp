@@ -14,6 +14,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 namespace vmlight::frames {
 namespace {
 
@@ -74,8 +77,11 @@ bool write_film(const std::vector<OIIO::ImageBuf>& pictures, const std::string& 
         error = format("\"{}\": {}", path, file.reason());
         return false;
     }
-    // The path goes by the environment, where nothing in it has a meaning for the shell.
-    ::setenv("VMLIGHT_FILM", ("file:" + file.temporary_path()).c_str(), 1);
+    // The path goes by the environment, where nothing in it has a meaning for the shell; what is "self" here is another
+    // process there.
+    const std::string own = format("/proc/{}/", ::getpid());
+    const std::string target = "file:" + OIIO::Strutil::replace(file.temporary_path(), "/proc/self/", own);
+    ::setenv("VMLIGHT_FILM", target.c_str(), 1);
     const std::string command
         = format("exec ffmpeg -nostdin -loglevel error -y -f rawvideo -pix_fmt rgb24 -s {}x{} -r {} -i pipe:0 {} "
                  "\"$VMLIGHT_FILM\"",
@@ -90,8 +96,9 @@ bool write_film(const std::vector<OIIO::ImageBuf>& pictures, const std::string& 
     ::unsetenv("VMLIGHT_FILM");
     if (good && code == 0 && file.commit())
         return true;
-    error = good && code == 0 ? format("\"{}\": {}", path, file.reason())
-                              : format("\"{}\": ffmpeg failed with exit code {}", path, code);
+    error = good && code == 0
+        ? format("\"{}\": {}", path, file.reason())
+        : format("\"{}\": ffmpeg failed with exit code {}", path, WIFEXITED(code) ? WEXITSTATUS(code) : code);
     return false;
 }
 

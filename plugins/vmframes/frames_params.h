@@ -30,7 +30,7 @@ struct StageParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("object", object, Paths {}, "Another mesh in the scene; may be repeated");
+        field("object", object, Paths {}, "Another mesh in the scene");
         field("ground", ground, Text {},
               "Ground under the objects: none, white, shadow (its shadow alone, for a comp), or a texture");
         field("background", background, Text {},

@@ -43,7 +43,8 @@ bool keep_maps(const Shot& shot, const Request& request, std::string& error)
             || (object->is_unwrapped() && !write_mesh(object->mesh(), start + "_unwrapped.glb", error)))
             return false;
     }
-    return true;
+    return !shot.ground() || !shot.ground()->has_maps()
+        || write_tiles(shot.ground()->maps(), folder + "/ground_vismap", error);
 }
 
 } // namespace vmlight::frames

@@ -69,7 +69,7 @@ public:
 
     bool run(std::string& error)
     {
-        if (!m_shot.open(m_options, error) || !find_exposure(error))
+        if (!check_display(error) || !m_shot.open(m_options, error) || !find_exposure(error))
             return false;
         for (size_t i = 0; i < m_request.frames.size(); ++i) {
             ImageBuf frame;
@@ -87,6 +87,16 @@ public:
     }
 
 private:
+    // Whether the display, view and look are there, before the work.
+    bool check_display(std::string& error) const
+    {
+        ImageBuf pixel(OIIO::ImageSpec(1, 1, 3, OIIO::TypeFloat));
+        OIIO::ImageBufAlgo::zero(pixel);
+        std::string note;
+        const bool is_shown = !is_exr_name(m_request.output) || !m_request.sheet.contact_sheet.empty();
+        return !is_shown || show_on_display(pixel, m_request.display, "", m_request.filter.colorconfig, 1, note, error);
+    }
+
     bool find_exposure(std::string& error)
     {
         m_stops = m_request.light.exposure;
@@ -205,9 +215,10 @@ std::string output_fault_of(const Request& request)
     const std::string& sheet = request.sheet.contact_sheet;
     if (!sheet.empty() && (!is_picture_name(sheet) || is_animation_name(sheet)))
         return format("--contact-sheet: \"{}\": the extension must be png, jpg, webp or tif", sheet);
-    if (!sheet.empty())
-        return output_file_fault(sheet);
-    return "";
+    for (const int frame : request.frames)
+        if (!sheet.empty() && frame_path(output, frame) == sheet)
+            return format("--contact-sheet: \"{}\" is the file of frame {} too", sheet, frame);
+    return sheet.empty() ? "" : output_file_fault(sheet);
 }
 
 std::string models_fault(const Request& request)
@@ -239,8 +250,16 @@ std::string request_fault(const Request& request)
         return format("--texture: \"{}\" is a sequence: --frames is missing, such as 1-48", request.object.texture);
     if (!request.object.vismap.empty() && !request.object.texture.empty())
         return "give only one of --vismap and --texture";
-    if (!has_light && (request.stage.background == "environment" || request.is_auto_exposed))
-        return "--background environment and --exposure auto need an environment";
+    if (!has_light && request.stage.background == "environment")
+        return "--background environment: there is no environment";
+    if (!has_light && request.is_auto_exposed)
+        return "--exposure auto: there is no environment to expose for";
+    const std::string& ground = request.stage.ground;
+    if (ground != "none" && ground != "white" && ground != "shadow" && !OIIO::Filesystem::is_regular(ground))
+        return format("--ground: \"{}\" is neither none, white, shadow nor a file", ground);
+    if (!request.sheet.keep.empty())
+        if (const std::string fault = output_folder_fault(request.sheet.keep); !fault.empty())
+            return "--keep: " + fault;
     if ((request.turn.turntable || request.turn.turn_environment) && !request.has_frames)
         return "--turntable and --turn-environment need --frames, such as 1-48";
     if (request.stage.background != "none" && request.stage.background != "environment") {

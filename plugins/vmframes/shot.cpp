@@ -212,7 +212,7 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
     if (m_ground)
         all.push_back(m_ground.get());
     for (LitObject* object : all) {
-        if (!object->light(m_light, params, m_request.reference, options, error))
+        if (!object->light(m_light, params, m_request.reference, options, error, &m_used_model))
             return false;
         FrameSurface& surface = m_scene.surfaces[i++];
         if (surface.light != object->surface().light && index == 0)
@@ -245,7 +245,7 @@ bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, c
         dst.specmod().attribute("colorInteropID", "unknown");
     else
         tag_scene_linear(dst.specmod(), m_light.space);
-    dst.specmod().attribute("vmlight:model", model);
+    dst.specmod().attribute("vmlight:model", m_used_model);
     dst.specmod().attribute("vmlight:camera", camera_text(camera_at(index)));
     return true;
 }

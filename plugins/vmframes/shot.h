@@ -42,6 +42,8 @@ public:
 
     /// Interop id of the space of the light.
     const std::string& space() const { return m_light.space; }
+    /// nullptr without.
+    const LitObject* ground() const { return m_ground.get(); }
     /// The objects, without the ground.
     const std::vector<std::unique_ptr<LitObject>>& objects() const { return m_objects; }
 
@@ -70,7 +72,7 @@ private:
     FrameScene m_scene;
     // What the objects are lit with now: a frame is lit once for all that is rendered of it.
     size_t m_lit_index = ~size_t(0);
-    std::string m_lit_model;
+    std::string m_lit_model, m_used_model;
     double m_render_seconds = 0;
 };
 

@@ -55,6 +55,12 @@ TEST_F(Vmframes, WrongUsageIsRefusedBeforeAnythingIsMade)
     refused(2, "give only one of --vismap and --texture", line + "-o a.png --vismap v.exr --texture t.exr");
     refused(2, "\"t.##.exr\" is a sequence: --frames is missing", "vmframes quad.obj -o a.png --texture t.##.exr");
     refused(2, "the extension must be png, jpg, webp or tif", line + "-o a.png --contact-sheet sheet.exr");
+    refused(2, "\"a.png\" is the file of frame 1 too", line + "-o a.png --contact-sheet a.png");
+    refused(2, "--ground: \"whit\" is neither none, white, shadow nor a file", line + "-o a.png --ground whit");
+    refused(2, "--exposure auto: there is no environment",
+            "vmframes quad.obj --texture t.exr -o a.png --exposure auto");
+    write("file");
+    refused(2, "--keep: \"file\": is a file, not a folder", line + "-o a.png --keep file");
     refused(2, "spp: 0 is not in [1, 4096]", line + "-o a.png --spp 0");
     refused(1, "\"a/b.png\": no such folder: \"a\"", line + "-o a/b.png");
     EXPECT_THAT(done("vmframes --help"),
@@ -122,6 +128,18 @@ TEST_F(Vmframes, FramesTurnOnceAround)
     EXPECT_THAT(names(), Not(testing::Contains(HasSubstr(".part"))));
 }
 
+TEST_F(Vmframes, FilmsAreMadeByFfmpeg)
+{
+    const std::string line = "vmframes quad.obj sky.exr --frames 1-3 --turntable -o film.mp4" + small;
+    if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
+        refused(2, "films need ffmpeg, which is not installed", line);
+        GTEST_SKIP() << "ffmpeg is not installed";
+    }
+    done(line);
+    EXPECT_EQ(read("film.mp4").substr(4, 4), "ftyp");
+    EXPECT_THAT(names(), Not(testing::Contains(HasSubstr(".part"))));
+}
+
 TEST_F(Vmframes, ModelsAreCompared)
 {
     const std::string text = done("vmframes " + kSpot + " " + kSky + small
@@ -152,6 +170,8 @@ TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
     write("live.lightmap", "vismap = \"kept/spot_vismap.exr\"\nenvironment = \"" + kSky + "\"\n");
     done("vmframes " + kSpot + " --texture live.lightmap?cfem_resolution=16 --size 16 --spp 4 -o f.exr");
     expect_same_pixels("c.exr", "f.exr", 1e-3f);
+    EXPECT_THAT(done("vmframes quad.obj " + kSky + small + " --vismap kept/spot_vismap.exr -o g.png"),
+                HasSubstr("was baked of another mesh than \"quad.obj\""));
     write("bare.obj", kQuadWithoutUv);
     EXPECT_THAT(done("vmframes bare.obj sky.exr --keep made -o d.png" + small), HasSubstr("no UVs; "));
     EXPECT_THAT(names("", "made"), testing::Contains("bare_unwrapped.glb"));

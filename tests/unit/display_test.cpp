@@ -116,6 +116,28 @@ TEST_F(Display, PicturesAreWhatWasWritten)
     EXPECT_EQ(ImageBuf(folder / "a.gif").nsubimages(), 3);
 }
 
+// OIIO's TIFF writer is given one thread: see write().
+TEST_F(Display, PicturesAreTheSameForAnyNumberOfThreads)
+{
+    const TemporaryFolder folder;
+    ImageBuf image(ImageSpec(256, 256, 4, OIIO::TypeFloat));
+    OIIO::ImageBufAlgo::noise(image, "uniform", 0, 1);
+    image.specmod().alpha_channel = 3;
+    int before = 0;
+    OIIO::getattribute("threads", before);
+    for (const char* extension : { "tif", "png" }) {
+        std::vector<std::string> bytes;
+        for (const int threads : { 1, 5 }) {
+            OIIO::attribute("threads", threads);
+            const std::string name = std::to_string(threads) + "." + extension;
+            EXPECT_TRUE(write_picture(image, folder / name, error)) << error;
+            bytes.push_back(folder.bytes(name));
+        }
+        EXPECT_EQ(bytes[0], bytes[1]) << extension;
+    }
+    OIIO::attribute("threads", before);
+}
+
 TEST_F(Display, WhatCannotBeWrittenLeavesNothing)
 {
     const TemporaryFolder folder;

@@ -180,7 +180,7 @@ TEST_F(Cameras, OfAGltfStandWhereItsNodesPutThem)
     const std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
         "nodes":[{"mesh":0},{"name":"rig","translation":[1,2,3],"scale":[2,2,2],"children":[2,3]},
                  {"name":"front","camera":0,"rotation":[0,0.7071067811865476,0,0.7071067811865476]},
-                 {"camera":1}],
+                 {"name":"wide","camera":1}],
         "cameras":[{"type":"perspective","perspective":{"yfov":1.5707963267948966,"znear":0.1,"aspectRatio":2}},
                    {"type":"orthographic","name":"plan","orthographic":{"xmag":3,"ymag":1.5,"znear":0,"zfar":9}}],)";
     std::string whole = gltf("");
@@ -210,6 +210,13 @@ TEST_F(Cameras, OfAGltfStandWhereItsNodesPutThem)
     ASSERT_TRUE(find_camera(camera, params, mesh, 1, error)) << error; // a square picture still shows all of its width
     EXPECT_NEAR(camera.half_width, 2, 1e-6);
     EXPECT_NEAR(camera.half_height, 2, 1e-6);
+    params.camera = "back";
+    camera.half_height = 0;
+    EXPECT_FALSE(find_camera(camera, params, mesh, 1, error));
+    error.clear();
+    params.camera = "wide";
+    EXPECT_TRUE(find_camera(camera, params, mesh, 1, error)) << error; // by its node
+    EXPECT_TRUE(camera.is_orthographic);
     params.camera = "back";
     EXPECT_FALSE(find_camera(camera, params, mesh, 1, error));
     EXPECT_THAT(error, testing::HasSubstr("has no camera \"back\"; it has \"front\", \"plan\""));

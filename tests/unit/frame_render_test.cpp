@@ -419,6 +419,18 @@ TEST(CornerGrid, WeightsHaveTheVarianceOfTheFilter)
     }
 }
 
+TEST(RenderFrame, TheSizeOfTheMeshDoesNotMatter)
+{
+    for (const double scale : { 1e-30, 1e-6, 1.0, 1e6, 1e30 }) {
+        const FrameScene scene = scene_of({ surface_of(scenes::placed(scenes::floor_facing_z(1), scale)) });
+        Camera camera = square_on(false);
+        camera.position *= scale;
+        const ImageBuf image = rendered(scene, camera, params_of(8));
+        for (int i = 0; i < 64; ++i)
+            EXPECT_EQ(pixel(image, i % 8, i / 8), (std::vector<float> { 1, 1, 1, 1 })) << scale;
+    }
+}
+
 TEST(RenderFrame, StopsWhenAsked)
 {
     const FrameScene scene = scene_of({ surface_of(scenes::floor_facing_z(1)) });

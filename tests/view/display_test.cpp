@@ -67,16 +67,20 @@ void check_all(const std::string& path, size_t least_views, double limit = 0.5)
     std::vector<std::string> looks = config.looks();
     looks.insert(looks.begin(), "");
     size_t views = 0;
+    double worst = 0;
     for (const std::string& display : config.displays())
         for (const std::string& view : config.views(display))
             for (const std::string& look : looks) {
                 const DisplayChoice choice { display, view, look };
                 const auto processor = config.processor(choice, error);
                 ASSERT_TRUE(processor) << error;
-                EXPECT_LT(largest_step(processor, colours()), limit) << display << ", " << view << ", " << look;
+                const double step = largest_step(processor, colours());
+                worst = std::max(worst, step);
+                EXPECT_LT(step, limit) << display << ", " << view << ", " << look;
                 ++views;
             }
     EXPECT_GE(views, least_views * looks.size());
+    ::testing::Test::RecordProperty("worst", format("{:.3g} of {}", worst, views));
 }
 
 // A curve of `size` entries, as a Resolve cube of one dimension.

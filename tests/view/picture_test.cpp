@@ -42,6 +42,7 @@ Request request_for(const std::string& mesh, const std::string& environment)
     request.view.background = "environment";
     request.render.size = { 96, 72 };
     request.render.spp = 4;
+    request.render.sampling = "all"; // as vmview samples; `edges` mixes inner pixels from their corners
     return request;
 }
 

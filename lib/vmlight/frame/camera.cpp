@@ -121,7 +121,7 @@ bool find_camera(Camera& dst, const CameraParams& params, const Mesh& mesh, doub
 {
     std::string names;
     for (const MeshCamera& candidate : mesh.cameras) {
-        if (candidate.name != params.camera) {
+        if (candidate.name != params.camera && candidate.node != params.camera) {
             names += (names.empty() ? "\"" : ", \"") + candidate.name + "\"";
             continue;
         }

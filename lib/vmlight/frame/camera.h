@@ -99,8 +99,9 @@ private:
 /// @param turns    the subject turns about its vertical axis: it fits in every position, at one distance
 Camera place_camera(const CameraParams& params, const Subject& subject, double aspect, bool turns);
 
-/// The camera called `params.camera` of `mesh`. Where the picture has another aspect ratio than the camera, all that
-/// the camera shows is in it. False, with the reason in `error`, if there is none; the error lists the names.
+/// The camera called `params.camera` of `mesh`, or that of a node of this name. Where the picture has another aspect
+/// ratio than the camera, all that the camera shows is in it. False, with the reason in `error`, if there is none; the
+/// error lists the names.
 bool find_camera(Camera& dst, const CameraParams& params, const Mesh& mesh, double aspect, std::string& error);
 
 /// The camera in the space of an object that `pose` has turned about the origin.

@@ -117,6 +117,11 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
         std::vector<OIIO::ImageBuf> images;
         if (!source || !make_input(images, *source, {}, recipe, "vismap", recipe.vismap, options, error))
             return false;
+        // Of a mesh that was changed since, a map may still be meant.
+        const std::string hash = images[0].spec().get_string_attribute("vmlight:meshHash");
+        if (!hash.empty() && hash != mesh_hash(*m_mesh))
+            options.report_warning(format("\"{}\": was baked of another mesh than \"{}\", or of another part of it",
+                                          recipe.vismap, m_mesh->path));
         m_maps[""][udim] = std::move(images[0]);
     }
     return true;

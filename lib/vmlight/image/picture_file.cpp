@@ -79,6 +79,8 @@ bool write(OIIO::cspan<OIIO::ImageBuf> pictures, const std::string& path, double
         error = format("\"{}\": {}", path, out ? file.reason() : OIIO::geterror());
         return false;
     }
+    // OIIO 2.4 compresses TIFF on several threads and corrupts memory.
+    out->threads(1);
     bool good = true;
     for (int i = 0; good && i < int(pictures.size()); ++i) {
         OIIO::ImageSpec spec = spec_for(pictures[i], *format_found);

@@ -16,7 +16,8 @@ bool is_animation_name(const std::string& path);
 
 /// Write 8 bit pictures atomically: one, or the frames of an animation of `fps` frames a second.
 ///
-/// @param pictures R, G, B in [0, 1] as a display takes them, float or 8 bit, and A, which they are not multiplied by: JPEG gets it
+/// @param pictures R, G, B in [0, 1] as a display takes them, float or 8 bit, and A, which they are not multiplied by:
+/// JPEG gets it
 ///                 black where it is transparent
 /// @returns false, with the reason in `error`, on failure; `path` is then unchanged
 bool write_picture(const OIIO::ImageBuf& picture, const std::string& path, std::string& error);

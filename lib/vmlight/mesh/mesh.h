@@ -27,7 +27,8 @@ struct MeshNode
 /// A camera of a mesh file, at its place in the node hierarchy, with axes of unit length in object space.
 struct MeshCamera
 {
-    std::string name;
+    /// Of the camera, or of its node if it has none; and of the node.
+    std::string name, node;
     Imath::V3d position { 0 }, right { 1, 0, 0 }, up { 0, 1, 0 }, forward { 0, 0, -1 };
     bool is_orthographic = false;
     /// Half the height of what it shows: at distance 1 in perspective, else in object units.

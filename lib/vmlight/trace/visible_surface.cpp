@@ -29,9 +29,8 @@ void VisibleSurface::find(const SurfaceRay* rays, int count, SurfaceHit* hits) c
     for (int lane = 0; lane < kPacketSize; ++lane) {
         const SurfaceRay& ray = rays[lane < count ? lane : 0];
         // The scene is [-1, 1]: floats are exact enough from where the ray comes near it.
-        const V3d direction = ray.direction * m_frame.scale;
-        const double skipped = ray.start;
-        const V3d origin = (ray.origin - m_frame.centre) * m_frame.scale + direction * skipped;
+        const V3d& direction = ray.direction;
+        const V3d origin = (ray.origin + direction * ray.start - m_frame.centre) * m_frame.scale;
         packet.ray.org_x[lane] = float(origin.x), packet.ray.org_y[lane] = float(origin.y),
         packet.ray.org_z[lane] = float(origin.z);
         packet.ray.dir_x[lane] = float(direction.x), packet.ray.dir_y[lane] = float(direction.y),

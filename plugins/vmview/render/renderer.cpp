@@ -42,6 +42,11 @@ void Renderer::prepare_exact(const View& view)
     m_is_exact = true;
     if (!m_buffers)
         return;
+    // A triangle may be cut into two, of nine texels each; what has no room is drawn the quick way.
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (18 * m_mesh->mesh->triangles.size() > size_t(most))
+        return;
     m_exact = ExactMesh(*m_mesh->mesh, *m_buffers, m_mesh->recipe.vismap_params.udim, materials(), m_mesh->material_uvs,
                         view.camera, view.width, view.height, depth_range_of(view.camera, m_mesh->subject).x);
 }

@@ -56,8 +56,8 @@ public:
         m_lit[size_t(slot)].level(0).read_rect(x, y, 1, 1, rgba);
     }
 
-    /// Prepare pictures of `view`, whatever its offset, that are right at every edge, to float's precision; draw() then
-    /// makes such until reset_exact().
+    /// Prepare pictures of `view`, whatever its offset, that are right at every edge, to float's precision, unless the
+    /// mesh is too large for the driver (millions of triangles); draw() then makes such until reset_exact().
     void prepare_exact(const View& view);
     void reset_exact()
     {

@@ -18,6 +18,7 @@ MeshCamera read_camera(const std::vector<CameraShape>& cameras, const tinygltf::
     const CameraShape& source = cameras[size_t(node.camera)];
     MeshCamera camera;
     camera.name = source.name.empty() ? node.name : source.name;
+    camera.node = node.name;
     camera.is_orthographic = source.type == "orthographic";
     if (camera.is_orthographic) {
         camera.half_height = std::abs(source.ymag);
