@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 namespace {
 
-std::shared_ptr<const Mesh> shared(Mesh mesh)
+std::shared_ptr<const Mesh> held(Mesh mesh)
 {
     return std::make_shared<const Mesh>(std::move(mesh));
 }
@@ -60,7 +60,7 @@ TEST(PixelCover, NothingThatIsSeenIsMissed)
 {
     FrameScene scene;
     scene.surfaces.resize(1);
-    scene.surfaces[0].mesh = shared(scenes::icosphere(1));
+    scene.surfaces[0].mesh = held(scenes::icosphere(1));
     std::string error;
     ASSERT_TRUE(scene.build(1, error)) << error;
     for (const bool is_orthographic : { true, false }) {
@@ -92,7 +92,7 @@ TEST(PixelCover, WhatIsAroundTheCameraIsEverywhere)
 {
     FrameScene scene;
     scene.surfaces.resize(1);
-    scene.surfaces[0].mesh = shared(scenes::box(V3d(-1), V3d(1), true));
+    scene.surfaces[0].mesh = held(scenes::box(V3d(-1), V3d(1), true));
     std::string error;
     ASSERT_TRUE(scene.build(1, error)) << error;
     Camera camera;
@@ -124,7 +124,7 @@ TEST(TexelWeights, CoverIsOneAndTheMarginAlmostNothing)
 TEST(LitObject, OccludersAreInItsWay)
 {
     LitObject open, covered;
-    const auto floor = shared(scenes::floor_facing_z(1));
+    const auto floor = held(scenes::floor_facing_z(1));
     open.open(floor, map_params(16));
     covered.open(floor, map_params(16));
     covered.set_occluders({ scenes::floor_facing_z(1e5, V3d(0, 0, 0.01)) });
@@ -144,7 +144,7 @@ TEST(LitObject, OccludersAreInItsWay)
 TEST(LitObject, MapsAreBakedForTheirModels)
 {
     LitObject object;
-    object.open(shared(scenes::sphere(V3d(0), 1, 8)), map_params(16, 4));
+    object.open(held(scenes::sphere(V3d(0), 1, 8)), map_params(16, 4));
     int bakes = 0;
     MakeOptions options;
     options.say = [&](const std::string& line) { bakes += line.compare(0, 5, "bake:") == 0; };

@@ -25,7 +25,7 @@ struct ImageFormat
 {
     const char *begins, *name;
 };
-constexpr std::array<ImageFormat, 3> kFormats {
+constexpr std::array<ImageFormat, 3> kEmbeddedFormats {
     { { "\x89PNG", "texture.png" }, { "\xff\xd8\xff", "texture.jpg" }, { "\x76\x2f\x31\x01", "texture.exr" } }
 };
 
@@ -47,10 +47,11 @@ bool read_embedded(ImageBuf& dst, const MaterialTexture& texture, std::string& e
     std::string bytes;
     if (!read_bytes(bytes, texture, error))
         return false;
-    const auto format_of = std::find_if(kFormats.begin(), kFormats.end(), [&](const ImageFormat& format) {
-        return bytes.compare(0, std::char_traits<char>::length(format.begins), format.begins) == 0;
-    });
-    if (format_of == kFormats.end()) {
+    const auto format_of
+        = std::find_if(kEmbeddedFormats.begin(), kEmbeddedFormats.end(), [&](const ImageFormat& format) {
+              return bytes.compare(0, std::char_traits<char>::length(format.begins), format.begins) == 0;
+          });
+    if (format_of == kEmbeddedFormats.end()) {
         error = format("\"{}\": a texture in it is neither PNG, JPEG nor EXR", texture.path);
         return false;
     }

@@ -22,19 +22,19 @@ struct PictureFormat
     const char *extension, *oiio_name;
     bool has_alpha, is_animation;
 };
-constexpr std::array<PictureFormat, 6> kFormats { { { "png", "png", true, false },
-                                                    { "jpg", "jpeg", false, false },
-                                                    { "jpeg", "jpeg", false, false },
-                                                    { "webp", "webp", true, false },
-                                                    { "tif", "tiff", true, false },
-                                                    { "gif", "gif", true, true } } };
+constexpr std::array<PictureFormat, 6> kPictureFormats { { { "png", "png", true, false },
+                                                           { "jpg", "jpeg", false, false },
+                                                           { "jpeg", "jpeg", false, false },
+                                                           { "webp", "webp", true, false },
+                                                           { "tif", "tiff", true, false },
+                                                           { "gif", "gif", true, true } } };
 
 const PictureFormat* format_of(const std::string& path)
 {
     const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(path, false));
-    const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+    const auto found = std::find_if(kPictureFormats.begin(), kPictureFormats.end(),
                                     [&](const PictureFormat& format) { return extension == format.extension; });
-    return found == kFormats.end() ? nullptr : &*found;
+    return found == kPictureFormats.end() ? nullptr : &*found;
 }
 
 // What a writer of 8 bit gets: rounding is its own.
