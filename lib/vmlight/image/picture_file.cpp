@@ -47,6 +47,8 @@ OIIO::ImageSpec spec_for(const OIIO::ImageBuf& picture, const PictureFormat& for
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", 95);
+    // OIIO writes the current time into a TIFF unless DateTime is set.
+    spec.attribute("DateTime", "");
     return spec;
 }
 
