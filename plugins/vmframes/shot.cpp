@@ -205,6 +205,11 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
     if (!lightmap_rotation(m_scene.background.rotation, params, error))
         return false;
     params.model = model;
+    const std::vector<std::string>& layers = m_request.render.layers;
+    const bool shows_visibility
+        = std::any_of(frame_layers().begin(), frame_layers().end(), [&](const FrameLayer& layer) {
+              return layer.needs_visibility && std::find(layers.begin(), layers.end(), layer.name) != layers.end();
+          });
     size_t i = 0;
     std::vector<LitObject*> all;
     for (const auto& object : m_objects)
@@ -215,9 +220,9 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
         if (!object->light(m_light, params, m_request.reference, options, error, &m_used_model))
             return false;
         FrameSurface& surface = m_scene.surfaces[i++];
-        if (surface.light != object->surface().light && index == 0)
+        if (shows_visibility && !object->surface().visibility)
             object->show_visibility(options.threads);
-        if (object == m_ground.get()
+        if (object->surface().catches_shadows
             && !find_unshadowed(object->surface().unshadowed, object->mesh(), m_light, params, error))
             return false;
         surface = object->surface();
@@ -276,16 +281,7 @@ bool Shot::measure(double& mean, size_t index, const std::string& model, const M
         m_scene.surfaces.back().opacity = 1;
     if (!rendered)
         return false;
-    OIIO::ImageSpec spec;
-    tag_scene_linear(spec, m_light.space);
-    const std::array<double, 3> weights = luminance_weights(spec);
-    double sum = 0, alpha = 0;
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel) {
-        for (int c = 0; c < 3; ++c)
-            sum += weights[size_t(c)] * double(pixel[c]);
-        alpha += double(pixel[3]);
-    }
-    mean = alpha > 0 ? sum / alpha : 0;
+    mean = covered_luminance(image, m_light.space);
     return true;
 }
 

@@ -54,16 +54,8 @@ double automatic_stops(Renderer& renderer, PictureParams params, RenderParams re
     OIIO::ImageBuf image;
     if (!render_picture(image, renderer, params, render, error))
         return 0;
-    OIIO::ImageSpec spec;
-    tag_scene_linear(spec, space);
-    const std::array<double, 3> weights = luminance_weights(spec);
-    double sum = 0, alpha = 0;
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel) {
-        for (int c = 0; c < 3; ++c)
-            sum += weights[size_t(c)] * double(pixel[c]);
-        alpha += double(pixel[3]);
-    }
-    return sum > 0 ? std::clamp(std::log2(kMiddleGray * alpha / sum), -64.0, 64.0) : 0;
+    const double mean = covered_luminance(image, space);
+    return mean > 0 ? std::clamp(std::log2(kMiddleGray / mean), -64.0, 64.0) : 0;
 }
 
 } // namespace

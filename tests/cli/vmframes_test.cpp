@@ -87,13 +87,16 @@ TEST_F(Vmframes, InputsOfTheWrongKindAreRefused)
 // The open quad sends out the sky's one colour.
 TEST_F(Vmframes, AnExrIsTheLight)
 {
-    done("vmframes quad.obj sky.exr -o a.exr --layers lit,depth --elevation 0 --fill 4" + small);
+    done("vmframes quad.obj sky.exr -o a.exr --layers lit,depth,visibility --elevation 0 --fill 4" + small);
     EXPECT_THAT(channel_names("a.exr"),
-                testing::UnorderedElementsAre("R", "G", "B", "A", "lit.R", "lit.G", "lit.B", "depth.Z"));
+                testing::UnorderedElementsAre("R", "G", "B", "A", "lit.R", "lit.G", "lit.B", "depth.Z", "visibility"));
     OIIO::ImageBuf image(path("a.exr"));
     EXPECT_NEAR(image.getchannel(8, 8, 0, 0), 1, 1e-6);
     EXPECT_NEAR(image.getchannel(8, 8, 0, 2), 3, 3e-6);
     EXPECT_EQ(image.getchannel(8, 8, 0, 3), 1);
+    const std::vector<std::string> channels = channel_names("a.exr");
+    const auto visibility = std::find(channels.begin(), channels.end(), "visibility") - channels.begin();
+    EXPECT_NEAR(image.getchannel(8, 8, 0, int(visibility)), 1, 1e-6); // an open quad
     EXPECT_EQ(attribute("a.exr", "colorInteropID"), "lin_rec709_scene");
     done("vmframes quad.obj sky.exr -o b.exr --elevation 0 --fill 4 --exposure 1 --format half" + small);
     EXPECT_NEAR(OIIO::ImageBuf(path("b.exr")).getchannel(8, 8, 0, 0), 2, 1e-3);

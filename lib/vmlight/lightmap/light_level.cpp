@@ -2,6 +2,7 @@
 #include <vmlight/lightmap/light_level.h>
 
 #include <vmlight/image/channels.h>
+#include <vmlight/image/color.h>
 #include <vmlight/image/color_labels.h>
 #include <vmlight/image/color_space.h>
 #include <vmlight/image/primaries.h>
@@ -53,6 +54,20 @@ double LightLevel::stops_to_gray() const
     if (texels == 0)
         return 0;
     return std::clamp(std::round(100 * std::log2(kMiddleGray / mean)) / 100, -64.0, 64.0);
+}
+
+double covered_luminance(const OIIO::ImageBuf& picture, const std::string& space)
+{
+    OIIO::ImageSpec spec;
+    tag_scene_linear(spec, space);
+    const std::array<double, 3> weights = luminance_weights(spec);
+    double sum = 0, alpha = 0;
+    for (OIIO::ImageBuf::ConstIterator<float> pixel(picture); !pixel.done(); ++pixel) {
+        for (int c = 0; c < 3; ++c)
+            sum += weights[size_t(c)] * double(pixel[c]);
+        alpha += double(pixel[3]);
+    }
+    return alpha > 0 ? sum / alpha : 0;
 }
 
 } // namespace vmlight

@@ -27,6 +27,11 @@ struct LightLevel
 /// Measure `lightmap`, which `vismap` was lit to: float images of one size in memory.
 LightLevel measure_light(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& vismap);
 
+/// The mean luminance of what covers a picture of R, G, B, times alpha, and A, float and in memory; 0 if nothing does.
+///
+/// @param space    interop id of its light
+double covered_luminance(const OIIO::ImageBuf& picture, const std::string& space);
+
 /// The share of R, G and B in luminance, by the `chromaticities` of the image, or those of its `colorInteropID`; of
 /// Rec.709 if it has neither.
 std::array<double, 3> luminance_weights(const OIIO::ImageSpec& spec);
