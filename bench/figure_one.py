@@ -6,8 +6,9 @@
 
 The mesh turns once around in the environment, with a map that is baked once before. Executables are those in $VMLIGHT_BIN,
 else in build/release/bin. Where Blender is installed, Cycles renders the first frame (a white diffuse surface under the same
-environment, without bounces) with more and more samples, until its relative RMS against a converged picture of its own is that
-of vmframes' picture against the same; the ratio of times is printed. Nothing else should run meanwhile."""
+environment, without bounces) with more and more samples, until its relative RMS against a picture of its own with --truth samples is that
+of vmframes' picture against the same; the ratio of times is printed. What is left of noise in the truth is taken out of all
+errors. Nothing else should run meanwhile."""
 import argparse
 import os
 import re
@@ -92,10 +93,11 @@ def pixels(path):
     return image.get_pixels(oiio.FLOAT)[:, :, [names.index(name) for name in "RGBA"]]
 
 
-def relative_rms(picture, truth):
+def relative_rms(picture, truth, noise=0.0):
+    """@param noise: the relative RMS of the truth itself, which is independent of the picture's error"""
     seen = truth[:, :, 3] >= 1 # edges are a matter of the filter
     difference = (picture - truth)[seen][:, :3]
-    return float(numpy.sqrt((difference ** 2).mean()) / truth[seen][:, :3].mean())
+    return max(float((difference ** 2).mean()) / float(truth[seen][:, :3].mean()) ** 2 - noise ** 2, 0) ** 0.5
 
 
 def cycles(options, folder, camera, samples):
@@ -114,7 +116,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh")
     parser.add_argument("environment")
-    for name, value in (("map", 1024), ("size", 1024), ("spp", 16), ("frames", 8)):
+    for name, value in (("map", 1024), ("size", 1024), ("spp", 16), ("frames", 8), ("truth", 512)):
         parser.add_argument("--" + name, type=int, default=value)
     parser.add_argument("--models", default="paper,lobe,sh,cells")
     parser.add_argument("--no-cycles", action="store_true")
@@ -139,17 +141,21 @@ def main():
             sys.exit("Cycles reads the mesh as an .obj here")
         one = oiio.ImageBuf(os.path.join(folder, options.models.split(",")[0] + ".1.exr")).spec()
         camera = eval(one.get_string_attribute("vmlight:camera"))
-        counts = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512]
-        rendered = cycles(options, folder, camera, counts + [4096])
-        truth = rendered[4096][1]
-        print(f"\n{'Cycles':8} {'seconds':>9} {'RMS':>8}")
+        counts = [1, 2, 4, 8, 16, 32, 64]
+        rendered = cycles(options, folder, camera, counts + [options.truth])
+        truth = rendered[options.truth][1]
+        # Variances fall as one over the samples.
+        noise = relative_rms(rendered[counts[-1]][1], truth) / (1 + options.truth / counts[-1]) ** 0.5
+        errors = {count: relative_rms(rendered[count][1], truth, noise) for count in counts}
+        print(f"\nCycles' truth has {options.truth} samples and a relative RMS of {noise:.4f}")
+        print(f"{'Cycles':8} {'seconds':>9} {'RMS':>8}")
         for count in counts:
-            print(f"{count:8} {rendered[count][0]:9.2f} {relative_rms(rendered[count][1], truth):8.4f}")
+            print(f"{count:8} {rendered[count][0]:9.2f} {errors[count]:8.4f}")
         print(f"\n{'model':8} {'seconds':>9} {'RMS':>8}  Cycles takes")
         for model, (seconds, picture) in pictures.items():
-            error = relative_rms(picture, truth)
-            equal = next((count for count in counts if relative_rms(rendered[count][1], truth) <= error), None)
-            words = f"{rendered[equal][0] / seconds:.1f} times as long ({equal} samples)" if equal else "more than 512 samples"
+            error = relative_rms(picture, truth, noise)
+            equal = next((count for count in counts if errors[count] <= error), None)
+            words = f"{rendered[equal][0] / seconds:.1f} times as long ({equal} samples)" if equal else f"more than {counts[-1]} samples"
             print(f"{model:8} {seconds:9.3f} {error:8.4f}  {words}")
 
 

@@ -4,6 +4,7 @@
 #include "write_report.h"
 
 #include <vmlight/base/text_format.h>
+#include <vmlight/cli/environment_options.h>
 #include <vmlight/cli/main.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -30,14 +31,7 @@ int main(int argc, const char** argv)
         mesh.occluder.emplace_back(text);
         return true;
     });
-    stage.option("colorspace", "NAME",
-                 advanced("Colour space of the environments; default: from their names and metadata"),
-                 light.colorspace);
-    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), light.colorconfig);
-    stage.option("layer", "TEXT",
-                 advanced("Layer or part of the environment files to read, such as ViewLayer.Combined"), light.layer);
-    stage.option("layout", "auto|latlong", advanced("latlong: environments are lat-long, whatever their shape [auto]"),
-                 [&](auto text, auto& error) { return set_param(light, "layout", text, error); });
+    add_environment_options(stage, light);
 
     return stage.run(argc, argv, [&](std::string& error) {
         const std::vector<std::string>& operands = stage.operands();

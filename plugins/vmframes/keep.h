@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "frames_params.h"
+#include "request.h"
 #include "shot.h"
 
 #include <string>

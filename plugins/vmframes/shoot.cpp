@@ -8,13 +8,11 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/frames.h>
-#include <vmlight/base/output_file.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/image/picture_file.h>
 #include <vmlight/lightmap/light_level.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
@@ -27,17 +25,6 @@ namespace {
 using OIIO::ImageBuf;
 
 constexpr int kSheetWidth = 2048;
-
-bool is_exr_name(const std::string& path)
-{
-    return OIIO::Strutil::iends_with(path, ".exr");
-}
-
-// One file holds all frames.
-bool holds_all_frames(const std::string& path)
-{
-    return is_animation_name(path) || is_film_name(path);
-}
 
 // Multiply colour and light by 2^stops.
 void expose(ImageBuf& image, double stops)
@@ -201,79 +188,7 @@ private:
     std::vector<ImageBuf> m_pictures;
 };
 
-std::string output_fault_of(const Request& request)
-{
-    const std::string& output = request.output;
-    if (!is_exr_name(output) && !is_picture_name(output) && !is_film_name(output))
-        return format("\"{}\": the extension must be exr, png, jpg, webp, tif, gif, mp4, mov or webm", output);
-    if (is_film_name(output))
-        if (const std::string fault = film_fault(); !fault.empty())
-            return format("\"{}\": {}", output, fault);
-    const bool has_number = output.find('#') != std::string::npos;
-    if (request.frames.size() > 1 && !has_number && !holds_all_frames(output))
-        return format("\"{}\": {} frames need #### in the file name, for the number", output, request.frames.size());
-    const std::string& sheet = request.sheet.contact_sheet;
-    if (!sheet.empty() && (!is_picture_name(sheet) || is_animation_name(sheet)))
-        return format("--contact-sheet: \"{}\": the extension must be png, jpg, webp or tif", sheet);
-    for (const int frame : request.frames)
-        if (!sheet.empty() && frame_path(output, frame) == sheet)
-            return format("--contact-sheet: \"{}\" is the file of frame {} too", sheet, frame);
-    return sheet.empty() ? "" : output_file_fault(sheet);
-}
-
-std::string models_fault(const Request& request)
-{
-    if (!request.sheet.wipe.empty() && !request.sheet.side_by_side.empty())
-        return "give only one of --wipe and --side-by-side";
-    if (!request.sheet.wipe.empty() && request.sheet.wipe.size() != 2)
-        return format("--wipe needs two models, such as paper,reference; it has {}", request.sheet.wipe.size());
-    if (request.sheet.side_by_side.size() == 1)
-        return "--side-by-side needs two models or more, such as ao,paper,reference";
-    Choices known = model_choices();
-    known.choices.push_back({ kReferenceModel, "" });
-    for (const std::string& model : request.models()) {
-        std::string word, error;
-        if (!parse_value(word, model, known, error))
-            return format("model: {}", error);
-    }
-    return "";
-}
-
 } // namespace
-
-std::string request_fault(const Request& request)
-{
-    const bool has_light = !request.environment.empty();
-    if (!has_light && request.object.texture.empty())
-        return "ENVIRONMENT is missing, and there is no --texture";
-    if (request.object.texture.find('#') != std::string::npos && !request.has_frames)
-        return format("--texture: \"{}\" is a sequence: --frames is missing, such as 1-48", request.object.texture);
-    if (!request.object.vismap.empty() && !request.object.texture.empty())
-        return "give only one of --vismap and --texture";
-    if (!has_light && request.stage.background == "environment")
-        return "--background environment: there is no environment";
-    if (!has_light && request.is_auto_exposed)
-        return "--exposure auto: there is no environment to expose for";
-    const std::string& ground = request.stage.ground;
-    if (ground != "none" && ground != "white" && ground != "shadow" && !OIIO::Filesystem::is_regular(ground))
-        return format("--ground: \"{}\" is neither none, white, shadow nor a file", ground);
-    if (!request.sheet.keep.empty())
-        if (const std::string fault = output_folder_fault(request.sheet.keep); !fault.empty())
-            return "--keep: " + fault;
-    if ((request.turn.turntable || request.turn.turn_environment) && !request.has_frames)
-        return "--turntable and --turn-environment need --frames, such as 1-48";
-    if (request.stage.background != "none" && request.stage.background != "environment") {
-        std::vector<double> color;
-        std::string error;
-        if (!parse_value(color, request.stage.background, Numbers { 3 }, error))
-            return format("--background: \"{}\" is neither none, environment nor a colour such as 0.2,0.2,0.2",
-                          request.stage.background);
-    }
-    if (!request.render.layers.empty() && !is_exr_name(request.output))
-        return format("--layers need an .exr to be written to; -o is \"{}\"", request.output);
-    const std::string fault = models_fault(request);
-    return fault.empty() ? output_fault_of(request) : fault;
-}
 
 bool shoot(const Request& request, StageMain& stage, std::string& error)
 {

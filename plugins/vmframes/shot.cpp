@@ -143,10 +143,7 @@ Camera Shot::camera_at(size_t index) const
 
 bool Shot::open(const MakeOptions& options, std::string& error)
 {
-    LightmapParams own = m_request.light;
-    own.env_rotate.clear();
-    own.model = "auto"; // the rotation is that of every model
-    if (!lightmap_rotation(m_pose, own, error))
+    if (!object_pose(m_pose, m_request.light, error))
         return false;
     if (!open_light(options, error) || !open_objects(options, error) || !open_ground(options, error)
         || !open_background(options, error) || !place(error))
@@ -173,17 +170,10 @@ bool Shot::open(const MakeOptions& options, std::string& error)
 // The objects turn about y after their own rotation, the environment after its own.
 LightmapParams Shot::light_at(size_t index) const
 {
-    LightmapParams params = m_request.light;
-    params.exposure = 0;
     const double object = m_request.turn.turntable ? turn_at(index) : 0;
     const double environment = m_request.turn.turn_environment ? turn_at(index) : 0;
     // E^-1 R of the turns goes between the environment's own rotation and the object's.
-    const Rotation turned = rotation_from_angles(0, object - environment, 0);
-    const Rotation rotation = turned * m_pose;
-    params.rotate.clear();
-    params.quaternion.clear();
-    params.matrix.assign(&rotation[0][0], &rotation[0][0] + 9);
-    return params;
+    return turned_light(m_request.light, m_pose, object - environment);
 }
 
 bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& options, std::string& error)

@@ -2,7 +2,7 @@
 /// The scene that vmframes renders: objects, ground, light and camera, and how they change over the frames.
 #pragma once
 
-#include "frames_params.h"
+#include "request.h"
 
 #include <vmlight/frame/frame_scene.h>
 #include <vmlight/frame/lit_object.h>

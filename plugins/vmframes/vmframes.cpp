@@ -2,6 +2,7 @@
 #include "shoot.h"
 
 #include <vmlight/base/frames.h>
+#include <vmlight/cli/environment_options.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/stage/reader.h>
 
@@ -80,13 +81,7 @@ int main(int argc, const char** argv)
                  });
     stage.params("Light:", request.light);
     stage.params("Light:", request.display);
-    stage.option("colorspace", "NAME", advanced("Colour space of the environment; default: from its name and metadata"),
-                 request.filter.colorspace);
-    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), request.filter.colorconfig);
-    stage.option("layer", "TEXT", advanced("Layer or part of the environment to read, such as ViewLayer.Combined"),
-                 request.filter.layer);
-    stage.option("layout", "auto|latlong", advanced("latlong: the environment is lat-long, whatever its shape [auto]"),
-                 [&](auto text, auto& error) { return set_param(request.filter, "layout", text, error); });
+    add_environment_options(stage, request.filter);
     stage.params("Light:", request.filter.cfem_params, "cfem_");
     stage.params("Reference:", request.reference, "reference_");
     stage.params("Visibility map:", request.object.map.vismap_params);
@@ -94,11 +89,20 @@ int main(int argc, const char** argv)
     stage.params("Mesh:", request.object.map.mesh_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.object.map.unwrap = true; });
-    stage.check([&] {
+    const auto complete = [&] {
         request.object.map.mesh = stage.operands()[0];
         request.environment = stage.operands().size() > 1 ? stage.operands()[1] : "";
         request.output = stage.output();
-        return request_fault(request);
+        request.object.map.mesh_params.fps = request.sheet.fps;
+    };
+    stage.unused([&](const std::string& name) {
+        complete();
+        return unused_reason(request, name);
+    });
+    stage.check([&] {
+        complete();
+        const std::string fault = operand_order_fault(request.object.map.mesh, request.environment);
+        return fault.empty() ? request_fault(request) : fault;
     });
     return stage.run(argc, argv, [&](std::string& error) { return shoot(request, stage, error); });
 }

@@ -9,6 +9,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
+#include <vmlight/frame/scene_light.h>
 #include <vmlight/image/color.h>
 #include <vmlight/image/picture_file.h>
 #include <vmlight/lightmap/light_level.h>
@@ -26,10 +27,8 @@ namespace {
 
 bool frame_object(PictureParams& dst, const MeshAsset& mesh, const Request& request, std::string& error)
 {
-    LightmapParams own = request.light;
-    own.env_rotate.clear();
     Rotation pose;
-    if (!lightmap_rotation(pose, own, error) || !lightmap_rotation(dst.to_environment, request.light, error))
+    if (!object_pose(pose, request.light, error) || !lightmap_rotation(dst.to_environment, request.light, error))
         return false;
     const Size size = request.render.size;
     const double aspect = double(size.width) / size.height;

@@ -3,8 +3,11 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/image/picture_file.h>
+#include <vmlight/stage/recipe/unused_flags.h>
 
 #include <OpenImageIO/strutil.h>
+
+#include <algorithm>
 
 namespace vmlight::view {
 
@@ -23,6 +26,26 @@ std::string request_fault(const Request& request)
         && (!is_picture_name(request.output) || is_animation_name(request.output)))
         return format("\"{}\": the extension must be exr, png, jpg, webp or tif", request.output);
     return "";
+}
+
+std::string unused_reason(const Request& request, const std::string& name)
+{
+    const auto is_one_of = [&](const std::vector<std::string>& names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const std::string filter = "cfem_";
+    if (OIIO::Strutil::starts_with(name, filter))
+        return unused_reason(request.filter, name.substr(filter.size()));
+    if (request.has_window())
+        return "";
+    if (is_one_of(param_names(VismapParams())) && !request.vismap.empty())
+        return "the visibility map is made already";
+    if (name == "background_blur" && request.view.background != "environment")
+        return "only --background environment is blurred";
+    if (is_one_of(param_names(DisplayParams())) && OIIO::Strutil::iends_with(request.output, ".exr"))
+        return "an EXR holds scene-linear light, as no display shows it";
+    const std::string reason = unused_reason(request.camera, name);
+    return reason.empty() ? unused_reason(request.mesh, name) : reason;
 }
 
 } // namespace vmlight::view

@@ -66,4 +66,8 @@ struct Request
 /// What is wrong with the request as a whole, or "".
 std::string request_fault(const Request& request);
 
+/// Why no value of the flag `name` can change what is seen, given the others, or "" if it can. In a window nothing is
+/// final but what the file decides.
+std::string unused_reason(const Request& request, const std::string& name);
+
 } // namespace vmlight::view

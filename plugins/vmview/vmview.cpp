@@ -3,6 +3,7 @@
 #include "request.h"
 #include "ui/app.h"
 
+#include <vmlight/cli/environment_options.h>
 #include <vmlight/cli/main.h>
 
 #include <utility>
@@ -60,25 +61,27 @@ int main(int argc, const char** argv)
                      return request.is_auto_exposed || set_param(request.light, "exposure", text, error);
                  });
     stage.params("Light:", request.light);
-    stage.option("colorspace", "NAME", advanced("Colour space of the environment; default: from its name and metadata"),
-                 request.filter.colorspace);
-    stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), request.filter.colorconfig);
-    stage.option("layer", "TEXT", advanced("Layer or part of the environment to read, such as ViewLayer.Combined"),
-                 request.filter.layer);
-    stage.option("layout", "auto|latlong", advanced("latlong: the environment is lat-long, whatever its shape [auto]"),
-                 [&](auto text, auto& error) { return set_param(request.filter, "layout", text, error); });
+    add_environment_options(stage, request.filter);
     stage.params("Light:", request.filter.cfem_params, "cfem_");
     stage.params("Visibility map:", request.mesh.vismap_params);
     stage.params("Mesh:", request.mesh.selection);
     stage.params("Mesh:", request.mesh.mesh_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.mesh.unwrap = true; });
-    stage.check([&] {
+    const auto complete = [&] {
         const std::vector<std::string>& operands = stage.operands();
         request.mesh.mesh = operands.empty() ? "" : operands[0];
         request.environment = operands.size() > 1 ? operands[1] : "";
         request.output = stage.output();
-        return request_fault(request);
+    };
+    stage.unused([&](const std::string& name) {
+        complete();
+        return unused_reason(request, name);
+    });
+    stage.check([&] {
+        complete();
+        const std::string fault = operand_order_fault(request.mesh.mesh, request.environment);
+        return fault.empty() ? request_fault(request) : fault;
     });
     return stage.run(argc, argv, [&](std::string& error) {
         return request.has_window() ? run_window(request, stage.make_options().threads, error)

@@ -205,6 +205,18 @@ class Apply(Lit):
         bpy.ops.vmlight.apply()
         self.assert_near(self.picture(), self.expected("--rotate", "0,-90,0"), 1e-6)
 
+    def test_between_texels_it_is_what_vmframes_looks_up(self):
+        self.floor()
+        bpy.ops.vmlight.apply()
+        with open(self.path("floor.obj"), "w", encoding="utf-8") as file:
+            file.write("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+        self.expected("--rotate", "0,-90,0")
+        self.run_tool("vmframes", self.path("floor.obj"), "--texture", self.path("lit.exr"), "--fov", "0", "--fill", "1",
+                      "--elevation", "90", "--size", "200", "--spp", "1", "--filter", "box", "-o", self.path("looked_up.exr"))
+        border = 3 # pixels: Cycles repeats the texture there
+        inside = (slice(border, -border), slice(border, -border))
+        self.assert_near(render(self.path("picture.exr"), 200)[inside], read(self.path("looked_up.exr"))[inside], 1e-3)
+
     def test_several_materials_keep_their_colours_and_come_back(self):
         floor = self.floor()
         red, blue = material("red", (0.8, 0.2, 0.1)), material("blue", (0.1, 0.2, 0.8))

@@ -39,11 +39,12 @@ TEST_F(Hints, AKeyIsOneOfTheRecipe)
 TEST_F(Hints, AMeshIsNoImage)
 {
     write("quad.OBJ", kQuad);
-    const std::string bake = ": a mesh; bake it with makevismap first";
+    const std::string bake = ": a mesh, not an image; bake it with makevismap first",
+                      other = ": a mesh, not an image\n";
     refused(1, "\"quad.OBJ\"" + bake, "makelightmap quad.OBJ sky.exr -o x.exr");
-    refused(1, "\"quad.OBJ\"" + bake, "makelightmap vm.exr quad.OBJ -o x.exr");
-    refused(1, "\"quad.OBJ\"" + bake, "makelightmap vm.exr sky.exr --albedo quad.OBJ -o x.exr");
-    refused(1, "\"quad.glb\"" + bake, "makecfem quad.glb -o x.exr");
+    refused(1, "\"quad.OBJ\"" + other, "makelightmap vm.exr quad.OBJ -o x.exr");
+    refused(1, "\"quad.OBJ\"" + other, "makelightmap vm.exr sky.exr --albedo quad.OBJ -o x.exr");
+    refused(1, "\"quad.glb\"" + other, "makecfem quad.glb -o x.exr");
 }
 
 TEST_F(Hints, SpellingsOfOtherToolsAreKnown)

@@ -30,7 +30,7 @@ protected:
             sum += double(value);
         return sum / double(all.values.size());
     }
-    const std::string small = " --size 16 --spp 4 --resolution 16 --samples 4 --cfem-resolution 16";
+    const std::string few = " --size 16 --spp 4", small = few + " --resolution 16 --samples 4 --cfem-resolution 16";
 };
 
 } // namespace
@@ -61,6 +61,7 @@ TEST_F(Vmframes, WrongUsageIsRefusedBeforeAnythingIsMade)
             "vmframes quad.obj --texture t.exr -o a.png --exposure auto");
     write("file");
     refused(2, "--keep: \"file\": is a file, not a folder", line + "-o a.png --keep file");
+    refused(2, "\"quad.obj\" is a mesh: give it first, then the environment", "vmframes sky.exr quad.obj -o a.png");
     refused(2, "spp: 0 is not in [1, 4096]", line + "-o a.png --spp 0");
     refused(1, "\"a/b.png\": no such folder: \"a\"", line + "-o a/b.png");
     EXPECT_THAT(done("vmframes --help"),
@@ -68,11 +69,34 @@ TEST_F(Vmframes, WrongUsageIsRefusedBeforeAnythingIsMade)
                       HasSubstr("blackman-harris"), Not(HasSubstr("RECIPE"))));
 }
 
+TEST_F(Vmframes, FlagsThatCannotChangeThePictureAreRefused)
+{
+    const std::string line = "vmframes quad.obj sky.exr -o a.png ", exr = "vmframes quad.obj sky.exr -o a.exr ";
+    const std::string texture = "vmframes quad.obj --texture t.exr -o a.png ";
+    refused(2, "--azimuth 30: the camera of the file has its own place and lens", line + "--camera main --azimuth 30");
+    refused(2, "--samples 4: the visibility map is made already", line + "--vismap v.exr --samples 4");
+    refused(2, "--samples 4: the texture is shown as it is", texture + "--samples 4");
+    refused(2, "--model paper: there is no environment", texture + "--model paper");
+    refused(2, "--cfem-sanitize: there is no environment", texture + "--cfem-sanitize");
+    refused(2, "--cfem-order 5: only the filter sh uses it", line + "--cfem-order 5");
+    refused(2, "--model ao: the models are those that are compared", line + "--wipe ao,paper --model ao");
+    refused(2, "--reference-samples 8: only the model reference uses it", line + "--reference-samples 8");
+    refused(2, "--view Film: an EXR holds scene-linear light", exr + "--view Film");
+    refused(2, "--background-blur 3: only --background environment is blurred", line + "--background-blur 3");
+    refused(2, "--fps 25: only films and GIFs have a speed", line + "--fps 25");
+    refused(2, "--crease-angle 30: flat normals ignore it", line + "--normals flat --crease-angle 30");
+    // A sheet is shown by a display, and what else is baked has samples.
+    refused(1, "displays, views and looks need an OCIO config", exr + "--contact-sheet b.png --view Film" + small);
+    refused(1, "\"v.exr\": no such file", line + "--vismap v.exr --ground white" + small);
+    make_sky({ 1, -1, 1 }, "negative.exr");
+    refused(1, "; set --cfem-sanitize to repair them", "vmframes quad.obj negative.exr -o a.png" + small);
+}
+
 TEST_F(Vmframes, InputsOfTheWrongKindAreRefused)
 {
     refused(1, "\"no.obj\": ", "vmframes no.obj sky.exr -o a.png" + small);
     refused(1, "\"no.exr\": no such file", "vmframes quad.obj no.exr -o a.png" + small);
-    refused(1, "\"sky.exr\": ", "vmframes quad.obj sky.exr --vismap sky.exr -o a.png" + small);
+    refused(1, "\"sky.exr\": ", "vmframes quad.obj sky.exr --vismap sky.exr -o a.png" + few);
     refused(1, "has no camera \"main\"; it has none", "vmframes quad.obj sky.exr --camera main -o a.png" + small);
     refused(1, "displays, views and looks need an OCIO config",
             "vmframes quad.obj sky.exr --view Film -o a.png" + small);
@@ -156,10 +180,10 @@ TEST_F(Vmframes, ModelsAreCompared)
 
 TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
 {
-    const std::string line = "vmframes " + kSpot + " " + kSky + small;
-    done(line + " --keep kept -o a.exr");
+    const std::string line = "vmframes " + kSpot + " " + kSky, filter = " --cfem-resolution 16";
+    done(line + small + " --keep kept -o a.exr");
     EXPECT_THAT(names("", "kept"), ElementsAre("spot_lightmap.exr", "spot_vismap.exr"));
-    EXPECT_THAT(done(line + " --vismap kept/spot_vismap.exr -o b.exr"), Not(HasSubstr("bake:")));
+    EXPECT_THAT(done(line + few + filter + " --vismap kept/spot_vismap.exr -o b.exr"), Not(HasSubstr("bake:")));
     expect_same_pixels("a.exr", "b.exr", 0);
     // The lightmap itself, through OIIO's texture system: the margin and other filters alone are different.
     done("vmframes " + kSpot + " --texture kept/spot_lightmap.exr --size 16 --spp 4 -o c.exr");
@@ -173,12 +197,12 @@ TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
     write("live.lightmap", "vismap = \"kept/spot_vismap.exr\"\nenvironment = \"" + kSky + "\"\n");
     done("vmframes " + kSpot + " --texture live.lightmap?cfem_resolution=16 --size 16 --spp 4 -o f.exr");
     expect_same_pixels("c.exr", "f.exr", 1e-3f);
-    EXPECT_THAT(done("vmframes quad.obj " + kSky + small + " --vismap kept/spot_vismap.exr -o g.png"),
+    EXPECT_THAT(done("vmframes quad.obj " + kSky + few + " --vismap kept/spot_vismap.exr -o g.png"),
                 HasSubstr("was baked of another mesh than \"quad.obj\""));
     write("bare.obj", kQuadWithoutUv);
     EXPECT_THAT(done("vmframes bare.obj sky.exr --keep made -o d.png" + small), HasSubstr("no UVs; "));
     EXPECT_THAT(names("", "made"), testing::Contains("bare_unwrapped.glb"));
-    refused(1, "texture coordinates", "vmframes bare.obj sky.exr --vismap kept/spot_vismap.exr -o e.png" + small);
+    refused(1, "texture coordinates", "vmframes bare.obj sky.exr --vismap kept/spot_vismap.exr -o e.png" + few);
 }
 
 TEST_F(Vmframes, SeveralObjectsAreInEachOthersWay)

@@ -33,6 +33,20 @@ template <class Value> const std::vector<Value>& kept(std::vector<Value> values)
     return all.emplace_back(std::move(values));
 }
 
+using Values = std::vector<V2f>;
+
+/// Texture coordinates, by index if `indices` are given.
+inline Abc::OV2fGeomParam::Sample uvs(const Values& values, Abc::GeometryScope scope,
+                                      const std::vector<uint32_t>& indices = {})
+{
+    Abc::OV2fGeomParam::Sample sample;
+    sample.setVals(Abc::V2fArraySample(kept(values)));
+    sample.setScope(scope);
+    if (!indices.empty())
+        sample.setIndices(Abc::UInt32ArraySample(kept(indices)));
+    return sample;
+}
+
 /// The polygons of one sample. Alembic's faces are clockwise seen from outside.
 struct Polygons
 {

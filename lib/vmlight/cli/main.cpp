@@ -103,6 +103,11 @@ void StageMain::answer(const std::string& name, const Help& help,
     });
 }
 
+void StageMain::unused(std::function<std::string(const std::string& name)> reason)
+{
+    m_command.recipe.unused_reason = std::move(reason);
+}
+
 void StageMain::check(std::function<std::string()> fault)
 {
     m_command.checks.push_back(std::move(fault));

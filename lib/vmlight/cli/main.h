@@ -76,6 +76,9 @@ public:
     /// Add a check of the whole command line. `fault` returns what is wrong (exit code 2), or "". Skipped if only a
     /// recipe is printed or saved.
     void check(std::function<std::string()> fault);
+    /// Refuse flags that cannot change the result, for tools without recipes: `reason` returns why, given the name of
+    /// the parameter, or "".
+    void unused(std::function<std::string(const std::string& name)> reason);
 
     /// Parse the command line, check that the output can be written, then call `work`, which returns false and sets
     /// `error` on failure. Catches exceptions.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace vmlight {
 namespace {
@@ -158,6 +159,13 @@ Camera turned(const Camera& camera, double degrees, const V3d& centre)
     for (V3d Camera::*axis : { &Camera::right, &Camera::up, &Camera::forward })
         result.*axis = rotate(back, camera.*axis);
     return result;
+}
+
+std::string unused_reason(const CameraParams& params, const std::string& name)
+{
+    const std::vector<std::string> names = param_names(params);
+    const bool is_placed = name != "camera" && std::find(names.begin(), names.end(), name) != names.end();
+    return is_placed && !params.camera.empty() ? "the camera of the file has its own place and lens" : "";
 }
 
 } // namespace vmlight

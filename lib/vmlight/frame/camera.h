@@ -111,4 +111,7 @@ Camera camera_for(const Camera& camera, const Rotation& pose);
 /// seen from above, in the subject's own space: it goes around the other way.
 Camera turned(const Camera& camera, double degrees, const Imath::V3d& centre);
 
+/// Why no value of the parameter `name` can change where the camera is, given the others, or "".
+std::string unused_reason(const CameraParams& params, const std::string& name);
+
 } // namespace vmlight

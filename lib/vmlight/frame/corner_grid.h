@@ -20,13 +20,15 @@ public:
     /// and whose variance is that of a pixel filter, in square pixels.
     static std::array<double, kAround> weights(double variance);
 
-    /// See through the corners of the pixels of a tile and one farther. False, with the reason in `error`, if a texture
-    /// cannot be read.
+    /// See through the corners of the pixels of a tile and one farther.
+    /// @param only_color   what else is seen need not be smooth
+    /// @returns false, with the reason in `error`, if a texture cannot be read
     bool fill(const SampleShader& shader, const Camera& camera, const Size& picture, int left, int top, int width,
-              int height, std::string& error);
+              int height, bool only_color, std::string& error);
 
-    /// Whether around pixel (x, y) of the picture one opaque surface goes on without an edge or a seam: its uvs are
-    /// where those of each corner's neighbours say. What is thinner than a pixel may lie between corners unseen.
+    /// Whether around pixel (x, y) of the picture one opaque surface goes on without an edge or a seam that shows: uvs
+    /// are where those of each corner's neighbours say, or, with `only_color`, colours are alike and points side by
+    /// side. What is thinner than a pixel may lie between corners unseen.
     bool is_smooth(int x, int y) const;
     /// Corner (i, j), from 0 to kAround - 1, around the pixel.
     const FrameSample& around(int x, int y, int i, int j) const

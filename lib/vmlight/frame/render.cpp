@@ -71,7 +71,8 @@ public:
             return true;
         }
         CornerGrid grid;
-        if (m_samples_edges && !grid.fill(m_shader, m_camera, m_size, left, top, width, height, error))
+        if (m_samples_edges
+            && !grid.fill(m_shader, m_camera, m_size, left, top, width, height, m_layers.empty(), error))
             return false;
         for (int y = top; y < top + height; ++y)
             for (int x = left; x < left + width; ++x)

@@ -41,11 +41,32 @@ bool SceneLight::open(const std::string& name, CfemRecipe recipe, bool keep_envi
         recipe.environment = name;
         std::string note;
         if (!make_images(filtered, recipe, options, error)
-            || (keep_environment && !read_environment(environment, recipe, options, note, error)))
+            || (keep_environment && !read_environment(environment, recipe, options, note, error))) {
+            error = with_filter_prefix(error);
             return false;
+        }
     }
     space = filtered[0].spec().get_string_attribute("colorInteropID");
     return true;
+}
+
+bool object_pose(Rotation& dst, const LightmapParams& params, std::string& error)
+{
+    LightmapParams own = params;
+    own.env_rotate.clear();
+    own.model = "auto"; // the rotation is that of every model, and of the reference
+    return lightmap_rotation(dst, own, error);
+}
+
+LightmapParams turned_light(const LightmapParams& params, const Rotation& pose, double degrees)
+{
+    const Rotation rotation = rotation_from_angles(0, degrees, 0) * pose;
+    LightmapParams turned = params;
+    turned.exposure = 0;
+    turned.rotate.clear();
+    turned.quaternion.clear();
+    turned.matrix.assign(&rotation[0][0], &rotation[0][0] + 9);
+    return turned;
 }
 
 } // namespace vmlight

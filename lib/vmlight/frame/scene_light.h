@@ -2,6 +2,7 @@
 /// The light of a frame: an environment, filtered once for all objects, models and rotations.
 #pragma once
 
+#include <vmlight/lightmap/lightmap.h>
 #include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
 
@@ -32,5 +33,13 @@ struct SceneLight
     bool open(const std::string& name, CfemRecipe recipe, bool keep_environment, const MakeOptions& options,
               std::string& error);
 };
+
+/// The rotation of the object in the world, where the camera stands: that of `params` without the environment's. False,
+/// with the reason in `error`, as lightmap_rotation().
+bool object_pose(Rotation& dst, const LightmapParams& params, std::string& error);
+
+/// The parameters of the light on an object that turns by `degrees` about y after its own rotation `pose`. Without
+/// exposure, which is the picture's.
+LightmapParams turned_light(const LightmapParams& params, const Rotation& pose, double degrees);
 
 } // namespace vmlight

@@ -37,9 +37,11 @@ bool intersect_plane(FramePoint& dst, const CameraRay& ray, const Mesh& mesh, ui
         return false;
     dst.depth = normal.dot(a - ray.origin) / facing;
     dst.position = ray.origin + ray.direction * dst.depth;
+    // Of an offset in the plane.
+    const V3d to_second = ac.cross(normal) / area, to_third = normal.cross(ab) / area;
     const auto weights = [&](const V3d& offset, std::array<double, 3>& weight, double sum) {
-        weight[1] = offset.cross(ac).dot(normal) / area;
-        weight[2] = ab.cross(offset).dot(normal) / area;
+        weight[1] = offset.dot(to_second);
+        weight[2] = offset.dot(to_third);
         weight[0] = sum - weight[1] - weight[2];
     };
     weights(dst.position - a, dst.weight, 1);

@@ -100,8 +100,9 @@ TexturePyramid::TexturePyramid(int width, int height, int channels, const float*
 double TexturePyramid::level_of(const TextureFootprint& at) const
 {
     const double w = m_levels[0].width, h = m_levels[0].height;
-    const double reach = std::max(std::hypot(at.dx.x * w, at.dx.y * h), std::hypot(at.dy.x * w, at.dy.y * h));
-    return reach > 1 ? std::log2(reach) : 0;
+    const auto squared = [&](const Imath::V2d& d) { return Imath::V2d(d.x * w, d.y * h).length2(); };
+    const double reach = std::max(squared(at.dx), squared(at.dy));
+    return reach > 1 ? 0.5 * std::log2(reach) : 0;
 }
 
 // A number of channels that is known when compiling makes vectors of the sums.

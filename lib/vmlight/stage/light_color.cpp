@@ -33,4 +33,11 @@ bool describe_light(LightColor& dst, const LightmapRecipe& recipe, const OIIO::I
     return describe_scene_linear(dst.spec, dst.conversion, recipe.cfem, settings, dst.note, error, &dst.warnings);
 }
 
+std::string with_filter_prefix(const std::string& error)
+{
+    const std::string hint = "; set ";
+    const size_t at = error.rfind(hint); // the last: a file's name may hold the same words
+    return at == std::string::npos ? error : std::string(error).insert(at + hint.size(), "cfem_");
+}
+
 } // namespace vmlight

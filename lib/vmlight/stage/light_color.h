@@ -32,4 +32,8 @@ bool may_convert_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem
 /// to_scene_linear().
 bool describe_light(LightColor& dst, const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem, std::string& error);
 
+/// An error of how an environment is filtered on the way to light, where the parameters of the filter have the prefix
+/// "cfem_": "; set NAME to" names them so.
+std::string with_filter_prefix(const std::string& error);
+
 } // namespace vmlight

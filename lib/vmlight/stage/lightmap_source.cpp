@@ -158,7 +158,7 @@ private:
         std::vector<OIIO::ImageBuf> cfem;
         for (int image = range.first; image < range.first + range.count; ++image)
             if (!read_all(cfem.emplace_back(), *m_images.cfem, error, image)) {
-                error = m_recipe.cfem.empty() ? with_own_keys(error) : error;
+                error = m_recipe.cfem.empty() ? with_filter_prefix(error) : error;
                 return false;
             }
         m_images.light.convert(cfem, 1);
@@ -171,14 +171,6 @@ private:
         if (albedo)
             m_shader.use_albedo({ m_images.albedo, albedo });
         return error.empty();
-    }
-
-    // An error of the implicit CFEM, whose keys have a prefix here.
-    static std::string with_own_keys(const std::string& error)
-    {
-        const std::string hint = "; set ";
-        const size_t at = error.rfind(hint); // the last: a file's name may hold the same words
-        return at == std::string::npos ? error : std::string(error).insert(at + hint.size(), "cfem_");
     }
 
     // Here and not where a map is lit: once for all frames.
@@ -224,7 +216,7 @@ private:
             MakeOptions fileless = options; // the implicit CFEM recipe has no file
             fileless.chain.clear();
             if (!m_images.cfem->make(dst.cfem, range, fileless, error)) {
-                error = with_location(m_recipe, "environment", options.chain, with_own_keys(error));
+                error = with_location(m_recipe, "environment", options.chain, with_filter_prefix(error));
                 return false;
             }
         }

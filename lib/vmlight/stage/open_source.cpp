@@ -46,7 +46,9 @@ PixelSourcePointer open_input(const Recipe& recipe, const char* key, const std::
     if (stage.empty() || link_recipe(longer, name, error))
         error = stage.empty() ? "" : input_fault(name, stage, wanted);
     if (error.empty() && is_mesh_name(name))
-        error = format("\"{}\": a mesh; bake it with makevismap first, and use its visibility map", name);
+        error
+            = format("\"{}\": a mesh, not an image{}", name,
+                     wanted == InputKind::Vismap ? "; bake it with makevismap first, and use its visibility map" : "");
     if (error.empty() && !layer.empty() && !stage.empty())
         error = format("\"{}\": a recipe has no layers", name);
     if (error.empty())

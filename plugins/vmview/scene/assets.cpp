@@ -53,27 +53,38 @@ MeshPointer read_mesh_asset(VismapRecipe recipe, bool has_map, const std::string
     return asset;
 }
 
-MapPointer read_map_asset(const std::string& path, const MeshAsset& mesh, const MakeOptions& options,
-                          std::string& error)
+bool read_map_image(OIIO::ImageBuf& dst, const std::string& path, const MakeOptions& options, std::string& error)
 {
     LightmapRecipe recipe;
     recipe.vismap = path;
-    recipe.udim = mesh.recipe.vismap_params.udim;
-    if (has_udim_pattern(path))
-        recipe.vismap = udim_path(path, recipe.udim);
-    const PixelSourcePointer source = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, {});
+    const PixelSourcePointer source = open_input(recipe, "vismap", path, InputKind::Vismap, error, {});
     std::vector<OIIO::ImageBuf> images;
     std::array<int, 4> ignored;
-    if (!source || !make_input(images, *source, {}, recipe, "vismap", recipe.vismap, options, error))
-        return nullptr;
+    if (!source || !make_input(images, *source, {}, recipe, "vismap", path, options, error))
+        return false;
     if (!find_vismap_channels(images[0].spec(), ignored, error)) {
         error = format("\"{}\": {}", path, error);
-        return nullptr;
+        return false;
     }
+    dst = std::move(images[0]);
+    return true;
+}
+
+MapPointer read_map_asset(const std::string& path, const MeshAsset& mesh, const MakeOptions& options,
+                          std::string& error)
+{
+    OIIO::ImageBuf image;
+    if (!read_map_image(image, udim_path(path, mesh.recipe.vismap_params.udim), options, error))
+        return nullptr;
+    return make_map_asset(std::move(image), path, mesh, options.threads);
+}
+
+MapPointer make_map_asset(OIIO::ImageBuf image, const std::string& path, const MeshAsset& mesh, int threads)
+{
     auto asset = std::make_shared<MapAsset>();
     asset->path = path;
-    asset->image = std::move(images[0]);
-    asset->weights = weights_of(asset->image, mesh, options.threads);
+    asset->image = std::move(image);
+    asset->weights = weights_of(asset->image, mesh, threads);
     return asset;
 }
 

@@ -64,7 +64,11 @@ MeshPointer read_mesh_asset(VismapRecipe recipe, bool has_map, const std::string
 MapPointer read_map_asset(const std::string& path, const MeshAsset& mesh, const MakeOptions& options,
                           std::string& error);
 
-/// Take `image`, which was baked with `samples` rays.
+/// The first half of it, which needs no mesh: `path` has no <UDIM>.
+bool read_map_image(OIIO::ImageBuf& dst, const std::string& path, const MakeOptions& options, std::string& error);
+
+/// Take `image`, which was read from `path`, or baked with `samples` rays.
+MapPointer make_map_asset(OIIO::ImageBuf image, const std::string& path, const MeshAsset& mesh, int threads);
 MapPointer make_map_asset(OIIO::ImageBuf image, int samples, const MeshAsset& mesh, int threads);
 
 /// Read an environment and filter it into a stack, or read a CFEM or stack.

@@ -3,10 +3,17 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/frame/scene_light.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/uv/udim.h>
 #include <vmlight/vismap/baker.h>
 
 #include <algorithm>
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace vmlight::view {
 
@@ -39,6 +46,19 @@ MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples
 
 bool load_assets(Assets& dst, const Request& request, const MakeOptions& options, std::string& error)
 {
+    // A stored map is read beside the environment: neither needs the other.
+    OIIO::ImageBuf map;
+    std::vector<std::string> said, warnings;
+    std::future<std::string> map_fault;
+    if (!request.vismap.empty() && !has_udim_pattern(request.vismap) && recipe_stage(request.vismap).empty())
+        map_fault = std::async(std::launch::async, [&] {
+            MakeOptions aside;
+            aside.threads = options.threads;
+            aside.say = [&](const std::string& line) { said.push_back(line); };
+            aside.warn = [&](const std::string& line) { warnings.push_back(line); };
+            std::string fault;
+            return read_map_image(map, request.vismap, aside, fault) ? "" : fault;
+        });
     std::string space;
     if (!request.environment.empty()) {
         dst.light = read_light_asset(request.environment, request.filter, request.view.background_blur, options, error);
@@ -50,7 +70,15 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
         = read_mesh_asset(request.mesh, !request.vismap.empty(), space, request.filter.colorconfig, options, error);
     if (!dst.mesh)
         return false;
-    if (!request.vismap.empty()) {
+    if (map_fault.valid()) {
+        error = map_fault.get();
+        for (const std::string& line : said)
+            options.report(line);
+        for (const std::string& line : warnings)
+            options.report_warning(line);
+        if (error.empty())
+            dst.map = make_map_asset(std::move(map), request.vismap, *dst.mesh, options.threads);
+    } else if (!request.vismap.empty()) {
         dst.map = read_map_asset(request.vismap, *dst.mesh, options, error);
     } else {
         const VismapParams& params = dst.mesh->recipe.vismap_params;
@@ -71,17 +99,10 @@ bool model_for(ShadingModel& dst, const std::string& model, const MapAsset& map,
 
 bool light_params(LightmapParams& dst, const LightmapParams& asked, double turn, std::string& error)
 {
-    LightmapParams own = asked;
-    own.env_rotate.clear();
     Rotation pose;
-    if (!lightmap_rotation(pose, own, error))
+    if (!object_pose(pose, asked, error))
         return false;
-    pose = rotation_from_angles(0, turn, 0) * pose;
-    dst = asked;
-    dst.exposure = 0;
-    dst.rotate.clear();
-    dst.quaternion.clear();
-    dst.matrix.assign(&pose[0][0], &pose[0][0] + 9);
+    dst = turned_light(asked, pose, turn);
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/frame/lit_object.h>
+#include <vmlight/frame/scene_light.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -35,13 +36,10 @@ void add_rotation(std::string& line, const ViewState& state)
         if (y != 0)
             add_flag(line, "--rotate", numbers({ 0, y, 0 }));
     } else {
-        LightmapParams own = light;
-        own.env_rotate.clear();
         Rotation pose;
         std::string ignored;
-        lightmap_rotation(pose, own, ignored);
-        pose = rotation_from_angles(0, state.turn, 0) * pose;
-        add_flag(line, "--matrix", numbers({ &pose[0][0], &pose[0][0] + 9 }));
+        object_pose(pose, light, ignored);
+        add_flag(line, "--matrix", numbers(turned_light(light, pose, state.turn).matrix));
     }
     if (!light.env_rotate.empty() && light.env_rotate != std::vector<double> { 0, 0, 0 })
         add_flag(line, "--env-rotate", numbers(light.env_rotate));

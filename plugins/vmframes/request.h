@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What vmframes is asked for, besides the objects and their light.
+/// What vmframes is asked for on its command line.
 #pragma once
 
 #include <vmlight/base/params.h>
@@ -62,7 +62,7 @@ struct SheetParams
     template <class Visit> void visit(Visit&& field)
     {
         field("contact_sheet", contact_sheet, Path {}, "Also write all frames in one picture");
-        field("fps", fps, Range { 0.01, 240 }, "Frames a second of a film");
+        field("fps", fps, Range { 0.01, 240 }, "Frames per second of a film, and those that --frame counts in");
         field("keep", keep, Path {}, "Folder to keep the visibility maps, lightmaps and unwrapped meshes in");
     }
 };
@@ -95,5 +95,16 @@ struct Request
                                          : sheet.side_by_side;
     }
 };
+
+/// Whether the file is of linear light, in layers.
+bool is_exr_name(const std::string& path);
+/// Whether one file of that name holds all frames.
+bool holds_all_frames(const std::string& path);
+
+/// What is wrong with the request as a whole, or "".
+std::string request_fault(const Request& request);
+
+/// Why no value of the flag `name` can change the pictures, given the others, or "" if it can.
+std::string unused_reason(const Request& request, const std::string& name);
 
 } // namespace vmlight::frames
