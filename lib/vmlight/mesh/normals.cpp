@@ -2,6 +2,7 @@
 #include <vmlight/base/unique_index.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/mesh/vertex_key.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,25 +15,16 @@ using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
 
-struct Vertex
-{
-    V3d position;
-    V3f normal;
-    V2f uv;
-    float padding = 0; // initialised: all bytes of a key are compared
-};
-static_assert(sizeof(Vertex) == 48);
-
 // Rebuild the vertices from corners: corner_normal(t, triangle, k) is the normal of corner k of triangle t.
 template <class CornerNormal> void rebuild(Mesh& mesh, const CornerNormal& corner_normal)
 {
-    UniqueIndex<Vertex> vertices(mesh.triangles.size() * 3);
+    UniqueIndex<VertexKey> vertices(mesh.triangles.size() * 3);
     const bool has_uvs = !mesh.uvs.empty();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() needs all three
         for (int k = 0; k < 3; ++k) {
             const uint32_t v = old[k];
-            const Vertex vertex { mesh.positions[v], corner_normal(t, old, k), has_uvs ? mesh.uvs[v] : V2f(0) };
+            const VertexKey vertex { mesh.positions[v], corner_normal(t, old, k), has_uvs ? mesh.uvs[v] : V2f(0) };
             mesh.triangles[t][k] = vertices.index_of(vertex);
         }
     }

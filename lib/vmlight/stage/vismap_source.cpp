@@ -4,6 +4,7 @@
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/stage/bake_report.h>
+#include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
@@ -31,11 +32,20 @@ void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
             spec.erase_attribute(metadata_name(name));
     if (recipe.unwrap)
         spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
+    if (!recipe.normal_map.empty()) {
+        spec.attribute(metadata_name("normal_map"), OIIO::Filesystem::filename(recipe.normal_map));
+        append_params(spec, recipe.normal_map_params);
+    }
     MeshSelection selection = recipe.selection;
     selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         if (!value.empty())
             spec.attribute(metadata_name(name), value_text(value, allowed));
     });
+}
+
+std::shared_ptr<const Mesh> mesh_of(const BakeScenePointer& scene)
+{
+    return { scene, &scene->mesh() };
 }
 
 class VismapSource : public PixelSource
@@ -72,10 +82,20 @@ public:
         }
         if (options.scene)
             *options.scene = scene;
+        NormalMapPointer normal_map;
+        std::vector<std::string> notes, warnings;
+        if (!read_normal_map(normal_map, m_recipe, mesh_of(scene), options.threads, notes, warnings, error)) {
+            error = with_location(m_recipe, "normal_map", options.chain, error);
+            return false;
+        }
+        for (const std::string& note : notes)
+            options.report(note);
+        for (const std::string& warning : warnings)
+            options.report_warning(warning);
         dst.clear();
         OIIO::ImageBuf& map = dst.emplace_back();
         if (!make_vismap(map, scene, m_recipe.vismap_params, &report, options.threads,
-                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget)) {
+                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget, normal_map)) {
             error = map.geterror();
             return false;
         }
@@ -100,8 +120,11 @@ private:
     bool prepare(std::string& error)
     {
         std::string at;
+        NormalMapPointer normal_map;
+        std::vector<std::string> ignored;
         if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
-            || !m_baker.prepare(m_scene, m_recipe.vismap_params, error))
+            || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error)
+            || !m_baker.prepare(m_scene, m_recipe.vismap_params, error, 0, {}, 0, normal_map))
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
         if (m_tiles->is_whole())
@@ -155,7 +178,8 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
 {
     const VismapRecipe recipe = resolve_udim(given);
     error = recipe_fault(recipe, chain);
-    if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error))
+    if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error)
+        || !check_params(recipe.normal_map_params, error))
         return nullptr;
     SceneStamps stamps;
     std::string at;
@@ -163,7 +187,12 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
         error = with_location(recipe, at, chain, error);
         return nullptr;
     }
-    const std::string key = recipe_key(recipe) + stamps.key;
+    std::string normal_map;
+    if (!recipe.normal_map.empty() && !stamp_file(normal_map, recipe.normal_map, error)) {
+        error = with_location(recipe, "normal_map", chain, error);
+        return nullptr;
+    }
+    const std::string key = recipe_key(recipe) + stamps.key + normal_map;
     if (sharing == Sharing::none)
         return std::make_shared<VismapSource>(key, recipe, std::move(stamps));
     if (PixelSourcePointer known = find_source(key))

@@ -39,7 +39,8 @@ SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
     }
     SurfacePoint point;
     point.geometric_normal = V3f(m_normal);
-    point.normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
+    point.mesh_normal = normal.dot(m_normal) > 1e-3 * normal.length() ? V3f(normal.normalized()) : V3f(m_normal);
+    point.normal = point.mesh_normal;
     point.origin = V3f(position + m_normal * kRayOffset);
     point.near_origin = V3f(position + m_normal * kNearRayOffset);
     return point;

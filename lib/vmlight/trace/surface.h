@@ -26,7 +26,8 @@ struct SurfacePoint
 {
     Imath::V3f origin; ///< where rays start: kRayOffset off the surface, until adjust_ray_origins() says otherwise
     Imath::V3f near_origin; ///< kNearRayOffset off it
-    Imath::V3f normal; ///< the interpolated normal, of unit length
+    Imath::V3f normal; ///< to shade with, of unit length: the mesh's, unless a normal map changes it
+    Imath::V3f mesh_normal; ///< the interpolated normal of the mesh, of unit length
     Imath::V3f geometric_normal; ///< the triangle's, on the side of its corner normals
     bool is_near = false; ///< `origin` is near_origin: for Occluder::clear_blocked()
 };

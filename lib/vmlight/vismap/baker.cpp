@@ -66,8 +66,9 @@ void BakeCounts::add(const BakeCounts& other)
 struct VismapBaker::Setup
 {
     Setup(BakeScenePointer the_scene, UvRaster&& the_raster, const VismapParams& the_params,
-          const SampleCount& the_error)
+          const SampleCount& the_error, NormalMapPointer the_normal_map)
         : scene(std::move(the_scene))
+        , normal_map(std::move(the_normal_map))
         , raster(std::move(the_raster))
         , params(the_params)
         , error(the_error)
@@ -79,6 +80,7 @@ struct VismapBaker::Setup
     {
     }
     const BakeScenePointer scene;
+    const NormalMapPointer normal_map;
     const UvRaster raster;
     const VismapParams params;
     const SampleCount error;
@@ -109,7 +111,7 @@ void VismapBaker::FreeScratch::operator()(Scratch* scratch) const
 }
 
 bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, std::string& error, int nthreads,
-                          const Progress& progress, double time_budget)
+                          const Progress& progress, double time_budget, NormalMapPointer normal_map)
 {
     if (!check_params(params, error))
         return false;
@@ -119,11 +121,11 @@ bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, st
     }
     UvRaster raster(scene->mesh(), width_of(params), height_of(params), params.udim);
     SampleCount chosen;
-    if (!choose_samples(chosen, *scene, raster, params, time_budget, nthreads, progress, error))
+    if (!choose_samples(chosen, *scene, normal_map.get(), raster, params, time_budget, nthreads, progress, error))
         return false;
     VismapParams settled = params;
     settled.samples = chosen.samples;
-    m_setup = std::make_unique<Setup>(std::move(scene), std::move(raster), settled, chosen);
+    m_setup = std::make_unique<Setup>(std::move(scene), std::move(raster), settled, chosen, std::move(normal_map));
     return true;
 }
 
@@ -229,8 +231,11 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             const size_t texel = size_t(y) * kTileSize + x;
             if (cover.triangle[texel] == TileCover::kNone)
                 continue;
-            points[size_t(count)]
-                = scratch.surface.at(cover.triangle[texel], cover.weight1[texel], cover.weight2[texel]);
+            SurfacePoint& point = points[size_t(count)];
+            point = scratch.surface.at(cover.triangle[texel], cover.weight1[texel], cover.weight2[texel]);
+            if (m_setup->normal_map)
+                m_setup->normal_map->apply(point, cover.triangle[texel], cover.weight1[texel], cover.weight2[texel],
+                                           tile_x + x, tile_y + y);
             columns[size_t(count++)] = x;
         }
         if (count > 0)

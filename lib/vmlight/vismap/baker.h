@@ -8,6 +8,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/uv/margin.h>
 #include <vmlight/uv/raster.h>
+#include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/sample_count.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -28,7 +29,7 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
 /// make_vismap() from a scene that other maps may share. With a `time_budget`, in seconds, the bake traces as many rays
 /// per texel as it has time for on this machine, at least one; the report has their number.
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress, double time_budget = 0);
+                 int nthreads, const Progress& progress, double time_budget = 0, NormalMapPointer normal_map = nullptr);
 
 /// Counts of a bake, or of some tiles of it.
 struct BakeCounts
@@ -53,10 +54,11 @@ public:
     /// @param scene    built; other maps may share it
     /// @param time_budget as for make_vismap()
     /// @param progress called with 0; returning false stops the work
+    /// @param normal_map nullptr, or a map of this size and mesh
     /// @returns false, with the reason in `error`, if a parameter is out of range, the target error is out of reach,
     ///          the basis needs another measure, or `progress` stopped it
     bool prepare(BakeScenePointer scene, const VismapParams& params, std::string& error, int nthreads = 0,
-                 const Progress& progress = {}, double time_budget = 0);
+                 const Progress& progress = {}, double time_budget = 0, NormalMapPointer normal_map = nullptr);
 
     /// The same, with a scene of its own.
     ///

@@ -19,8 +19,10 @@ constexpr int64_t kRaysPerItem = 1 << 14;
 
 } // namespace
 
-VismapPilot::VismapPilot(const BakeScene& scene, const VismapParams& params, int nthreads, const Progress& progress)
+VismapPilot::VismapPilot(const BakeScene& scene, const NormalMap* normal_map, const VismapParams& params, int nthreads,
+                         const Progress& progress)
     : m_scene(scene)
+    , m_normal_map(normal_map)
     , m_params(params)
     , m_threads(nthreads)
     , m_progress([progress](double) { return !progress || progress(0); })
@@ -71,6 +73,9 @@ bool VismapPilot::pick(const UvRaster& raster)
                 Texel& texel = m_texels[size_t(rank - ranks.begin())];
                 texel = { surface->at(cover.triangle[size_t(i)], cover.weight1[size_t(i)], cover.weight2[size_t(i)]),
                           tile_x + i % kTileSize, tile_y + i / kTileSize };
+                if (m_normal_map)
+                    m_normal_map->apply(texel.point, cover.triangle[size_t(i)], cover.weight1[size_t(i)],
+                                        cover.weight2[size_t(i)], texel.x, texel.y);
                 adjust_ray_origins(&texel.point, 1, m_scene.occluder());
             }
             ++at;

@@ -6,6 +6,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
+#include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
@@ -31,9 +32,10 @@ public:
     /// Texels to pick, or all if fewer are covered.
     static constexpr int64_t kTexels = 4096;
 
-    /// @param scene    must outlive this
+    /// @param scene    must outlive this, and so must the normal map, if not nullptr
     /// @param progress called with 0, since the bake is yet to come; returning false stops the work
-    VismapPilot(const BakeScene& scene, const VismapParams& params, int nthreads, const Progress& progress);
+    VismapPilot(const BakeScene& scene, const NormalMap* normal_map, const VismapParams& params, int nthreads,
+                const Progress& progress);
 
     /// Pick covered texels evenly over the map. A function of coverage alone. False if stopped.
     bool pick(const UvRaster& raster);
@@ -57,6 +59,7 @@ private:
         int x, y;
     };
     const BakeScene& m_scene;
+    const NormalMap* m_normal_map;
     const VismapParams m_params;
     const int m_threads;
     const Progress m_progress;

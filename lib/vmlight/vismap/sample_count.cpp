@@ -100,8 +100,9 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 
 } // namespace
 
-bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
-                    double time_budget, int nthreads, const Progress& progress, std::string& error)
+bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* normal_map, const UvRaster& raster,
+                    const VismapParams& params, double time_budget, int nthreads, const Progress& progress,
+                    std::string& error)
 {
     dst = {};
     dst.samples = params.samples;
@@ -119,7 +120,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& ra
         return false;
     }
     const Stopwatch timer;
-    VismapPilot pilot(scene, params, nthreads, progress);
+    VismapPilot pilot(scene, normal_map, params, nthreads, progress);
     if (!pilot.pick(raster))
         return stopped();
     PilotError measured;

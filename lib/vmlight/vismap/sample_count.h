@@ -5,6 +5,7 @@
 #include <vmlight/base/progress.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/uv/raster.h>
+#include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
@@ -30,6 +31,7 @@ struct SampleCount
 /// Choose the rays per texel of a map, or measure the error of those that `params` asks for.
 ///
 /// @param dst      only `samples` is set if neither a target error, a time budget nor the channel `error` is asked for
+/// @param normal_map nullptr if there is none
 /// @param time_budget seconds for the bake on all threads, at least one ray per texel; 0 is unlimited
 /// @returns false, with the reason in `error`, if `params.target_error` is out of reach, `progress` stopped it, or the
 ///          channel `error` is asked for with 1 ray per texel
@@ -37,7 +39,8 @@ struct SampleCount
 /// more. If 64 rays show no scatter on 256 or more texels (or there are no texels), the lowest count is tried; with
 /// fewer texels the count is 64. A measured error of 0 with less than 64 rays is taken as chance if 64 rays show
 /// scatter. A function of scene and params alone, except for a time budget.
-bool choose_samples(SampleCount& dst, const BakeScene& scene, const UvRaster& raster, const VismapParams& params,
-                    double time_budget, int nthreads, const Progress& progress, std::string& error);
+bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* normal_map, const UvRaster& raster,
+                    const VismapParams& params, double time_budget, int nthreads, const Progress& progress,
+                    std::string& error);
 
 } // namespace vmlight

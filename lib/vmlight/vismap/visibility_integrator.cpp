@@ -11,6 +11,7 @@
 namespace vmlight {
 
 using Imath::V3d;
+using Imath::V3f;
 
 namespace {
 
@@ -37,10 +38,24 @@ double lane_scatter(const std::vector<uint8_t>& traced, const std::vector<uint8_
     return lanes > 1 ? std::sqrt(squares * lanes / (lanes - 1)) / rays : 0;
 }
 
+template <class Test> void VisibilityIntegrator::take_out(const Test& is_out)
+{
+    for (int packet = 0; packet < m_fan.packets; ++packet)
+        for (int lane = 0; lane < kPacketSize; ++lane) {
+            const int ray = packet * kPacketSize + lane;
+            if (is_out(V3f(m_fan.x[ray], m_fan.y[ray], m_fan.z[ray])))
+                m_fan.lanes[size_t(packet)] &= uint8_t(~(1 << lane));
+        }
+}
+
 Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, float* basis)
 {
     const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
-    m_pattern.directions(m_fan, TangentFrame(point.normal), point.geometric_normal, texel);
+    const bool is_mapped = point.normal != point.mesh_normal;
+    m_pattern.directions(m_fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, texel);
+    if (is_mapped)
+        take_out(
+            [&](const V3f& ray) { return ray.dot(point.geometric_normal) <= 0 && ray.dot(point.mesh_normal) > 0; });
     DirectionSums all = sum_directions(m_fan, point.normal);
     if (all.rays == 0) {
         // Few rays, and all of them below the surface: around the geometric normal none is.
@@ -54,10 +69,12 @@ Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, flo
         m_fan.lanes[0] = 1;
         all = sum_directions(m_fan, point.normal);
     }
-    m_rays += all.rays;
     basis = m_basis ? basis : nullptr;
     if (basis || m_wants_error)
         m_traced = m_fan.lanes;
+    if (is_mapped)
+        take_out([&](const V3f& ray) { return ray.dot(point.geometric_normal) <= 0; });
+    m_rays += is_mapped ? sum_directions(m_fan, point.normal).rays : all.rays;
     m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
     const DirectionSums seen = sum_directions(m_fan, point.normal);
 

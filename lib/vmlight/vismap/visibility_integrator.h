@@ -50,7 +50,9 @@ public:
     }
 
     /// Integrate visibility over the hemisphere of `point`, the centre of texel (x, y), whose ray origin
-    /// adjust_ray_origins() has set. A function of scene, params and texel alone.
+    /// adjust_ray_origins() has set. A function of scene, params and texel alone. Directions below the geometric
+    /// surface are left out: they are an error of the mesh's interpolated normal. Under a normal map that is so above
+    /// the mesh's normal only, and what is below both is blocked by the surface itself.
     ///
     /// @param basis    nullptr, or set to one number for each of basis_channels()
     Visibility integrate(SurfacePoint point, int x, int y, float* basis = nullptr);
@@ -59,6 +61,8 @@ public:
     int64_t rays() const { return m_rays; }
 
 private:
+    // Rays of the fan for which is_out(direction) is true.
+    template <class Test> void take_out(const Test& is_out);
     // B of the rays, however long.
     Imath::V3d mean_direction(const DirectionSums& seen, const DirectionSums& all, const Imath::V3f& normal) const;
 

@@ -41,7 +41,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
 }
 
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress, double time_budget)
+                 int nthreads, const Progress& progress, double time_budget, NormalMapPointer normal_map)
 {
     VismapReport counts;
     Stopwatch timer;
@@ -49,7 +49,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (check_params(params, error))
         error = memory_shortage(describe_vismap("", params));
     VismapBaker baker;
-    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget))
+    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, std::move(normal_map)))
         return fail_with(dst, error);
     const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
     dst.reset(spec, OIIO::InitializePixels::Yes);

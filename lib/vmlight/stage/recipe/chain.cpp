@@ -80,6 +80,11 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
         return with_location(recipe, "unwrap", chain,
                              format("{}the atlas is tile {}, and tile {} is empty", chain.empty() ? "unwrap: " : "",
                                     kFirstUdim, recipe.vismap_params.udim));
+    if (recipe.unwrap && !recipe.normal_map.empty())
+        return with_location(recipe, "normal_map", chain,
+                             format("{}with unwrap the mesh gets other UVs than those of the normal map; write the "
+                                    "unwrapped mesh by --write-mesh, and bake that with a normal map made for it",
+                                    chain.empty() ? "normal_map: " : ""));
     return "";
 }
 

@@ -19,6 +19,7 @@
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/mesh/selection.h>
 #include <vmlight/uv/udim.h>
+#include <vmlight/vismap/normal_map_params.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <string>
@@ -37,6 +38,9 @@ struct VismapRecipe
     MeshParams mesh_params;
     /// Of `mesh`; occluders are all there.
     MeshSelection selection;
+    /// An image in the UVs that are baked, "" for none.
+    std::string normal_map;
+    NormalMapParams normal_map_params;
     VismapParams vismap_params;
     /// Seconds that the bake may take; 0 is no limit. Set by a command line only: machines differ, recipes do not.
     double time_budget = 0;
@@ -50,6 +54,8 @@ struct VismapRecipe
         selection.visit(field);
         field("unwrap", unwrap, Flag {},
               "Replace the mesh's UVs, if any, by an atlas made for this resolution and margin");
+        field("normal_map", normal_map, Path {}, "Normal map of the mesh, in the UVs that are baked");
+        normal_map_params.visit(field);
         vismap_params.visit(field);
         mesh_params.visit(field);
     }
