@@ -7,6 +7,7 @@
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/light_level.h>
+#include <vmlight/stage/light_effects.h>
 #include <vmlight/stage/recipe/udim.h>
 
 using namespace vmlight;
@@ -18,6 +19,7 @@ constexpr const char* kExamples
       "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
       "  makelightmap hero_vismap.exr sky.####.exr --frames 1-48 -o hero_lit.####.exr\n"
       "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
+      "  makelightmap hero.vismap sunny.exr --suns auto -o hero_lit.exr\n"
       "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr";
 
 // One exposure for all frames and tiles, from the first that is made.
@@ -35,18 +37,6 @@ std::string level_text(const LightLevel& level, double exposure)
         "light: luminance of {}: mean {:.3g}, 95th percentile {:.3g}; --exposure {:.2f} brings the mean to {}",
         count_text(level.texels, "lit texel", "lit texels"), level.mean, level.percentile95,
         exposure + level.stops_to_gray(), kMiddleGray);
-}
-
-bool light(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const LightmapParams& params, const MakeOptions& options,
-           std::string& error)
-{
-    if (make_lightmap(dst, inputs.vismap, inputs.cfem, params, inputs.albedo_or_none(), options.threads,
-                      options.step("light", inputs.vismap.spec().width, inputs.vismap.spec().height))) {
-        inputs.finish(dst);
-        return true;
-    }
-    error = dst.geterror();
-    return false;
 }
 
 } // namespace
@@ -70,6 +60,10 @@ int main(int argc, const char** argv)
             return exposure.wanted || set_param(recipe, "exposure", text, error);
         });
     stage.params("Light:", recipe.lightmap_params);
+    bool explain = false;
+    stage.group("Effects:");
+    stage.option("explain", "", "Say before the light which effects it simulates and why",
+                 [&](auto, auto&) { return explain = true; });
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o, and in inputs that are sequences",
                  [&](auto text, auto& error) {
@@ -115,15 +109,19 @@ int main(int argc, const char** argv)
         MakeOptions options = given;
         double seconds = 0;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
-            const LightmapRecipe frame = animation.inputs_at(tile, i);
+            const LightmapRecipe asked = animation.inputs_at(tile, i), frame = with_switches(asked);
             if (!read_lightmap_inputs(inputs, frame, options, error))
                 return false;
             LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
+            options.explain = explain && i == 0;
+            if ((options.explain || asked.effects != "auto") && error.empty()
+                && !explain_light(inputs, asked, animation.params_at(asked.lightmap_params, i, error), options, error))
+                return false;
             if (exposure.known)
                 params.exposure = exposure.stops;
             OIIO::ImageBuf lightmap;
             const Stopwatch timer;
-            if (!error.empty() || !light(lightmap, inputs, params, options, error))
+            if (!error.empty() || !make_lightmap(lightmap, inputs, params, options, error))
                 return false;
             seconds += timer();
             if (i == 0) {
@@ -136,7 +134,7 @@ int main(int argc, const char** argv)
                     if (level.texels == 0)
                         options.report_warning(
                             "--exposure auto: no texel is lit in the first frame, so 0 stops for all");
-                    if (!light(lightmap, inputs, params, options, error))
+                    if (!make_lightmap(lightmap, inputs, params, options, error))
                         return false;
                 }
             }

@@ -23,6 +23,19 @@ int main(int argc, const char** argv)
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
     UdimRun tiles(stage, recipe);
+    stage.group("Effects:");
+    bool explain = false, dry_run = false;
+    stage.option("explain", "", "Say before the bake which effects it simulates and why, and after it what it took",
+                 [&](auto, auto&) { return explain = true; });
+    stage.option("dry_run", "", "Say the same with the expected time and memory, and bake nothing",
+                 [&](auto, auto&) { return dry_run = true; });
+    stage.option("ground", "[HEIGHT]",
+                 "Let everything below the horizontal plane y = HEIGHT occlude, without end; the default is the lowest "
+                 "point of the mesh. Not a mesh: vmframes has a ground to look at",
+                 [&](OIIO::string_view text, std::string& error) {
+                     recipe.vismap_params.ground = true;
+                     return text == "true" || set_param(recipe, "ground_height", text, error);
+                 });
     stage.params("Visibility:", recipe.vismap_params);
     stage.option("time_budget", "SECONDS",
                  advanced("Instead of a fixed count, trace as many rays as this machine can in this time"),
@@ -38,11 +51,14 @@ int main(int argc, const char** argv)
     stage.params("Mesh:", recipe.selection);
     std::string write_path;
     stage.params("Mesh:", recipe.mesh_params);
+    stage.params("Mesh:", recipe.cutout_params);
     stage.option("write_mesh", "PATH", "Also write the mesh as baked, with the UVs of the map, to this .glb or .obj",
                  write_path);
     const auto unsavable = [&] {
         return recipe.time_budget > 0 ? "--time-budget cannot be saved in a recipe: it depends on the machine"
             : !write_path.empty()     ? "--write-mesh cannot be saved in a recipe"
+            : dry_run                 ? "--dry-run cannot be saved in a recipe"
+            : explain                 ? "--explain cannot be saved in a recipe"
                                       : tiles.unsavable();
     };
     stage.recipe(
@@ -63,7 +79,13 @@ int main(int argc, const char** argv)
     });
 
     std::string written; // one mesh for all tiles, unless each has its own
-    const auto make = [&](const auto& tile, const auto& output, const auto& options, std::string& error) {
+    const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
+        MakeOptions options = given;
+        options.explain = explain;
+        options.dry_run = dry_run;
+        options.half = stage.pixel_format() == "half";
+        if (dry_run)
+            return forecast_vismap(tile, options, error);
         const std::string path = udim_path(write_path, tile.vismap_params.udim);
         if (!path.empty() && !(error = output_file_fault(path)).empty())
             return false;

@@ -8,7 +8,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/lightmap/sun_light.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/version.h>
 #include <vmlight/vismap/baker.h>
@@ -120,7 +120,8 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
                   const Progress& progress, std::string& error)
 {
     const ModelVariant& variant = *find_variant(setting.model);
-    const FilteredLight* light = m_lights.find(environment, variant.model->light, setting.cfem_width, progress, error);
+    const FilteredLight* light
+        = m_lights.find(environment, variant.model->light, setting.cfem_width, variant.suns, progress, error);
     if (!light)
         return false;
     const bool is_half = setting.storage == "half";
@@ -132,8 +133,24 @@ bool Bench::shade(Row& row, OIIO::ImageBuf& picture, const Setting& setting, siz
     LightmapParams params;
     params.model = variant.model->name;
     OIIO::ImageBuf lightmap;
-    const auto make
-        = [&] { return make_lightmap(lightmap, stored, light->images, params, nullptr, m_options.threads, progress); };
+    SunLight suns { light->suns, m_vismap.roi(), {} };
+    std::vector<Disc> discs;
+    for (const Sun& sun : suns.suns)
+        discs.push_back(sun.disc);
+    const VismapParams map = map_of(setting, m_params);
+    if (!discs.empty() && m_sun_side != map.size().width) {
+        if (!m_suns.prepare(m_inputs.scene, map, error, m_options.threads, progress))
+            return false;
+        m_sun_side = map.size().width;
+    }
+    const auto make = [&] {
+        if (!discs.empty() && !m_suns.trace(suns.visibility, discs, m_options.threads, progress)) {
+            lightmap.errorfmt("interrupted");
+            return false;
+        }
+        return make_lightmap(lightmap, stored, light->images, discs.empty() ? nullptr : &suns, params, nullptr,
+                             m_options.threads, progress);
+    };
     Timing shade;
     if (!measure_time(shade, make))
         return failed(lightmap, error);

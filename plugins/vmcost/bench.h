@@ -5,6 +5,8 @@
 #include "row.h"
 #include "timing.h"
 
+#include <vmlight/vismap/sun_visibility.h>
+
 namespace vmlight::cost {
 
 /// Measures one setting under one environment at a time. Caches the last visibility map and all filtered environments
@@ -39,6 +41,8 @@ private:
     std::string m_baked; // parameters of m_vismap
     OIIO::ImageBuf m_vismap;
     Timing m_bake;
+    int m_sun_side = 0; // of the maps that m_suns is ready for
+    SunTracer m_suns;
 };
 
 } // namespace vmlight::cost

@@ -73,7 +73,8 @@ std::string command_text(const Setting& setting, const CommandInputs& inputs)
     light.model = variant->model->name;
 
     const std::string name = stem(inputs.mesh.mesh), vismap = name + "_vismap.exr";
-    std::string bake = "makevismap " + quoted(inputs.mesh.mesh) + flags(inputs.mesh.mesh_params) + flags(map);
+    std::string bake = "makevismap " + quoted(inputs.mesh.mesh) + flags(inputs.mesh.mesh_params)
+        + flags(inputs.mesh.cutout_params) + flags(map);
     for (const std::string& occluder : inputs.mesh.occluder)
         bake += flag("occluder", occluder);
     for (const std::string& material : inputs.mesh.selection.material)
@@ -85,8 +86,11 @@ std::string command_text(const Setting& setting, const CommandInputs& inputs)
     const CfemRecipe& given = inputs.light;
     const std::string reading = flag("colorspace", given.colorspace) + flag("colorconfig", given.colorconfig)
         + flag("layer", given.layer) + flag("layout", given.layout == CfemRecipe().layout ? "" : given.layout);
-    return format("{} -o {} && makelightmap {} {}{}{}{} -o {}", bake, quoted(vismap), quoted(vismap),
-                  quoted(inputs.environment), flags(light), flags(filter, "cfem_"), reading,
+    std::string suns = variant->suns ? " --suns auto" + flag("mesh", inputs.mesh.mesh) : "";
+    for (const std::string& occluder : inputs.mesh.occluder)
+        suns += variant->suns ? flag("occluder", occluder) : "";
+    return format("{} -o {} && makelightmap {} {}{}{}{}{} -o {}", bake, quoted(vismap), quoted(vismap),
+                  quoted(inputs.environment), flags(light), suns, flags(filter, "cfem_"), reading,
                   quoted(format("{}_{}.exr", name, stem(inputs.environment))));
 }
 

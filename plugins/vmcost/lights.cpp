@@ -8,10 +8,10 @@
 
 namespace vmlight::cost {
 
-const FilteredLight* FilteredLights::find(size_t index, ModelLight light, int width, const Progress& progress,
-                                          std::string& error)
+const FilteredLight* FilteredLights::find(size_t index, ModelLight light, int width, bool suns,
+                                          const Progress& progress, std::string& error)
 {
-    FilteredLight& dst = m_made[{ index, light, width }];
+    FilteredLight& dst = m_made[{ index, light, width, suns }];
     if (!dst.images.empty())
         return &dst;
     const Environment& environment = m_inputs.environments[index];
@@ -19,7 +19,12 @@ const FilteredLight* FilteredLights::find(size_t index, ModelLight light, int wi
     params.resolution = { width, width / 2 };
     params.sanitize = m_params.sanitize;
     const auto make = [&] {
-        return make_model_light(dst.images, environment.image, params, light, error, m_options.threads, progress);
+        SunSplit split;
+        if (suns && !split.find(environment.image, params.sanitize, error, progress))
+            return false;
+        dst.suns = split.suns();
+        return make_model_light(dst.images, split.rest(environment.image), params, light, error, m_options.threads,
+                                progress);
     };
     Timing timing;
     if (measure_time(timing, make)) {

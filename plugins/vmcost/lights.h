@@ -4,6 +4,8 @@
 #include "inputs.h"
 #include "models.h"
 
+#include <vmlight/cfem/suns.h>
+
 #include <map>
 #include <tuple>
 
@@ -13,6 +15,7 @@ namespace vmlight::cost {
 struct FilteredLight
 {
     std::vector<OIIO::ImageBuf> images;
+    std::vector<Sun> suns; ///< that were split off before
     double seconds = 0;
 };
 
@@ -27,15 +30,16 @@ public:
     {
     }
 
+    /// @param suns     split the suns off before
     /// Returns nullptr, with the reason in `error`, if filtering fails or `progress` stopped it.
-    const FilteredLight* find(size_t environment, ModelLight light, int width, const Progress& progress,
+    const FilteredLight* find(size_t environment, ModelLight light, int width, bool suns, const Progress& progress,
                               std::string& error);
 
 private:
     const Inputs& m_inputs;
     const CostParams& m_params;
     const MakeOptions& m_options;
-    std::map<std::tuple<size_t, ModelLight, int>, FilteredLight> m_made;
+    std::map<std::tuple<size_t, ModelLight, int, bool>, FilteredLight> m_made;
 };
 
 } // namespace vmlight::cost

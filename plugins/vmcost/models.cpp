@@ -12,6 +12,9 @@ namespace {
 
 constexpr int kOrders[] = { 4, 5, 6, 8 };
 
+// Models that are also tried with traced suns.
+constexpr const char* kWithSuns[] = { "lobe", "cells" };
+
 // In the order of the ladder. They also differ in lightness, for colour-blind readers and for print.
 constexpr const char* kColors[] = { "#999999", "#0072b2", "#d55e00", "#a6dba0", "#5aae61", "#1b7837",
                                     "#00441b", "#cc79a7", "#762a83", "#e69f00", "#56b4e9", "#f0e442" };
@@ -19,8 +22,8 @@ constexpr const char* kColors[] = { "#999999", "#0072b2", "#d55e00", "#a6dba0", 
 std::vector<ModelVariant> make_variants()
 {
     std::vector<ModelVariant> variants;
-    const auto add = [&](const ModelEntry& model, const std::string& name, int order) {
-        variants.push_back({ name, &model, order, kColors[variants.size() % std::size(kColors)] });
+    const auto add = [&](const ModelEntry& model, const std::string& name, int order, bool suns = false) {
+        variants.push_back({ name, &model, order, suns, kColors[variants.size() % std::size(kColors)] });
     };
     for (const ModelEntry& model : model_entries()) {
         const bool has_bands = find_basis(model.basis).parameter == std::string("order");
@@ -30,6 +33,8 @@ std::vector<ModelVariant> make_variants()
         if (!has_bands)
             add(model, model.name, 0);
     }
+    for (const char* name : kWithSuns)
+        add(*find_model_entry(name), std::string(name) + "+suns", 0, true);
     return variants;
 }
 

@@ -19,6 +19,8 @@ struct ModelVariant
     const ModelEntry* model;
     /// VismapParams::order; 0 if the model's basis has no bands.
     int order;
+    /// Whether suns are split off the light and traced (cfem/suns.h); the model lights the rest.
+    bool suns;
     const char* color;
 
     /// Set what the visibility map needs beyond the defaults.

@@ -26,6 +26,7 @@ int main(int argc, const char** argv)
     stage.params("Measure:", params);
     stage.params("Mesh:", mesh.selection);
     stage.params("Mesh:", mesh.mesh_params);
+    stage.params("Mesh:", mesh.cutout_params);
     stage.group("Inputs:");
     stage.option("occluder", "FILE", "Mesh that occludes but is not baked; may be repeated", [&](auto text, auto&) {
         mesh.occluder.emplace_back(text);

@@ -74,7 +74,9 @@ bool Shot::open_objects(const MakeOptions& options, std::string& error)
         recipe.map.mesh = path;
         recipes.push_back(recipe);
     }
-    for (const ObjectRecipe& recipe : recipes) {
+    for (ObjectRecipe& recipe : recipes) {
+        if (m_request.stage.white) // as materials are left out
+            recipe.map.cutout_params.cutouts = "off";
         m_objects.push_back(std::make_unique<LitObject>());
         if (!m_objects.back()->open(recipe, options, error))
             return false;

@@ -85,8 +85,10 @@ int main(int argc, const char** argv)
     stage.params("Light:", request.filter.cfem_params, "cfem_");
     stage.params("Reference:", request.reference, "reference_");
     stage.params("Visibility map:", request.object.map.vismap_params);
+    stage.drop("ground_height"); // the ground here is a mesh, below all objects
     stage.params("Mesh:", request.object.map.selection);
     stage.params("Mesh:", request.object.map.mesh_params);
+    stage.params("Mesh:", request.object.map.cutout_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.object.map.unwrap = true; });
     const auto complete = [&] {

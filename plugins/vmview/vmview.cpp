@@ -66,6 +66,7 @@ int main(int argc, const char** argv)
     stage.params("Visibility map:", request.mesh.vismap_params);
     stage.params("Mesh:", request.mesh.selection);
     stage.params("Mesh:", request.mesh.mesh_params);
+    stage.params("Mesh:", request.mesh.cutout_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.mesh.unwrap = true; });
     const auto complete = [&] {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of a mesh on the command line: --material, --node, <MATERIAL> in -o, and what the bake says of its file.
 #include "command_test.h"
+
 #include "quad_files.h"
 #include "room.h"
+#include <numeric>
 
 #include <vmlight/base/format.h>
 
 #include <OpenImageIO/strutil.h>
+
+#include <numeric>
 
 #include <filesystem>
 
@@ -204,4 +208,33 @@ TEST_F(Materials, AListShowsWhatThereIs)
         EXPECT_THAT(list, HasSubstr(line));
     EXPECT_THAT(names("room"), ElementsAre("room.obj"));
     refused(1, "\"none.obj\": no such file", "makevismap none.obj --list");
+}
+
+TEST_F(Materials, CutOutsAreReportedOrSwitchedOff)
+{
+    // A roof over the floor that stops a quarter of the light.
+    write("card.mtl", "newmtl Glass\nd 0.25\nnewmtl Stone\n");
+    write("card.obj",
+          "mtllib card.mtl\nusemtl Stone\n" + kQuad
+              + "usemtl Glass\nv -9 -9 1\nv 9 -9 1\nv 9 9 1\nv -9 9 1\nf 5/1/1 6/2/1 7/3/1 8/4/1\n");
+    const std::string bake = "makevismap card.obj --material Stone" + small;
+    EXPECT_THAT(done(bake + "-o auto.exr"),
+                HasSubstr("cut-outs: 2 triangles, 0 opaque, 0 transparent, 2 in part: 100 % of their cells ask the "
+                          "texture"));
+    EXPECT_EQ(attribute("auto.exr", "vmlight:cutouts"), "auto");
+    const Pixels seen = visibility("auto.exr");
+    EXPECT_NEAR(std::accumulate(seen.values.begin(), seen.values.end(), 0.0) / double(seen.values.size()), 0.75, 0.05);
+    // The same as an effect, with what it costs to leave it out.
+    EXPECT_THAT(done(bake + "--effects -cut-outs -o left.exr"),
+                HasSubstr("the scene calls for cut-outs, left out: V is off by about 0.7"));
+    EXPECT_THAT(done(bake + "--cutouts off -o off.exr"), Not(HasSubstr("cut-outs:")));
+    expect_same_pixels("left.exr", "off.exr", 0);
+    EXPECT_EQ(attribute("off.exr", "vmlight:cutouts"), "off");
+    EXPECT_LT(visibility("off.exr").greatest(), 0.1f);
+    refused(2, "cutouts", bake + "--cutouts on -o x.exr");
+    EXPECT_THAT(done(bake + "--cutouts off --print-recipe"), HasSubstr("cutouts = \"off\""));
+    write("card.mtl", "newmtl Glass\nmap_d lost leaf.png\nnewmtl Stone\n");
+    refused(1, "lost leaf.png", bake + "-o x.exr");
+    refused(1, "--cutouts off", bake + "-o x.exr");
+    done(bake + "--cutouts off -o y.exr");
 }

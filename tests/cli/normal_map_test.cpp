@@ -61,6 +61,20 @@ TEST_F(NormalMaps, TiltTexels)
     EXPECT_NEAR(mean(pixels("lit.exr")), 0.9, 0.02);
 }
 
+TEST_F(NormalMaps, AreAnEffect)
+{
+    make_map("n.png", { 0.8f, 0.5f, 0.9f });
+    const std::string line = "makevismap quad.obj --normal-map n.png" + small;
+    EXPECT_THAT(done(line + " --explain -o a.exr"),
+                testing::ContainsRegex("normal-map +on .* normals of texels are mapped"));
+    EXPECT_THAT(done(line + " --effects -normal-map -o b.exr"),
+                testing::ContainsRegex("calls for normal-map, left out: V is off by about 0\\.1"));
+    done("makevismap quad.obj -o c.exr" + small);
+    expect_same_pixels("b.exr", "c.exr", 0);
+    refused(1, "+normal-map is impossible: no --normal-map is given",
+            "makevismap quad.obj --effects +normal-map -o x.exr" + small);
+}
+
 TEST_F(NormalMaps, AFlatOneIsLeftOut)
 {
     make_map("flat.png", { 0.5f, 0.5f, 1 });

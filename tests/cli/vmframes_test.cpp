@@ -104,6 +104,8 @@ TEST_F(Vmframes, InputsOfTheWrongKindAreRefused)
     done("makecfem sky.exr -o cfem.exr --resolution 16");
     refused(1, "--background environment needs the environment itself",
             "vmframes quad.obj cfem.exr --background environment -o a.png" + small);
+    done("makecfem {sky} --suns auto --stack -o split.exr --resolution 16");
+    refused(1, "\"split.exr\": its suns were split off", "vmframes quad.obj split.exr -o a.png" + small);
     refused(1, "the model reference needs the environment itself",
             "vmframes quad.obj cfem.exr --model reference -o a.png" + small);
 }

@@ -100,6 +100,38 @@ TEST(Geometry, ACoincidentSheet)
     row.ours("neither occludes the other: V = 1");
 }
 
+TEST(Geometry, AFaceOnTheGround)
+{
+    HardCase row("A floor that lies on the analytic ground, under a tower, anywhere in space");
+    int64_t below = 0, wrong = 0, texels = 0;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int k = 0; k < 50; ++k) {
+        const V3d at(number(random), number(random), number(random));
+        Mesh mesh = box(V3d(-0.1, 0.2, -0.1), V3d(0.1, 0.9, 0.1), false);
+        for (V2f& uv : mesh.uvs)
+            uv = V2f(NAN); // only the floor is baked
+        add_quad(mesh, V3d(-1, 0, 1), V3d(1, 0, 1), V3d(1, 0, -1), V3d(-1, 0, -1), V2f(0, 0), V2f(1, 1));
+        mesh = placed(mesh, 1 + 0.3 * number(random), at);
+        const SceneFrame frame = SceneFrame::around(mesh);
+        Surface surface(mesh, frame);
+        const SurfacePoint point = surface.at(uint32_t(mesh.triangles.size() - 1), 0.3f, 0.3f);
+        const double height = mesh.positions.back().y;
+        below += double(point.near_origin.y) - kNearRayOffset < (height - frame.centre.y) * frame.scale;
+        VismapParams params = map_params(8, 8, 64);
+        params.ground = true;
+        params.skip_open = k % 2;
+        BakedMap(mesh, {}, params).each([&](const Texel& t, int, int) {
+            wrong += !(t.visibility > 0.5);
+            ++texels;
+        });
+    }
+    EXPECT_GT(below, 5);
+    row.naive("rounding puts it below the ground, now and then: it sees nothing");
+    EXPECT_EQ(wrong, 0) << "of " << texels;
+    row.ours("it sees the sky beside the tower");
+}
+
 TEST(Geometry, ATwoSidedSheet)
 {
     HardCase row("A two-sided sheet: two faces back to back");
@@ -112,6 +144,26 @@ TEST(Geometry, ATwoSidedSheet)
         EXPECT_NEAR(t.direction.z, x < 16 ? 2.0 / 3 : -2.0 / 3, 1e-6);
     });
     row.ours("each sees its own half");
+}
+
+TEST(Geometry, AProofBetweenSheets)
+{
+    HardCase row(
+        "Two-sided sheets 1e-6 to 1e-4 of their size apart, where texels that provably see everything trace no ray");
+    static_assert(2e-6 < kRayOffset / 4);
+    row.naive("a tolerance of the ray offset proves all eight sides open");
+    for (double gap : { 2e-6, 2e-5, 2e-4 }) {
+        VismapParams params = map_params(32, 16, 64);
+        params.skip_open = true;
+        const BakedMap map(turned(stack_of_sheets(gap)), {}, params);
+        map.each([&](const Texel& t, int x, int y) {
+            const bool open = (x < 8 && y >= 8) || (x >= 24 && y < 8);
+            EXPECT_TRUE(open ? t.visibility == 1 : t.visibility < 0.01) << gap << " " << x << " " << y;
+        });
+        EXPECT_EQ(map.report.open, map.report.covered / 4) << gap;
+        EXPECT_EQ(map.report.rays, map.report.covered * 3 / 4 * 64) << gap;
+    }
+    row.ours("the two outer sides are proven, a quarter of the texels; the rest is traced");
 }
 
 TEST(Geometry, SheetsAMillionthApart)

@@ -57,6 +57,7 @@ class Commands(unittest.TestCase):
     def test_pipeline(self):
         shutil.copy(os.path.join(SOURCE, "tests/data/spot.obj"), os.path.join(self.folder, "hero.obj"))
         shutil.copy(os.path.join(SOURCE, "tests/data/studio_small_03.hdr"), os.path.join(self.folder, "studio.hdr"))
+        shutil.copy(os.path.join(SOURCE, "tests/data/kloppenheim_05.hdr"), os.path.join(self.folder, "sunny.hdr"))
         lines = commands("docs/pipeline.md", "Try it")
         if subprocess.run([PYTHON, "-c", "import OpenImageIO"], capture_output=True).returncode != 0:
             print("Python's module OpenImageIO is not installed: its command is left out")

@@ -75,6 +75,7 @@ inline VismapParams map_params(int width, int height, int samples, const std::st
     params.sampler = sampler;
     params.margin = 0;
     params.channels = { "coverage" };
+    params.skip_open = false; // what is tested is the rays
     return params;
 }
 

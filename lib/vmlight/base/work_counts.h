@@ -15,6 +15,7 @@ struct WorkCounts
     std::atomic<int64_t> cfems_made { 0 };
     std::atomic<int64_t> albedos_made { 0 };
     std::atomic<int64_t> tiles_shaded { 0 };
+    std::atomic<int64_t> alphas_read { 0 }; ///< alpha channels of textures, for cut-outs
 };
 WorkCounts& work_counts();
 

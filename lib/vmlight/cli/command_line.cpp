@@ -63,6 +63,13 @@ std::string main_spelling(const std::string& flag)
     return found == spellings.end() ? flag : found->second;
 }
 
+bool is_number(const std::string& text)
+{
+    double ignored = 0;
+    std::string reason;
+    return parse_value(ignored, text, Range { -1e300, 1e300 }, reason);
+}
+
 const AnswerFlag* find_answer_flag(const std::string& flag)
 {
     for (const AnswerFlag& known : answer_flags())
@@ -121,7 +128,8 @@ std::vector<CommandLine::Section> CommandLine::sections() const
     return found;
 }
 
-// Takes --flag=value or --flag value. A value that is a word of its own may begin with '-'.
+// Takes --flag=value or --flag value. A value that is a word of its own may begin with '-'; one that may be left out is
+// taken to be there if it is a number.
 bool CommandLine::parse_flag(const char**& argument, const char** end, std::string& answer, std::string& error)
 {
     const std::string word = *argument;
@@ -135,14 +143,15 @@ bool CommandLine::parse_flag(const char**& argument, const char** end, std::stri
         return false;
     }
     const Option& option = answering ? answering->option : *found;
-    std::string value = option.metavar.empty() ? "true" : "";
+    const bool may_lack = OIIO::Strutil::starts_with(option.metavar, "[");
+    std::string value = option.metavar.empty() || may_lack ? "true" : "";
     if (option.metavar.empty() && equals != std::string::npos)
         error = format("{} takes no value", flag);
-    else if (!option.metavar.empty() && equals == std::string::npos && argument + 1 == end)
+    else if (!option.metavar.empty() && !may_lack && equals == std::string::npos && argument + 1 == end)
         error = format("{} needs a value: {}", flag, option.metavar);
     else if (equals != std::string::npos)
         value = word.substr(equals + 1);
-    else if (!option.metavar.empty())
+    else if (!option.metavar.empty() && (!may_lack || (argument + 1 < end && is_number(argument[1]))))
         value = *++argument;
     if (!error.empty())
         return false;

@@ -20,7 +20,8 @@ struct CommandLine
 {
     struct Option
     {
-        /// `metavar` is what stands for the value in the help; "" for a flag without a value.
+        /// `metavar` is what stands for the value in the help; "" for a flag without a value; in brackets, a number
+        /// that may be left out: the value is then "true".
         std::string heading, name, metavar, help;
         /// Receives the value ("true" for a flag without one). Returns false, with the reason in `error`, to refuse it.
         /// parse() does not call it.

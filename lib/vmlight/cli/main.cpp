@@ -64,6 +64,14 @@ bool StageMain::has_option(const std::string& name) const
                        [&](const CommandLine::Option& option) { return option.name == name; });
 }
 
+void StageMain::drop(const std::string& name)
+{
+    auto& options = m_command.line.options;
+    options.erase(std::remove_if(options.begin(), options.end(),
+                                 [&](const CommandLine::Option& option) { return option.name == name; }),
+                  options.end());
+}
+
 void StageMain::accept_recipe(const char* stage, RecipeAccess access)
 {
     m_command.line.stage = stage;

@@ -39,6 +39,9 @@ public:
                 m_command.line.options.push_back(std::move(option));
     }
 
+    /// Take back the flag of a parameter that has no effect here.
+    void drop(const std::string& name);
+
     /// Accept a recipe in place of the operands, and --print-recipe. Adds flags for those parameters of `recipe` that
     /// have none yet. Flags override the recipe; a flag that has no effect is refused as wrong usage.
     ///

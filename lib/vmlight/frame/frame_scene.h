@@ -26,6 +26,10 @@ struct SurfaceMaterial
     std::shared_ptr<const TexturePyramid> texture;
     Imath::M33d uv_transform;
     int uv_set = 0;
+    /// nullptr or one channel, which multiplies alpha.
+    std::shared_ptr<const TexturePyramid> opacity;
+    Imath::M33d opacity_transform;
+    int opacity_uv_set = 0;
 };
 
 struct FrameSurface

@@ -54,7 +54,9 @@ bool LitObject::open(const ObjectRecipe& recipe, const MakeOptions& options, std
 {
     m_recipe = recipe;
     ObjectMesh mesh;
-    if (!read_object_mesh(mesh, recipe.map, recipe.vismap.empty() && recipe.texture.empty(), options, error))
+    if (!recipe.texture.empty()) // nothing is traced
+        m_recipe.map.cutout_params.cutouts = "off";
+    if (!read_object_mesh(mesh, m_recipe.map, recipe.vismap.empty() && recipe.texture.empty(), options, error))
         return false;
     m_is_unwrapped = mesh.is_unwrapped;
     m_surface.material_uvs = std::move(mesh.material_uvs);

@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/selection.h>
+#include <vmlight/stage/cutouts.h>
 #include <vmlight/stage/overlap_hint.h>
 #include <vmlight/stage/unwrap_report.h>
 #include <vmlight/stage/uv_sets.h>
@@ -12,24 +13,12 @@
 #include <vmlight/uv/unwrap.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 namespace vmlight {
 namespace {
 
 using Imath::V2f;
-
-// Three uvs a triangle.
-std::vector<V2f> corner_uvs(const Mesh& mesh)
-{
-    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-    std::vector<V2f> uvs;
-    for (const auto& triangle : mesh.triangles)
-        for (const uint32_t vertex : triangle)
-            uvs.push_back(mesh.uvs.empty() ? V2f(kNone, kNone) : mesh.uvs[vertex]);
-    return uvs;
-}
 
 bool read_part(Mesh& dst, const VismapRecipe& recipe, int uv_set, std::string& error)
 {
@@ -84,27 +73,14 @@ bool unwrap(Mesh& mesh, const VismapRecipe& recipe, const std::string& reason, c
     return true;
 }
 
-// Those that are not, or will not be, the UVs of the mesh.
-void keep_material_uvs(std::vector<std::vector<V2f>>& dst, const Mesh& mesh, const VismapRecipe& recipe,
-                       bool is_unwrapped)
+std::vector<std::vector<V2f>> material_uvs(const Mesh& mesh, const CutoutSource& source)
 {
-    constexpr int kMostSets = 8;
-    const int baked_set = recipe.mesh_params.uv_set;
-    dst.resize(kMostSets);
-    for (const Material& material : mesh.materials) {
-        const int set = material.base_color_texture.uv_set;
-        if (!material.base_color_texture.exists() || set < 0 || set >= kMostSets || !dst[set].empty())
-            continue;
-        if (set == baked_set) {
-            if (is_unwrapped)
-                dst[set] = corner_uvs(mesh);
-            continue;
-        }
-        Mesh again;
-        std::string ignored; // a material that asks for UVs that the file lacks
-        if (read_part(again, recipe, set, ignored) && again.triangles.size() == mesh.triangles.size())
-            dst[set] = corner_uvs(again);
-    }
+    std::vector<int> sets;
+    for (const Material& material : mesh.materials)
+        for (const MaterialTexture* texture : { &material.base_color_texture, &material.opacity_texture })
+            if (texture->exists())
+                sets.push_back(texture->uv_set);
+    return other_uvs(mesh, sets, source.uv_set, source.loses_uvs, source.read_again);
 }
 
 } // namespace
@@ -127,7 +103,14 @@ bool read_object_mesh(ObjectMesh& dst, const VismapRecipe& recipe, bool may_unwr
     else if (!recipe.unwrap && may_unwrap && overlaps_heavily(*mesh))
         reason = "its UVs overlap; ";
     dst.is_unwrapped = may_unwrap && (recipe.unwrap || !reason.empty());
-    keep_material_uvs(dst.material_uvs, *mesh, recipe, dst.is_unwrapped);
+    const auto read_again = [&](Mesh& again, int set) {
+        std::string ignored; // a material that asks for UVs that the file lacks
+        return read_part(again, recipe, set, ignored);
+    };
+    const CutoutSource source { recipe.mesh_params.uv_set, dst.is_unwrapped, read_again };
+    dst.material_uvs = material_uvs(*mesh, source);
+    if (recipe.cutout_params.cutouts != "off" && !read_cutouts(*mesh, source, nullptr, error))
+        return false;
     if (dst.is_unwrapped && !unwrap(*mesh, recipe, reason, options, error))
         return false;
     dst.mesh = std::move(mesh);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/frame/scene_light.h>
 
+#include <vmlight/base/format.h>
+#include <vmlight/cfem/suns.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/environment_file.h>
 #include <vmlight/stage/light_color.h>
@@ -23,6 +25,12 @@ bool read_cfem(SceneLight& dst, const std::string& name, const CfemRecipe& recip
     if (!source || !describe_light(color, light, source->spec(), error)
         || !make_input(dst.filtered, *source, { 0, source->subimages() }, light, "cfem", name, options, error))
         return false;
+    if (dst.filtered[0].spec().find_attribute(kSunsAttribute)) {
+        error = format("\"{}\": its suns were split off (makecfem --suns auto), and frames do not trace them; give the "
+                       "environment itself",
+                       name);
+        return false;
+    }
     color.convert(dst.filtered, options.threads);
     for (const std::string& warning : color.warnings)
         options.report_warning(warning);

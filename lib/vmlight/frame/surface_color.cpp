@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/frame/surface_color.h>
 
+#include <vmlight/mesh/opacity.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,15 +20,14 @@ std::array<V2d, 3> mesh_uvs(const Mesh& mesh, uint32_t triangle)
     return { V2d(mesh.uvs[corners[0]]), V2d(mesh.uvs[corners[1]]), V2d(mesh.uvs[corners[2]]) };
 }
 
-TextureFootprint material_footprint(const SeenPoint& seen, const SurfaceMaterial& material)
+TextureFootprint material_footprint(const SeenPoint& seen, int uv_set, const Imath::M33d& m)
 {
     TextureFootprint at = seen.uv;
     const auto& sets = seen.surface->material_uvs;
-    if (size_t(material.uv_set) < sets.size() && !sets[material.uv_set].empty()) {
-        const V2f* uvs = &sets[material.uv_set][size_t(seen.triangle) * 3];
+    if (size_t(uv_set) < sets.size() && !sets[uv_set].empty()) {
+        const V2f* uvs = &sets[uv_set][size_t(seen.triangle) * 3];
         at = seen.point.footprint({ V2d(uvs[0]), V2d(uvs[1]), V2d(uvs[2]) });
     }
-    const auto& m = material.uv_transform;
     const auto turned = [&](const V2d& v) { return V2d(v.x * m[0][0] + v.y * m[1][0], v.x * m[0][1] + v.y * m[1][1]); };
     at.st = turned(at.st) + V2d(m[2][0], m[2][1]);
     at.dx = turned(at.dx);
@@ -36,6 +37,17 @@ TextureFootprint material_footprint(const SeenPoint& seen, const SurfaceMaterial
     at.dx.y = -at.dx.y;
     at.dy.y = -at.dy.y;
     return at;
+}
+
+// Set `texel` to what a texture has there; nothing where the point has no uvs.
+bool look_up(float* texel, const SeenPoint& seen, const TexturePyramid& texture, int uv_set,
+             const Imath::M33d& transform)
+{
+    const TextureFootprint at = material_footprint(seen, uv_set, transform);
+    if (!std::isfinite(at.st.x + at.st.y + at.dx.x + at.dx.y + at.dy.x + at.dy.y))
+        return false;
+    texture.lookup(at, texel);
+    return true;
 }
 
 double fade(const FrameSurface& surface, const V3d& position)
@@ -60,19 +72,15 @@ void look_up_material(SeenPoint& seen)
     const SurfaceMaterial& material = seen.surface->materials[mesh.triangle_materials[seen.triangle]];
     seen.albedo = material.color;
     float alpha = material.alpha;
-    if (material.texture) {
-        std::array<float, 4> texel {};
-        const TextureFootprint at = material_footprint(seen, material);
-        if (std::isfinite(at.st.x + at.st.y + at.dx.x + at.dx.y + at.dy.x + at.dy.y)) {
-            material.texture->lookup(at, texel.data());
-            seen.albedo *= Imath::C3f(texel[0], texel[1], texel[2]);
-            alpha *= texel[3];
-        }
+    std::array<float, 4> texel {};
+    if (material.texture && look_up(texel.data(), seen, *material.texture, material.uv_set, material.uv_transform)) {
+        seen.albedo *= Imath::C3f(texel[0], texel[1], texel[2]);
+        alpha *= texel[3];
     }
-    if (material.alpha_mode == AlphaMode::mask)
-        seen.alpha *= alpha >= material.alpha_cutoff ? 1 : 0;
-    else if (material.alpha_mode == AlphaMode::blend)
-        seen.alpha *= double(std::clamp(alpha, 0.0f, 1.0f));
+    if (material.opacity
+        && look_up(texel.data(), seen, *material.opacity, material.opacity_uv_set, material.opacity_transform))
+        alpha *= texel[0];
+    seen.alpha *= opacity_of(material.alpha_mode, double(alpha), double(material.alpha_cutoff));
 }
 
 bool look_up_light(SeenPoint& seen, bool with_visibility, std::string& error)

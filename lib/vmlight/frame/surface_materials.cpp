@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/frame/surface_materials.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
-#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/image/primaries.h>
+#include <vmlight/stage/material_image.h>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 
@@ -20,67 +19,19 @@ namespace {
 
 using OIIO::ImageBuf;
 
-// Image files that OIIO reads from memory, by how they begin.
-struct ImageFormat
-{
-    const char *begins, *name;
-};
-constexpr std::array<ImageFormat, 3> kEmbeddedFormats {
-    { { "\x89PNG", "texture.png" }, { "\xff\xd8\xff", "texture.jpg" }, { "\x76\x2f\x31\x01", "texture.exr" } }
-};
-
-bool read_bytes(std::string& dst, const MaterialTexture& texture, std::string& error)
-{
-    if (texture.embedded) {
-        dst = *texture.embedded;
-        return true;
-    }
-    dst.resize(texture.length);
-    if (OIIO::Filesystem::read_bytes(texture.path, dst.data(), dst.size(), texture.offset) == dst.size())
-        return true;
-    error = format("\"{}\": cannot read the texture in it", texture.path);
-    return false;
-}
-
 bool read_embedded(ImageBuf& dst, const MaterialTexture& texture, std::string& error)
 {
-    std::string bytes;
-    if (!read_bytes(bytes, texture, error))
+    MaterialImage image;
+    if (!image.open(texture, error))
         return false;
-    const auto format_of
-        = std::find_if(kEmbeddedFormats.begin(), kEmbeddedFormats.end(), [&](const ImageFormat& format) {
-              return bytes.compare(0, std::char_traits<char>::length(format.begins), format.begins) == 0;
-          });
-    if (format_of == kEmbeddedFormats.end()) {
-        error = format("\"{}\": a texture in it is neither PNG, JPEG nor EXR", texture.path);
-        return false;
-    }
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const auto in = OIIO::ImageInput::open(format_of->name, &config, &memory);
-    if (!in) {
-        error = format("\"{}\": a texture in it: {}", texture.path, OIIO::geterror());
-        return false;
-    }
-    OIIO::ImageSpec spec = in->spec();
-    error = header_fault(spec);
-    if (!error.empty())
-        return false;
+    OIIO::ImageSpec spec = image.spec();
     const OIIO::TypeDesc stored = spec.format;
     spec.set_format(OIIO::TypeFloat);
     dst.reset(spec);
-    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, dst.localpixels())) {
-        error = format("\"{}\": a texture in it: {}", texture.path, oiio::error_line(*in));
+    if (!image.read(0, spec.nchannels, static_cast<float*>(dst.localpixels()), error))
         return false;
-    }
     dst.specmod().attribute("vmlight:stored", int(stored.basetype));
     return true;
-}
-
-TextureWrap wrap_of(const std::string& word)
-{
-    return word == "clamp" ? TextureWrap::clamp : word == "mirror" ? TextureWrap::mirror : TextureWrap::periodic;
 }
 
 class MaterialReader
@@ -117,6 +68,11 @@ public:
             result.uv_transform = material.base_color_texture.uv_transform;
             result.uv_set = material.base_color_texture.uv_set;
         }
+        if (material.alpha_mode != AlphaMode::opaque && material.opacity_texture.exists()) {
+            result.opacity = read_opacity(material.opacity_texture);
+            result.opacity_transform = material.opacity_texture.uv_transform;
+            result.opacity_uv_set = material.opacity_texture.uv_set;
+        }
         return result;
     }
 
@@ -135,6 +91,29 @@ private:
         if (!pyramid)
             m_options.report_warning(error + "; the material's texture is left out");
         return m_textures[key] = pyramid;
+    }
+
+    // Not shared: a material that has one has it alone as a rule.
+    std::shared_ptr<const TexturePyramid> read_opacity(const MaterialTexture& texture)
+    {
+        MaterialImage image;
+        std::string error;
+        std::vector<float> texels;
+        bool good = image.open(texture, error);
+        if (good) {
+            error = memory_shortage(image.spec());
+            good = error.empty();
+        }
+        if (good) {
+            texels.resize(size_t(image.spec().width) * size_t(image.spec().height));
+            good = image.read(0, 1, texels.data(), error);
+        }
+        if (!good) {
+            m_options.report_warning(error + "; the material's opacity is left out");
+            return nullptr;
+        }
+        return std::make_shared<TexturePyramid>(image.spec().width, image.spec().height, 1, texels.data(), nullptr,
+                                                wrap_of(texture.wrap_s), wrap_of(texture.wrap_t), m_options.threads);
     }
 
     std::shared_ptr<const TexturePyramid> make(const MaterialTexture& texture, std::string& error)

@@ -31,16 +31,6 @@ std::vector<Span> spans(int fine, int coarse)
     return result;
 }
 
-int wrapped(int i, int n, TextureWrap wrap)
-{
-    if (wrap == TextureWrap::clamp)
-        return std::clamp(i, 0, n - 1);
-    const int period = wrap == TextureWrap::mirror ? 2 * n : n;
-    i %= period;
-    i = i < 0 ? i + period : i;
-    return i < n ? i : 2 * n - 1 - i;
-}
-
 // The two texels around a coordinate, and the share of the second.
 struct Neighbours
 {
@@ -52,7 +42,7 @@ Neighbours neighbours(double coordinate, int n, TextureWrap wrap)
 {
     // Beyond this the texel is a matter of rounding; int must hold it.
     const double x = std::clamp(coordinate * n - 0.5, -1e9, 1e9), floor = std::floor(x);
-    return { wrapped(int(floor), n, wrap), wrapped(int(floor) + 1, n, wrap), float(x - floor) };
+    return { wrapped_texel(int64_t(floor), n, wrap), wrapped_texel(int64_t(floor) + 1, n, wrap), float(x - floor) };
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 /// so that it never bleeds into the picture, whatever the distance.
 #pragma once
 
+#include <vmlight/mesh/texture_wrap.h>
+
 #include <Imath/ImathVec.h>
 
 #include <vector>
@@ -13,14 +15,6 @@ namespace vmlight {
 struct TextureFootprint
 {
     Imath::V2d st { 0 }, dx { 0 }, dy { 0 };
-};
-
-/// What is beyond [0, 1].
-enum class TextureWrap
-{
-    clamp,
-    periodic,
-    mirror
 };
 
 /// Level 0 is the image. A texel of the next level is the weighted mean of the texels that it covers, by their area in

@@ -10,6 +10,7 @@
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
+#include <vmlight/lightmap/sun_light.h>
 
 #include <algorithm>
 #include <mutex>
@@ -63,13 +64,16 @@ bool shade(ImageBuf& dst, const VismapReader& vismap, const LightmapShader& shad
     return error.empty();
 }
 
-bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const LightmapParams& params,
-          const ImageBuf* albedo, int nthreads, const Progress& progress, std::string& error)
+bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const SunLight* suns,
+          const LightmapParams& params, const ImageBuf* albedo, int nthreads, const Progress& progress,
+          std::string& error)
 {
     Rotation rotation;
     VismapReader reader;
     LightmapShader shader;
     ShadingModel model;
+    if (suns)
+        shader.use_suns({ std::shared_ptr<const SunLight>(), suns });
     if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, has_all_light(cfem), model, error)
         || !shader.prepare(cfem, params, model, error))
         return false;
@@ -137,7 +141,14 @@ bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> 
                    const ImageBuf* albedo, int nthreads, const Progress& progress)
 {
     std::string error;
-    return make(dst, vismap, cfem, params, albedo, nthreads, progress, error) || fail_with(dst, error);
+    return make(dst, vismap, cfem, nullptr, params, albedo, nthreads, progress, error) || fail_with(dst, error);
+}
+
+bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const SunLight* suns,
+                   const LightmapParams& params, const ImageBuf* albedo, int nthreads, const Progress& progress)
+{
+    std::string error;
+    return make(dst, vismap, cfem, suns, params, albedo, nthreads, progress, error) || fail_with(dst, error);
 }
 
 } // namespace vmlight

@@ -130,9 +130,16 @@ bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapPa
     for (const OIIO::ImageBuf& image : light)
         if (!check_input(image, "cosine-filtered environment", error))
             return false;
+    if (light[0].spec().find_attribute(kSunsAttribute) && !m_suns) {
+        error = named(light[0],
+                      "its suns were split off (makecfem --suns auto), and without them it is too dark; light "
+                      "with them (makelightmap --suns auto), or filter the environment whole");
+        return false;
+    }
     m_model = model;
     ModelInput input { images_for(model, light, error), rotation, {}, int(model.channels.size()) };
-    input.setup.gain = float(std::exp2(params.exposure));
+    m_gain = std::exp2(params.exposure);
+    input.setup.gain = float(m_gain);
     for (int i = 0; i < 9; ++i)
         input.setup.rotation[i] = float(rotation[i / 3][i % 3]);
     m_shader = error.empty() ? model.entry->prepare(input, error) : nullptr;
@@ -148,11 +155,15 @@ void LightmapShader::shade(OIIO::ROI roi, TexelLayout layout, const float* visma
     bool sound = m_shader->shade(layout, vismap, size_t(roi.width()) * roi.height(), rgb);
     if (!sound)
         find_vismap_faults(roi, layout, m_model, vismap, found);
+    if (m_suns && !m_suns->suns.empty()) {
+        m_suns->add(roi, m_gain, rgb);
+        sound = false;
+    }
     if (m_albedo) {
         m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);
         sound = false;
     }
-    // Only regions that the model did not vouch for, and those that an albedo scaled, are read again.
+    // Only regions that the model did not vouch for, and those that suns or an albedo changed, are read again.
     if (!sound && !found.any())
         find_not_finite(roi, rgb, 3, found.result);
     if (found.any())

@@ -7,6 +7,7 @@
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
+#include <vmlight/lightmap/sun_light.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -48,6 +49,10 @@ public:
     bool prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapParams& params, const ShadingModel& model,
                  std::string& error);
 
+    /// Add the light of `suns`, of the pixels of the visibility map, to that of the model. Before prepare(), which
+    /// refuses light whose suns were split off without them.
+    void use_suns(std::shared_ptr<const SunLight> suns) { m_suns = std::move(suns); }
+
     /// Multiply by `albedo`, opened for the pixels of the visibility map.
     void use_albedo(std::shared_ptr<const AlbedoReader> albedo) { m_albedo = std::move(albedo); }
 
@@ -66,6 +71,8 @@ public:
 private:
     ShadingModel m_model;
     std::unique_ptr<ModelShader> m_shader;
+    double m_gain = 1;
+    std::shared_ptr<const SunLight> m_suns;
     std::shared_ptr<const AlbedoReader> m_albedo;
 };
 

@@ -20,6 +20,8 @@ struct MaterialTexture
     uint64_t offset = 0, length = 0;
     /// A whole image file that is written as text in the mesh file; nullptr if there is none.
     std::shared_ptr<const std::string> embedded;
+    /// Why there is none, though the mesh file names one; "" else.
+    std::string missing;
     /// The UV set it is looked up with; 0 is the first.
     int uv_set = 0;
     /// What is beyond [0, 1]: "periodic", "clamp" or "mirror", as OIIO's TextureSystem names it.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct MeshCamera
     double aspect = 0;
 };
 
+struct MeshOpacity;
+
 /// Triangles in object space (the file's own, right-handed, y up), counter-clockwise seen from outside. Every vertex
 /// has a position and a unit normal. Vertices without texture coordinates have NaN in `uvs`; if none has any, `uvs` is
 /// empty.
@@ -60,6 +63,8 @@ struct Mesh
     std::vector<uint32_t> triangle_nodes;
     /// The file's materials, in its order. Triangles without one have a material without a name.
     std::vector<Material> materials;
+    /// What of it is not opaque; nullptr: all is. Reading a file leaves it so: see read_cutouts() of the stages.
+    std::shared_ptr<const MeshOpacity> opacity;
     /// Parents come before their children.
     std::vector<MeshNode> nodes;
     /// Of formats whose reader knows them: glTF.

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/mesh/opacity.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -225,6 +226,8 @@ Mesh mesh_part(const Mesh& mesh, const std::vector<bool>& chosen)
             vertex = number[vertex];
     part.triangle_materials = picked(mesh.triangle_materials, triangles);
     part.triangle_nodes = picked(mesh.triangle_nodes, triangles);
+    if (mesh.opacity)
+        part.opacity = opacity_part(*mesh.opacity, triangles);
     return part;
 }
 

@@ -11,6 +11,7 @@
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
 #include <vmlight/uv/tile_progress.h>
+#include <vmlight/vismap/ground_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,8 +75,10 @@ struct Moments
 class Tracer
 {
 public:
-    Tracer(const Occluder& occluder, const EnvironmentLight& light, const Rotation& to_environment, float length)
+    Tracer(const Occluder& occluder, const GroundPlane& ground, const EnvironmentLight& light,
+           const Rotation& to_environment, float length)
         : m_occluder(occluder)
+        , m_ground(ground)
         , m_light(light)
         , m_to_environment(to_environment)
         , m_to_object(to_environment.transposed())
@@ -102,6 +105,7 @@ public:
                 const EnvironmentSample bright = m_light.sample(u, v);
                 take(2 * i + 1, point, rotate(m_to_object, bright.direction), bright);
             }
+            m_ground.clear_blocked(m_fan, point);
             m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
             for (int i = 0; i < count; ++i)
                 moments.add(seen(2 * i) + seen(2 * i + 1));
@@ -129,6 +133,7 @@ private:
     }
 
     const Occluder& m_occluder;
+    const GroundPlane m_ground;
     const EnvironmentLight& m_light;
     const Rotation m_to_environment, m_to_object;
     const float m_length;
@@ -154,7 +159,7 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
 {
     std::string error;
     BakeScene scene;
-    return scene.build(non_owning(mesh), occluders, nthreads, error)
+    return scene.build(non_owning(mesh), occluders, nthreads, error, SceneChoice::within(map.max_distance))
         ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
         : fail_with(dst, error);
 }
@@ -185,7 +190,8 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
     };
     std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
     for (auto& worker : workers)
-        worker.reset(new Worker { { scene.occluder(), sky, rotation, length }, { scene.mesh(), scene.frame() }, {} });
+        worker.reset(new Worker {
+            { scene.occluder(), ground_of(scene, map), sky, rotation, length }, { scene.mesh(), scene.frame() }, {} });
     TileProgress done(raster, nthreads, progress);
     if (done.stopped())
         return fail_with(dst, "interrupted");

@@ -44,7 +44,8 @@ struct ReferenceParams
 ///                 and black. Without a margin
 /// @param occluders meshes in the same space that occlude and are not shaded
 /// @param env      a lat-long map in linear light, as for make_cfem(): pixels are constant over their area
-/// @param map      size, UDIM tile and maximum distance, as for a visibility map of the same texels; its rays and
+/// @param map      size, UDIM tile, ground and maximum distance, as for a visibility map of the same texels; its rays
+/// and
 ///                 measure have no effect
 /// @param light    rotation and exposure; the model has no effect
 /// @param nthreads 0 means OIIO's default. The result is the same bits for every value.

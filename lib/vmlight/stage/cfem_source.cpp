@@ -6,7 +6,9 @@
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
+#include <vmlight/cfem/suns.h>
 #include <vmlight/image/color.h>
 #include <vmlight/stage/environment_file.h>
 #include <vmlight/stage/open_source.h>
@@ -15,6 +17,7 @@
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
 #include <vmlight/stage/streamed_environment.h>
+#include <vmlight/stage/sun_source.h>
 
 #include <algorithm>
 #include <optional>
@@ -22,7 +25,7 @@
 namespace vmlight {
 namespace {
 
-class CfemSource : public PixelSource
+class CfemSource : public PixelSource, public SunSource
 {
 public:
     CfemSource(const std::string& key, const CfemRecipe& recipe, PixelSourcePointer environment)
@@ -47,6 +50,8 @@ public:
             tag_udim(own, m_recipe.udim);
             record_environment(own, m_recipe.environment);
             m_output.tag(own);
+            if (splits()) // which they are is known only once the pixels are read
+                own.attribute(kSunsAttribute, kUnknownSuns);
             own.tile_width = own.tile_height = kTileSize;
             own.tile_depth = 1;
         }
@@ -79,7 +84,25 @@ public:
         return filter(dst, range, options, false, error);
     }
 
-    bool failed() const override { return m_make.failed() || m_reduce.failed(); }
+    bool find_suns(std::string& text, std::string& error) override
+    {
+        text.clear();
+        if (!splits())
+            return true;
+        // Whoever asks for the pixels has found them already.
+        const auto find = [&](std::string& reason) {
+            OIIO::ImageBuf held;
+            std::optional<Environment> environment;
+            std::string note;
+            return open(environment, held, {}, true, note, reason) && split(*environment, {}, reason);
+        };
+        if (!m_find.run(find, error))
+            return false;
+        text = m_suns;
+        return true;
+    }
+
+    bool failed() const override { return m_make.failed() || m_reduce.failed() || m_find.failed(); }
     size_t bytes() const override { return m_specs.size() * size_t(m_spec.image_bytes()); }
 
 private:
@@ -96,7 +119,8 @@ private:
         const int width = spec.width, height = spec.height;
         report_doubts(m_recipe.environment, spec, m_color.stored, options);
         const Stopwatch timer;
-        if (!filter(dst, range, *environment, options, error)) {
+        const auto find = [&](std::string& reason) { return split(*environment, options, reason); };
+        if ((splits() && !m_find.run(find, error)) || !filter(dst, range, m_split.rest(*environment), options, error)) {
             error = format("\"{}\": {}", m_recipe.environment, error);
             return false;
         }
@@ -106,7 +130,13 @@ private:
             tag_udim(image.specmod(), m_recipe.udim);
             record_environment(image.specmod(), m_recipe.environment);
             m_output.apply(image, under_lock ? 1 : options.threads);
+            if (!m_suns.empty()) {
+                image.specmod().attribute(kSunsAttribute, m_suns);
+                record_sanitized(image.specmod(), m_split.bad_values());
+            }
         }
+        if (splits())
+            options.report(suns_line());
         options.report("colour: " + note + m_output.note());
         options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
@@ -140,6 +170,36 @@ private:
         return false;
     }
 
+    bool splits() const { return m_recipe.suns != "off"; }
+
+    bool split(const Environment& environment, const MakeOptions& options, std::string& error)
+    {
+        if (!m_split.find(environment, m_recipe.cfem_params.sanitize, error,
+                          options.step("suns", environment.spec().width, environment.spec().height)))
+            return false;
+        std::vector<Sun> suns = m_split.suns();
+        for (Sun& sun : suns) {
+            std::array<float, 3> rgb;
+            std::copy(sun.color.begin(), sun.color.end(), rgb.begin());
+            m_output.apply(rgb.data(), 1);
+            std::copy(rgb.begin(), rgb.end(), sun.color.begin());
+        }
+        m_suns = suns_text(suns);
+        return true;
+    }
+
+    std::string suns_line() const
+    {
+        const std::vector<Sun>& suns = m_split.suns();
+        if (suns.empty())
+            return "suns: none, the light has no small strong source";
+        const Sun& first = suns[0];
+        return format("suns: {} with {:.0f} % of the light, {} at {:.3f} {:.3f} {:.3f}, {:.2f} degrees wide",
+                      suns.size(), 100 * m_split.share(), suns.size() > 1 ? "the strongest" : "it is",
+                      first.disc.direction.x, first.disc.direction.y, first.disc.direction.z,
+                      first.disc.half_angle * 360 / latlong::pi);
+    }
+
     bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, const MakeOptions& options, bool under_lock,
               std::string& note, std::string& error)
     {
@@ -167,7 +227,9 @@ private:
     const PixelSourcePointer m_environment;
     const ColorSettings m_color;
     OutputColor m_output;
-    RunOnce m_make, m_reduce;
+    RunOnce m_make, m_reduce, m_find;
+    SunSplit m_split;
+    std::string m_suns; // suns_text() of them, in the space of the result
     std::vector<OIIO::ImageSpec> m_specs; // one, or one per image of the stack
     std::vector<OIIO::ImageBuf> m_cfem, m_radiance;
 };

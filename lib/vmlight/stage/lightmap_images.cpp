@@ -27,6 +27,7 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
     filter.layout = recipe.layout;
     filter.cfem_params = recipe.cfem_params;
     filter.stack = model.light != ModelLight::cfem;
+    filter.suns = recipe.suns;
     return open_source(filter, error);
 }
 
@@ -68,6 +69,18 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& recipe, std::string&
         return false;
     }
     dst.key = config + dst.vismap->key() + dst.cfem->key();
+    if (recipe.suns != "off") {
+        dst.suns = SunShading::open(recipe, dst.vismap->spec(), error, chain);
+        if (!dst.suns)
+            return false;
+        dst.key += dst.suns->key();
+    } else if (!recipe.cfem.empty() && dst.cfem->spec().find_attribute(kSunsAttribute)) {
+        error = with_location(recipe, "cfem", chain,
+                              format("\"{}\": its suns were split off (makecfem --suns auto), and without them it is "
+                                     "too dark; set --suns auto",
+                                     recipe.cfem));
+        return false;
+    }
     if (!recipe.albedo.empty()) {
         dst.albedo = open_albedo(recipe, OIIO::get_roi(dst.vismap->spec()),
                                  dst.light.spec.get_string_attribute("colorInteropID"), error, chain);

@@ -7,6 +7,7 @@
 #include <vmlight/stage/pixel_source.h>
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/sun_shading.h>
 
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@ struct LightmapImages
     PixelSourcePointer vismap;
     PixelSourcePointer cfem; ///< the recipe's, or that of its environment, of an implicit CfemRecipe
     std::shared_ptr<AlbedoSource> albedo; ///< nullptr without
+    std::shared_ptr<SunShading> suns; ///< nullptr if the recipe's suns are off
     LightColor light; ///< how the colour of the CFEM is converted
     std::string key; ///< changes with any of them, and with the OCIO config if one is used
 };

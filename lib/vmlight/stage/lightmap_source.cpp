@@ -10,6 +10,7 @@
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/lightmap/vismap_check.h>
+#include <vmlight/stage/light_effects.h>
 #include <vmlight/stage/lightmap_images.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
@@ -17,6 +18,8 @@
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
+#include <vmlight/stage/sun_shading.h>
+#include <vmlight/stage/sun_source.h>
 
 #include <algorithm>
 #include <array>
@@ -100,12 +103,8 @@ public:
         const Stopwatch timer;
         dst.clear();
         OIIO::ImageBuf& lightmap = dst.emplace_back();
-        if (!make_lightmap(lightmap, inputs.vismap, inputs.cfem, m_recipe.lightmap_params, inputs.albedo_or_none(),
-                           options.threads, options.step("light", m_spec.width, m_spec.height))) {
-            error = lightmap.geterror();
+        if (!make_lightmap(lightmap, inputs, m_recipe.lightmap_params, options, error))
             return false;
-        }
-        m_output.apply(lightmap, options.threads);
         tag_udim(lightmap.specmod(), m_recipe.udim);
         options.report(format("light: 1 map of {}x{} in {:.3f} s", m_spec.width, m_spec.height, timer()));
         return true;
@@ -130,9 +129,19 @@ public:
             dst.vismap = std::move(images[0]);
             dst.map = map;
         }
+        dst.color = (m_images.light.conversion ? m_images.light.note : std::string()) + m_output.note();
         dst.finish = [output = m_output, threads = options.threads](OIIO::ImageBuf& lightmap) {
             output.apply(lightmap, threads);
         };
+        // Frames share the points of the mesh that rays start from.
+        if (!m_images.suns) {
+            dst.suns = nullptr;
+        } else if (!dst.suns) {
+            dst.suns = std::make_shared<LightmapSuns>(LightmapSuns { {}, m_images.suns });
+            dst.light.clear();
+        } else if (dst.suns->shading->key() != m_images.suns->key()) {
+            dst.suns->shading = m_images.suns;
+        }
         if (!make_light(dst, options, error))
             return false;
         if (!m_images.albedo || dst.albedo.initialized())
@@ -147,7 +156,7 @@ public:
     bool failed() const override
     {
         return m_prepare.failed() || m_images.vismap->failed() || m_images.cfem->failed()
-            || (m_images.albedo && m_images.albedo->failed());
+            || (m_images.albedo && m_images.albedo->failed()) || (m_images.suns && m_images.suns->failed());
     }
     size_t bytes() const override { return m_bytes; }
 
@@ -162,15 +171,65 @@ private:
                 return false;
             }
         m_images.light.convert(cfem, 1);
+        if (!light_suns(error))
+            return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
         }
-        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes());
+        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes())
+            + (m_suns ? sizeof(float) * m_suns->visibility.size() + m_images.suns->bytes() : 0);
         const AlbedoReader* albedo = m_images.albedo ? m_images.albedo->reader(error) : nullptr;
         if (albedo)
             m_shader.use_albedo({ m_images.albedo, albedo });
         return error.empty();
+    }
+
+    // The suns of the light, in its colour.
+    bool find_suns(std::vector<Sun>& dst, std::string& error) const
+    {
+        std::string text;
+        dst.clear();
+        if (!m_images.suns)
+            return true;
+        if (!vmlight::find_suns(text, *m_images.cfem, error) || !parse_suns(dst, text, error)) {
+            error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
+            return false;
+        }
+        for (Sun& sun : dst)
+            if (m_images.light.conversion) {
+                std::array<float, 3> rgb;
+                std::copy(sun.color.begin(), sun.color.end(), rgb.begin());
+                m_images.light.conversion(rgb.data(), 1);
+                std::copy(rgb.begin(), rgb.end(), sun.color.begin());
+            }
+        return true;
+    }
+
+    // Their shadows, whole: tiles share rays and margins.
+    bool light_suns(std::string& error)
+    {
+        std::vector<Sun> suns;
+        if (!find_suns(suns, error))
+            return false;
+        if (!m_images.suns)
+            return true;
+        auto light = std::make_shared<SunLight>();
+        const auto read = [&](int channel, std::vector<float>& plane, std::string& reason) {
+            OIIO::ImageBuf map;
+            if (!read_all(map, *m_images.vismap, reason))
+                return false;
+            const auto* texel = static_cast<const float*>(map.localpixels());
+            plane.resize(size_t(map.spec().image_pixels()));
+            for (size_t i = 0; i < plane.size(); ++i)
+                plane[i] = texel[i * size_t(map.nchannels()) + size_t(channel)];
+            return true;
+        };
+        if (!m_images.suns->light(*light, suns, m_recipe.lightmap_params, read, {}, error))
+            return false;
+        m_suns = light;
+        m_shader.use_suns(light);
+        return true;
     }
 
     // Here and not where a map is lit: once for all frames.
@@ -220,6 +279,8 @@ private:
                 return false;
             }
         }
+        if (dst.suns && !find_suns(dst.suns->list, error))
+            return false;
         if (m_recipe.lightmap_params.model == "auto")
             options.report(filtered && m_model.light == ModelLight::cfem
                                ? "model: paper, because the CFEM is not a stack (makecfem --stack makes one)"
@@ -236,13 +297,14 @@ private:
     OutputColor m_output;
     RunOnce m_prepare;
     LightmapShader m_shader;
+    std::shared_ptr<const SunLight> m_suns; // nullptr without
     std::atomic<size_t> m_bytes { 0 };
 };
 
 std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::string& error, const RecipeChain& chain,
                                               Sharing sharing)
 {
-    const LightmapRecipe recipe = resolve_udim(given);
+    const LightmapRecipe recipe = with_switches(resolve_udim(given));
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error))
         return nullptr;

@@ -25,6 +25,10 @@ struct MakeOptions
     std::function<Progress(const std::string& step, int64_t texels)> progress;
     /// Receive a line of information, or a warning.
     std::function<void(const std::string&)> say, warn;
+    /// Say which effects run and why, before the work and after it; or instead of it, with time and memory expected.
+    bool explain = false, dry_run = false;
+    /// Whether the image will be stored as half.
+    bool half = false;
     /// nullptr, or keeps the mesh and the ray-tracing scene of the last vismap for the next call to share.
     std::shared_ptr<const BakeScene>* scene = nullptr;
     /// The same inputs were made for another UDIM tile before: do not repeat what holds for all tiles.

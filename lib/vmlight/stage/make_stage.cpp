@@ -4,6 +4,7 @@
 #include <vmlight/base/fail_with.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/sun_shading.h>
 
 #include <utility>
 
@@ -49,6 +50,30 @@ bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, con
                  std::string& error)
 {
     return make(dst, recipe, options, error);
+}
+
+bool make_lightmap(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const LightmapParams& params,
+                   const MakeOptions& options, std::string& error)
+{
+    SunLight suns;
+    const auto read = [&](int channel, std::vector<float>& dst, std::string& reason) {
+        OIIO::ROI roi = inputs.vismap.roi();
+        roi.chbegin = channel;
+        roi.chend = channel + 1;
+        dst.resize(size_t(roi.npixels()));
+        reason = inputs.vismap.get_pixels(roi, OIIO::TypeFloat, dst.data()) ? "" : inputs.vismap.geterror();
+        return reason.empty();
+    };
+    if (inputs.suns && !inputs.suns->shading->light(suns, inputs.suns->list, params, read, options, error))
+        return false;
+    const OIIO::ImageSpec& map = inputs.vismap.spec();
+    if (!make_lightmap(dst, inputs.vismap, inputs.cfem, suns.suns.empty() ? nullptr : &suns, params,
+                       inputs.albedo_or_none(), options.threads, options.step("light", map.width, map.height))) {
+        error = dst.geterror();
+        return false;
+    }
+    inputs.finish(dst);
+    return true;
 }
 
 std::string image_stage(const std::string& name)

@@ -9,6 +9,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ VMLIGHT_API bool make_image(OIIO::ImageBuf& dst, const LightmapRecipe& recipe, c
 VMLIGHT_API bool make_images(std::vector<OIIO::ImageBuf>& dst, const CfemRecipe& recipe, const MakeOptions& options,
                              std::string& error);
 
+/// Report which effects a bake would simulate, why, and the time and memory that it would take; bakes some texels only.
+/// False, with the reason in `error`, as for make_image().
+VMLIGHT_API bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std::string& error);
+
 /// The UDIM tiles that what `recipe` bakes of its mesh covers, see mesh_udims(). Reads the mesh; with `options.scene` a
 /// later bake shares it. False, with the reason in `error`, if the mesh cannot be read or baked, or covers no tile.
 VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe, const MakeOptions& options,
@@ -39,6 +44,8 @@ VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe,
 VMLIGHT_API bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
                                   std::string& error);
 
+struct LightmapSuns;
+
 /// The inputs of a lightmap, ready for make_lightmap(), so that several lightmaps can share them.
 struct LightmapInputs
 {
@@ -47,6 +54,10 @@ struct LightmapInputs
     std::vector<OIIO::ImageBuf> cfem;
     /// Identify the files or recipes of `vismap`, `albedo` and `cfem`; of the last also which of its images these are.
     std::string map, texture, light;
+    /// The suns that `cfem` was split into, and where their shadows are traced; nullptr if the recipe's suns are off.
+    std::shared_ptr<LightmapSuns> suns;
+    /// What of their colour is converted, or "".
+    std::string color;
     /// Brings what make_lightmap() makes of these to the output_colorspace of the recipe.
     std::function<void(OIIO::ImageBuf& lightmap)> finish;
 
@@ -58,6 +69,11 @@ struct LightmapInputs
 /// `error`, as for make_image().
 VMLIGHT_API bool read_lightmap_inputs(LightmapInputs& dst, const LightmapRecipe& recipe, const MakeOptions& options,
                                       std::string& error);
+
+/// Light `inputs`, with their suns, and bring the result to the output_colorspace of their recipe. False, with the
+/// reason in `error`, as make_lightmap() or if the suns cannot be traced.
+VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const LightmapParams& params,
+                               const MakeOptions& options, std::string& error);
 
 /// The stage of an image: from its name if it is a recipe, else from `vmlight:stage` in the file. "" if it is not a
 /// stage or cannot be opened. Reads no pixels.

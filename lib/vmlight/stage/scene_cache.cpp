@@ -5,6 +5,8 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/cutouts.h>
 #include <vmlight/stage/unwrap_report.h>
 #include <vmlight/stage/uv_sets.h>
 #include <vmlight/uv/unwrap.h>
@@ -78,15 +80,27 @@ bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& rec
                size_t index, std::string& at, std::string& error)
 {
     at = key_of(index);
+    const std::string& mesh_path = path_of(recipe, index);
     ++work_counts().meshes_read;
-    return read_mesh(dst, path_of(recipe, index), recipe.mesh_params, error,
-                     [&](const std::string& path) {
-                         FileStamp file { path, "" };
-                         std::string ignored;
-                         if (stamp_file(file.stamp, path, ignored))
-                             files.push_back(std::move(file));
-                     })
-        && check_stamp(stamps.files[index], path_of(recipe, index), error);
+    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error,
+                   [&](const std::string& path) {
+                       FileStamp file { path, "" };
+                       std::string ignored;
+                       if (stamp_file(file.stamp, path, ignored))
+                           files.push_back(std::move(file));
+                   })
+        || !check_stamp(stamps.files[index], mesh_path, error))
+        return false;
+    if (recipe.cutout_params.cutouts == "off")
+        return true;
+    const auto read_again = [&](Mesh& again, int uv_set) {
+        MeshParams params = recipe.mesh_params;
+        params.uv_set = uv_set;
+        std::string ignored;
+        ++work_counts().meshes_read;
+        return read_mesh(again, mesh_path, params, ignored);
+    };
+    return read_cutouts(dst, { recipe.mesh_params.uv_set, recipe.unwrap && index == 0, read_again }, &files, error);
 }
 
 UnwrapParams unwrap_params(const VismapRecipe& recipe, int nthreads)
@@ -125,7 +139,7 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
         return false;
     }
     const Stopwatch timer;
-    if (!scene->build(std::move(mesh), occluders, nthreads, error))
+    if (!scene->build(std::move(mesh), occluders, nthreads, error, scene_choice(recipe)))
         return false;
     ++work_counts().scenes_built;
     seconds = timer();
@@ -147,7 +161,10 @@ bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<co
     at = key_of(0);
     dst.files = whole.files;
     ++work_counts().scenes_built;
-    return dst.build(std::move(part), occluders, nthreads, error);
+    if (!dst.build(std::move(part), occluders, nthreads, error, scene_choice(recipe)))
+        return false;
+    dst.set_lowest(whole.lowest());
+    return true;
 }
 
 bool build_part(BakeScenePointer& dst, const BakeScenePointer& whole, const VismapRecipe& recipe,
@@ -219,10 +236,14 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
     params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         stamps.key += std::string(name) + "=" + value_text(value, allowed) + "\n";
     });
+    stamps.key += "cutouts=" + recipe.cutout_params.cutouts + "\n";
     if (recipe.unwrap) {
         const UnwrapParams atlas = unwrap_params(recipe, 0);
         stamps.key += format("unwrap={}x{},{}\n", atlas.width, atlas.height, atlas.margin);
     }
+    // What is traced of them.
+    const SceneChoice choice = scene_choice(recipe);
+    stamps.key += format("traced={}{}{} {}\n", choice.self, choice.occluders, choice.cull, choice.reach);
     for (size_t i = 0; i < stamps.files.size(); ++i) {
         at = key_of(i);
         if (!stamp_file(stamps.files[i], path_of(recipe, i), error))

@@ -5,6 +5,7 @@
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
 
+#include <limits>
 #include <vector>
 
 namespace vmlight {
@@ -38,6 +39,17 @@ std::string sets_text(const std::vector<int>& sets)
     return text;
 }
 
+// Three uvs a triangle.
+std::vector<Imath::V2f> corner_uvs(const Mesh& mesh)
+{
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    std::vector<Imath::V2f> uvs;
+    for (const auto& triangle : mesh.triangles)
+        for (const uint32_t vertex : triangle)
+            uvs.push_back(mesh.uvs.empty() ? Imath::V2f(kNone, kNone) : mesh.uvs[vertex]);
+    return uvs;
+}
+
 } // namespace
 
 void for_each_other_uv_set(const VismapRecipe& recipe, const std::function<void(int set, const Mesh& part)>& visit)
@@ -51,6 +63,25 @@ void for_each_other_uv_set(const VismapRecipe& recipe, const std::function<void(
         else if (set > 0)
             return;
     }
+}
+
+std::vector<std::vector<Imath::V2f>> other_uvs(const Mesh& mesh, const std::vector<int>& sets, int own_set,
+                                               bool is_lost, const std::function<bool(Mesh& dst, int set)>& read_again)
+{
+    std::vector<std::vector<Imath::V2f>> uvs(kMostUvSets);
+    for (const int set : sets) {
+        if (set < 0 || set >= kMostUvSets || !uvs[size_t(set)].empty())
+            continue;
+        if (set == own_set) {
+            if (is_lost)
+                uvs[size_t(set)] = corner_uvs(mesh);
+            continue;
+        }
+        Mesh again;
+        if (read_again && read_again(again, set) && again.triangles.size() == mesh.triangles.size())
+            uvs[size_t(set)] = corner_uvs(again);
+    }
+    return uvs;
 }
 
 std::string no_uvs_error(const VismapRecipe& recipe)

@@ -3,7 +3,11 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
+#include <vmlight/stage/bake_forecast.h>
 #include <vmlight/stage/bake_report.h>
+#include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/cutouts.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
@@ -17,6 +21,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <ctime>
 #include <memory>
 
 namespace vmlight {
@@ -30,12 +35,16 @@ void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
     if (recipe.mesh_params.frame == MeshParams::kFirstSample)
         for (const char* name : { "frame", "fps" })
             spec.erase_attribute(metadata_name(name));
+    if (recipe.cutout_params.cutouts == "off") // `auto` is known once the files are read
+        append_params(spec, recipe.cutout_params);
     if (recipe.unwrap)
         spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
     if (!recipe.normal_map.empty()) {
         spec.attribute(metadata_name("normal_map"), OIIO::Filesystem::filename(recipe.normal_map));
         append_params(spec, recipe.normal_map_params);
     }
+    if (const std::string off = switched_off(recipe.effects, VismapRecipe::kStage); !off.empty())
+        spec.attribute(metadata_name("effects"), off);
     MeshSelection selection = recipe.selection;
     selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         if (!value.empty())
@@ -48,17 +57,28 @@ std::shared_ptr<const Mesh> mesh_of(const BakeScenePointer& scene)
     return { scene, &scene->mesh() };
 }
 
+void report_cutouts(const MakeOptions& options, const CutoutCounts& counts)
+{
+    if (options.repeated_inputs)
+        return;
+    if (const std::string line = cutout_line(counts); !line.empty())
+        options.report(line);
+    if (const std::string warning = cutout_warning(counts); !warning.empty())
+        options.report_warning(warning);
+}
+
 class VismapSource : public PixelSource
 {
 public:
     VismapSource(const std::string& key, const VismapRecipe& recipe, SceneStamps stamps)
         : PixelSource(key)
-        , m_recipe(recipe)
+        , m_given(recipe)
+        , m_recipe(with_switches(recipe))
         , m_stamps(std::move(stamps))
     {
         // No mesh hash: computing it would mean reading the mesh in open().
-        m_spec = describe_vismap(OIIO::Filesystem::filename(recipe.mesh), recipe.vismap_params);
-        append_mesh(m_spec, recipe);
+        m_spec = describe_vismap(OIIO::Filesystem::filename(m_recipe.mesh), m_recipe.vismap_params);
+        append_mesh(m_spec, m_recipe);
     }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
@@ -92,6 +112,10 @@ public:
             options.report(note);
         for (const std::string& warning : warnings)
             options.report_warning(warning);
+        BakeForecast forecast;
+        if ((options.explain || m_given.effects != "auto")
+            && !forecast_effects(forecast, scene, normal_map, options, error))
+            return false;
         dst.clear();
         OIIO::ImageBuf& map = dst.emplace_back();
         if (!make_vismap(map, scene, m_recipe.vismap_params, &report, options.threads,
@@ -101,10 +125,42 @@ public:
         }
         report.build_seconds += build_seconds;
         append_mesh(map.specmod(), m_recipe);
+        const CutoutCounts& cutouts = scene->occluder().cutouts();
+        if (cutouts.triangles > 0)
+            append_params(map.specmod(), m_recipe.cutout_params);
         if (!options.repeated_inputs)
             for (const std::string& remark : scene->remarks)
                 options.report(remark);
         report_bake(options, report, map.spec(), m_recipe, scene->mesh());
+        report_cutouts(options, cutouts);
+        if (options.explain)
+            report_taken(report, options);
+        return true;
+    }
+
+    // What make() would do, and take.
+    bool report_plan(const MakeOptions& options, std::string& error)
+    {
+        const Stopwatch timer;
+        const std::clock_t begin = std::clock();
+        TimeTaken taken;
+        BakeScenePointer scene;
+        std::string at;
+        if (!share_scene(scene, m_recipe, m_stamps, options.threads, nullptr, at, error)) {
+            error = with_location(m_recipe, at, options.chain, error);
+            return false;
+        }
+        taken.read = timer();
+        if (options.scene)
+            *options.scene = scene;
+        NormalMapPointer normal_map;
+        std::vector<std::string> ignored;
+        BakeForecast forecast;
+        if (!read_normal_map(normal_map, m_recipe, mesh_of(scene), options.threads, ignored, ignored, error)
+            || !forecast_effects(forecast, scene, normal_map, options, error))
+            return false;
+        taken.processor = double(std::clock() - begin) / CLOCKS_PER_SEC;
+        report_forecast(forecast, m_recipe, taken, options);
         return true;
     }
 
@@ -117,6 +173,21 @@ public:
     }
 
 private:
+    bool forecast_effects(BakeForecast& dst, const BakeScenePointer& scene, const NormalMapPointer& normal_map,
+                          const MakeOptions& options, std::string& error) const
+    {
+        const SceneOf scene_of = [&](BakeScenePointer& other, const VismapRecipe& recipe, std::string& reason) {
+            SceneStamps stamps;
+            std::string at;
+            return stamp_scene(stamps, recipe, at, reason)
+                && share_scene(other, recipe, stamps, options.threads, nullptr, at, reason);
+        };
+        if (forecast_bake(dst, scene, normal_map, m_given, scene_of, options, error))
+            return true;
+        error = options.chain.empty() ? error : format("\"{}\": {}", options.chain.back(), error);
+        return false;
+    }
+
     bool prepare(std::string& error)
     {
         std::string at;
@@ -137,7 +208,7 @@ private:
         return true;
     }
 
-    const VismapRecipe m_recipe;
+    const VismapRecipe m_given, m_recipe; // as written; and with its switches applied
     const SceneStamps m_stamps;
     RunOnce m_prepare;
     BakeScenePointer m_scene;
@@ -183,7 +254,7 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
         return nullptr;
     SceneStamps stamps;
     std::string at;
-    if (!stamp_scene(stamps, recipe, at, error)) {
+    if (!stamp_scene(stamps, with_switches(recipe), at, error)) {
         error = with_location(recipe, at, chain, error);
         return nullptr;
     }
@@ -198,6 +269,13 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
     if (PixelSourcePointer known = find_source(key))
         return known;
     return keep_source(std::make_shared<VismapSource>(key, recipe, std::move(stamps)));
+}
+
+bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
+    const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
+    return vismap && vismap->report_plan(options, error);
 }
 
 bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)

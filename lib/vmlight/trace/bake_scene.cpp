@@ -2,6 +2,7 @@
 #include <vmlight/trace/bake_scene.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/trace/horizon.h>
 #include <vmlight/trace/surface.h>
 
 #include <algorithm>
@@ -79,7 +80,7 @@ void BakeScene::measure()
 }
 
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
-                      std::string& error)
+                      std::string& error, const SceneChoice& choice)
 {
     error = bake_fault(*mesh);
     if (!error.empty())
@@ -94,10 +95,10 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     for (const Mesh* caster : casters)
         if (!check_reach(*caster, m_frame, error))
             return false;
-    const auto occluder = std::make_shared<Occluder>();
-    if (!occluder->build(casters, m_frame, nthreads, error))
+    m_mesh = std::move(mesh);
+    m_choice = choice;
+    if (!trace(occluders, nthreads, error))
         return false;
-    m_occluder = occluder;
     for (const Mesh& caster : occluders)
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
     for (const Mesh* caster : casters) {
@@ -105,9 +106,31 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
         for (const std::string& warning : caster->warnings)
             m_warnings.push_back(format("\"{}\": {}", caster->path.empty() ? caster->name : caster->path, warning));
     }
-    m_mesh = std::move(mesh);
+    m_lowest = std::numeric_limits<double>::infinity();
+    for (const auto& triangle : m_mesh->triangles)
+        for (const uint32_t vertex : triangle)
+            m_lowest = std::min(m_lowest, m_mesh->positions[vertex].y);
     measure();
     return true;
+}
+
+// Give Embree what the rays of the mesh can meet.
+bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error)
+{
+    std::vector<const Mesh*> casters;
+    if (m_choice.self)
+        casters.push_back(m_mesh.get());
+    SceneBox box = scene_box(*m_mesh, m_frame);
+    for (const Mesh& occluder : occluders) {
+        m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
+        box.add(scene_box(occluder, m_frame));
+        if (m_reach.back().is_traced(m_choice))
+            casters.push_back(&occluder);
+    }
+    m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
+    const auto occluder = std::make_shared<Occluder>();
+    m_occluder = occluder;
+    return occluder->build(casters, m_frame, nthreads, error);
 }
 
 bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,
@@ -121,6 +144,10 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
     m_occluder_hashes
         = vmlight::mesh_hash(rest) + (whole->m_occluder_hashes.empty() ? "" : ",") + whole->m_occluder_hashes;
     m_triangles = whole->m_triangles;
+    m_lowest = whole->m_lowest;
+    m_diagonal = whole->m_diagonal;
+    m_choice = whole->m_choice;
+    m_reach = whole->m_reach;
     m_warnings = whole->m_warnings;
     files = whole->files;
     m_mesh = std::move(part);
@@ -132,8 +159,8 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
 size_t BakeScene::bytes() const
 {
     // Embree needs about 100 bytes per triangle.
-    return (m_whole ? m_whole->bytes() : 100 * size_t(m_triangles)) + 20 * m_mesh->triangles.size()
-        + 48 * m_mesh->positions.size();
+    return (m_whole ? m_whole->bytes() : 100 * size_t(m_triangles) + m_occluder->cutouts().bytes)
+        + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
 }
 
 } // namespace vmlight

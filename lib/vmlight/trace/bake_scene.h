@@ -4,6 +4,7 @@
 
 #include <vmlight/base/file_stamp.h>
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/trace/caster_reach.h>
 #include <vmlight/trace/occluder.h>
 
 #include <cstddef>
@@ -22,7 +23,9 @@ public:
     /// @param mesh     kept alive; `occluders` are not
     /// @returns false, with the reason in `error`, if the mesh has no triangles or no uvs, a mesh fails check_mesh() or
     ///          is too far away to be traced, or memory runs out
-    bool build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads, std::string& error);
+    /// @param choice   what of them is traced. With the default, occluders that no ray can meet are left out
+    bool build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads, std::string& error,
+               const SceneChoice& choice = {});
 
     /// A scene that bakes `part` of the mesh of `whole`, which is kept alive: all of `whole` occludes, in the same
     /// frame, so that the part's texels get the same bits as those of the whole mesh.
@@ -46,8 +49,18 @@ public:
     double rounding() const { return m_rounding; }
     /// Mesh::warnings of the mesh and its occluders, after their paths.
     const std::vector<std::string>& warnings() const { return m_warnings; }
+    /// What is traced of the meshes given, and each occluder with the reason.
+    const SceneChoice& choice() const { return m_choice; }
+    const std::vector<CasterReach>& reach() const { return m_reach; }
+    /// Of the box around the mesh and its occluders, in mesh units.
+    double diagonal() const { return m_diagonal; }
+    /// Least y of the whole mesh, in mesh units.
+    double lowest() const { return m_lowest; }
     /// Approximate memory use.
     size_t bytes() const;
+
+    /// As if the mesh were part of one whose least y is this.
+    void set_lowest(double y) { m_lowest = y; }
 
     /// The files that the caller read to build the scene, for those who share it.
     std::vector<FileStamp> files;
@@ -56,6 +69,7 @@ public:
 
 private:
     void measure();
+    bool trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error);
 
     std::shared_ptr<const Mesh> m_mesh;
     std::shared_ptr<const BakeScene> m_whole; // of which this is a part, or nullptr
@@ -64,7 +78,9 @@ private:
     std::string m_mesh_hash, m_occluder_hashes;
     std::vector<std::string> m_warnings;
     int64_t m_triangles = 0, m_tiny = 0;
-    double m_rounding = 0;
+    double m_rounding = 0, m_lowest = 0, m_diagonal = 0;
+    SceneChoice m_choice;
+    std::vector<CasterReach> m_reach;
 };
 
 /// A non-owning pointer to `mesh`, which must outlive it.

@@ -8,6 +8,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <vmlight/trace/cutouts.h>
+
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -18,6 +20,12 @@ namespace vmlight::embree {
 /// Required by a scene whose queries have a filter.
 constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 
+/// What the filters of a query's hits get at.
+struct QueryContext : RTCRayQueryContext
+{
+    CutoutWork cutouts;
+};
+
 /// The arguments of a query besides its rays, which are marked incoherent.
 class Query
 {
@@ -25,15 +33,19 @@ public:
     /// @param filter   called for each hit, which it can reject; nullptr accepts all
     explicit Query(RTCFilterFunctionN filter = nullptr)
     {
+        rtcInitRayQueryContext(&m_context);
         rtcInitOccludedArguments(&m_arguments);
+        m_arguments.context = &m_context;
         m_arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
         if (filter)
             m_arguments.flags = RTCRayQueryFlags(m_arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
         m_arguments.filter = filter;
     }
     void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &rays, &m_arguments); }
+    const CutoutWork& cutouts() const { return m_context.cutouts; }
 
 private:
+    QueryContext m_context;
     RTCOccludedArguments m_arguments;
 };
 
@@ -48,6 +60,11 @@ inline void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)
 #else
 constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
+struct QueryContext : RTCIntersectContext
+{
+    CutoutWork cutouts;
+};
+
 class Query
 {
 public:
@@ -58,9 +75,10 @@ public:
         m_context.filter = filter;
     }
     void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &m_context, &rays); }
+    const CutoutWork& cutouts() const { return m_context.cutouts; }
 
 private:
-    RTCIntersectContext m_context;
+    QueryContext m_context;
 };
 
 inline void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)

@@ -3,11 +3,59 @@
 
 #include <vmlight/base/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace vmlight::embree {
 
+using Imath::V3d;
 using Imath::V3f;
+
+namespace {
+
+// Bits that are those of no other ray of a texel: where it starts and where it goes are a function of texel, ray and
+// seed, so that a number for each ray need not be passed along.
+uint64_t ray_bits(const V3f& origin, const V3f& direction)
+{
+    uint64_t bits = 0;
+    for (const V3f& v : { origin, direction })
+        for (int axis = 0; axis < 3; ++axis) {
+            uint32_t word;
+            std::memcpy(&word, &v[axis], sizeof(word));
+            bits = (bits ^ word) * 0x9e3779b97f4a7c15u;
+            bits ^= bits >> 32;
+        }
+    return bits;
+}
+
+} // namespace
+
+void reject_open_hits(const RTCFilterFunctionNArguments* arguments)
+{
+    const auto& buffers = *static_cast<const Buffers*>(arguments->geometryUserPtr);
+    CutoutWork& work = static_cast<QueryContext*>(arguments->context)->cutouts;
+    RTCRayN* ray = arguments->ray;
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (!arguments->valid[i])
+            continue;
+        const unsigned triangle = RTCHitN_primID(arguments->hit, n, i);
+        const auto& corners = buffers.triangles[triangle];
+        const V3f start(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
+        const V3f along(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
+        // Embree's own u and v differ in their last bits from one instruction set to another.
+        const V3d a(buffers.vertices[corners[0]]), origin(start), direction(along);
+        const V3d side1 = V3d(buffers.vertices[corners[1]]) - a, side2 = V3d(buffers.vertices[corners[2]]) - a;
+        const V3d p = direction.cross(side2), s = origin - a, q = s.cross(side1);
+        const double scale = 1 / side1.dot(p);
+        const double u = s.dot(p) * scale, v = direction.dot(q) * scale;
+        const double inside_u = u > 0 ? std::min(u, 1.0) : 0; // not a number: 0
+        const double inside_v = v > 0 ? std::min(v, 1 - inside_u) : 0;
+        const double opacity = buffers.cutouts->opacity(triangle, inside_u, inside_v, work);
+        if (opacity <= 0 || (opacity < 1 && buffers.cutouts->passes(triangle, opacity, ray_bits(start, along))))
+            arguments->valid[i] = 0;
+    }
+}
 
 Scene::~Scene()
 {
@@ -31,7 +79,8 @@ bool Scene::attach(const Mesh& mesh, const SceneFrame& frame, unsigned id)
         for (size_t v = 0; v < mesh.positions.size(); ++v)
             static_cast<V3f*>(vertices)[v] = frame.to_scene(mesh.positions[v]);
         std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(uint32_t));
-        m_buffers.push_back({ static_cast<V3f*>(vertices), static_cast<std::array<uint32_t, 3>*>(indices) });
+        m_buffers.push_back(
+            { static_cast<V3f*>(vertices), static_cast<std::array<uint32_t, 3>*>(indices), mesh.triangles.size() });
         rtcSetGeometryUserData(geometry, &m_buffers.back());
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(m_scene, geometry, id);
@@ -40,8 +89,49 @@ bool Scene::attach(const Mesh& mesh, const SceneFrame& frame, unsigned id)
     return good;
 }
 
+bool Scene::attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& part, const Cutouts* cutouts,
+                        unsigned id)
+{
+    if (part.empty())
+        return true;
+    RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(V3f),
+                         mesh.positions.size());
+    auto* indices = static_cast<std::array<uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), part.size()));
+    if (indices) {
+        for (size_t i = 0; i < part.size(); ++i)
+            indices[i] = mesh.triangles[part[i]];
+        m_buffers.push_back({ static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, part.size(), cutouts });
+        rtcSetGeometryUserData(geometry, &m_buffers.back());
+        if (cutouts)
+            rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(m_scene, geometry, id);
+    }
+    rtcReleaseGeometry(geometry);
+    return indices != nullptr;
+}
+
+// Transparent triangles are in neither geometry. The two share their vertices.
+bool Scene::attach_sorted(const Mesh& mesh, const Cutouts& cutouts, const SceneFrame& frame, unsigned id,
+                          unsigned mixed_id)
+{
+    // Embree reads four floats of each vertex.
+    RTCBuffer vertices = rtcNewBuffer(m_device, mesh.positions.size() * sizeof(V3f) + 16);
+    auto* positions = vertices ? static_cast<V3f*>(rtcGetBufferData(vertices)) : nullptr;
+    if (!positions)
+        return false;
+    for (size_t v = 0; v < mesh.positions.size(); ++v)
+        positions[v] = frame.to_scene(mesh.positions[v]);
+    const bool good = attach_part(vertices, mesh, cutouts.opaque(), nullptr, id)
+        && attach_part(vertices, mesh, cutouts.mixed(), &cutouts, mixed_id);
+    rtcReleaseBuffer(vertices);
+    return good;
+}
+
 std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
-                                    std::string& error)
+                                    std::string& error, const std::vector<std::unique_ptr<const Cutouts>>& cutouts)
 {
     auto scene = std::make_unique<Scene>();
     // A thread count limits all of the process's TBB work for good: set it only if the user did.
@@ -52,7 +142,10 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
         scene->m_scene = rtcNewScene(scene->m_device);
         rtcSetSceneFlags(scene->m_scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilteredByQuery));
         for (size_t id = 0; id < meshes.size(); ++id)
-            good = good && scene->attach(*meshes[id], frame, unsigned(id));
+            good = good
+                && (id < cutouts.size() && cutouts[id] ? scene->attach_sorted(
+                        *meshes[id], *cutouts[id], frame, unsigned(id), unsigned(meshes.size() + id))
+                                                       : scene->attach(*meshes[id], frame, unsigned(id)));
         rtcCommitScene(scene->m_scene);
         good = good && rtcGetDeviceError(scene->m_device) == RTC_ERROR_NONE;
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/trace/cutouts.h>
 #include <vmlight/trace/embree.h>
 #include <vmlight/trace/occluder.h>
 
@@ -15,12 +16,18 @@
 
 namespace vmlight::embree {
 
-/// Embree's buffers of a mesh: the user data of its geometry.
+/// Embree's buffers of a mesh, or of some of its triangles: the user data of its geometry.
 struct Buffers
 {
     const Imath::V3f* vertices;
     const std::array<uint32_t, 3>* triangles;
+    size_t triangle_count;
+    /// Of what cut-outs the triangles are the mixed ones, or nullptr.
+    const Cutouts* cutouts = nullptr;
 };
+
+/// Embree's filter of shadow rays' hits on mixed triangles: rejects those where light passes.
+void reject_open_hits(const RTCFilterFunctionNArguments* arguments);
 
 class Scene
 {
@@ -32,13 +39,23 @@ public:
 
     /// Build the scene from the triangles of all `meshes`; the geometry of each has its index as its ID. Traversal is
     /// robust. nullptr, with the reason in `error`, if Embree fails (out of memory).
+    ///
+    /// @param cutouts  of each mesh, nullptr where all of it is opaque; or none: no mesh is cut out. Must outlive the
+    ///                 scene. The mixed triangles of mesh i are the geometry meshes.size() + i
     static std::unique_ptr<Scene> build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
-                                        std::string& error);
+                                        std::string& error,
+                                        const std::vector<std::unique_ptr<const Cutouts>>& cutouts = {});
 
     RTCScene handle() const { return m_scene; }
+    /// Those of each geometry.
+    const std::deque<Buffers>& buffers() const { return m_buffers; }
 
 private:
     bool attach(const Mesh& mesh, const SceneFrame& frame, unsigned id);
+    bool attach_sorted(const Mesh& mesh, const Cutouts& cutouts, const SceneFrame& frame, unsigned id,
+                       unsigned mixed_id);
+    bool attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& part, const Cutouts* cutouts,
+                     unsigned id);
 
     RTCDevice m_device = nullptr;
     RTCScene m_scene = nullptr;

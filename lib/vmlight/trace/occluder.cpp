@@ -60,10 +60,32 @@ void reject_hits_behind_origin(const RTCFilterFunctionNArguments* arguments)
 Occluder::Occluder() = default;
 Occluder::~Occluder() = default;
 
-bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error)
+bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
+                     CutoutMode mode)
 {
-    m_scene = embree::Scene::build(meshes, frame, nthreads, error);
+    for (size_t i = 0; i < meshes.size(); ++i) {
+        m_cutouts.push_back(Cutouts::make(*meshes[i], uint32_t(i), nthreads, mode));
+        if (m_cutouts.back())
+            m_counts.add(m_cutouts.back()->counts());
+    }
+    m_scene = embree::Scene::build(meshes, frame, nthreads, error, m_cutouts);
     return m_scene != nullptr;
+}
+
+void Occluder::count(const CutoutWork& work) const
+{
+    if (work.hits == 0)
+        return;
+    m_hits += work.hits;
+    m_lookups += work.lookups;
+}
+
+std::vector<TracedTriangles> Occluder::triangles() const
+{
+    std::vector<TracedTriangles> all;
+    for (const embree::Buffers& mesh : m_scene->buffers())
+        all.push_back({ mesh.vertices, mesh.triangles, mesh.triangle_count });
+    return all;
 }
 
 void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool is_near) const
@@ -96,6 +118,7 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
             open |= uint8_t(rays.tfar[lane] >= 0) << lane; // Embree sets tfar to -infinity where a ray is blocked
         fan.lanes[packet] = live & open;
     }
+    Occluder::count(query.cutouts());
 }
 
 uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length) const
@@ -113,6 +136,7 @@ uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int co
         valid[lane] = lane < count ? -1 : 0;
     }
     query.occluded8(valid, m_scene->handle(), rays);
+    Occluder::count(query.cutouts());
     uint8_t blocked = 0;
     for (int lane = 0; lane < count; ++lane)
         blocked |= uint8_t(!(rays.tfar[lane] >= 0)) << lane;

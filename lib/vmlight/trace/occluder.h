@@ -5,7 +5,11 @@
 #include <Imath/ImathVec.h>
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/trace/cutouts.h>
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -28,6 +32,16 @@ struct SceneFrame
     Imath::V3f to_scene(const Imath::V3d& p) const { return Imath::V3f((p - centre) * scale); }
 };
 
+/// The triangles of one mesh in a ray-tracing scene, as they are traced.
+struct TracedTriangles
+{
+    const Imath::V3f* vertices;
+    const std::array<uint32_t, 3>* triangles;
+    size_t count;
+
+    const Imath::V3f& corner(size_t triangle, int k) const { return vertices[triangles[triangle][size_t(k)]]; }
+};
+
 /// Triangles in an Embree scene: built once, then traced from any number of threads.
 class Occluder
 {
@@ -39,7 +53,11 @@ public:
 
     /// Build the scene from the triangles of all `meshes`. False, with the reason in `error`, if Embree fails (out of
     /// memory). Traversal is robust: rays do not leak between triangles that share vertices.
-    bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error);
+    ///
+    /// What Mesh::opacity says of a mesh is honoured: rays pass where it is transparent, and as often as it says where
+    /// it is in between.
+    bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
+               CutoutMode mode = CutoutMode::micromaps);
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`, which must be off
     /// the surface: see SurfacePoint. Not checked: that build() succeeded.
@@ -51,8 +69,20 @@ public:
     /// for `is_near`.
     uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length) const;
 
+    /// After build().
+    const CutoutCounts& cutouts() const { return m_counts; }
+    /// What rays have asked so far.
+    CutoutWork cutout_work() const { return { m_hits, m_lookups }; }
+    /// All triangles that rays can meet. Valid as long as this is.
+    std::vector<TracedTriangles> triangles() const;
+
 private:
-    std::unique_ptr<embree::Scene> m_scene;
+    void count(const CutoutWork& work) const;
+
+    std::vector<std::unique_ptr<const Cutouts>> m_cutouts;
+    CutoutCounts m_counts;
+    mutable std::atomic<int64_t> m_hits { 0 }, m_lookups { 0 };
+    std::unique_ptr<embree::Scene> m_scene; // refers to m_cutouts
 };
 
 } // namespace vmlight

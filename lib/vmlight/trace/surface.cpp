@@ -24,6 +24,18 @@ void adjust_ray_origins(SurfacePoint* points, int count, const Occluder& occlude
         }
 }
 
+V3d surface_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
+{
+    V3d shading(0);
+    for (const uint32_t corner : triangle) {
+        const V3d normal(mesh.normals[corner]);
+        shading += std::isfinite(normal.length2()) ? normal : V3d(0);
+    }
+    const V3d area_normal = triangle_area_normal(mesh, triangle);
+    // Vertex normals decide which side is outside, not the winding, which is wrong in files far more often.
+    return area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
+}
+
 SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
 {
     if (triangle != m_triangle)
@@ -50,19 +62,14 @@ void Surface::load_triangle(uint32_t triangle)
 {
     m_triangle = triangle;
     const auto& corners = m_mesh.triangles[triangle];
-    V3d shading(0);
     for (int k = 0; k < 3; ++k) {
         // The floats that are traced: the point must be in the plane of the traced triangle.
         m_corner[k] = V3d(m_frame.to_scene(m_mesh.positions[corners[k]]));
         const V3d normal(m_mesh.normals[corners[k]]);
         m_corner_normal[k] = std::isfinite(normal.length2()) ? normal : V3d(0);
-        shading += m_corner_normal[k];
     }
     const double area = (m_corner[1] - m_corner[0]).cross(m_corner[2] - m_corner[0]).length();
-    // In double: the normal of a sliver rounded to floats may point anywhere.
-    const V3d area_normal = triangle_area_normal(m_mesh, corners);
-    // Vertex normals decide which side is outside, not the winding, which is wrong in files far more often.
-    m_normal = area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
+    m_normal = surface_normal(m_mesh, corners);
     for (int k = 0; k < 3; ++k) {
         const double edge = (m_corner[(k + 1) % 3] - m_corner[(k + 2) % 3]).length();
         const double height = edge > 0 ? area / edge : 0;

@@ -37,6 +37,10 @@ struct SurfacePoint
 /// @param count    at most kPacketSize
 void adjust_ray_origins(SurfacePoint* points, int count, const Occluder& occluder);
 
+/// The normal of a triangle on the side of its corner normals, unit length; zero without area. In double: the normal of
+/// a sliver rounded to floats may point anywhere.
+Imath::V3d surface_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle);
+
 /// The surface of a mesh in a SceneFrame. Caches the last triangle: use one per thread.
 class Surface
 {

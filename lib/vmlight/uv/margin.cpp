@@ -46,7 +46,7 @@ double dot(const float* a, const float* b)
 }
 
 void average_neighbours(float* pixels, int channels, const MarginChannels& which, const Coverage& coverage,
-                        const Texel& t)
+                        const Texel& t, MarginPlan* plan)
 {
     const auto at = [&](const Texel& n) {
         return pixels + (size_t(n.y) * size_t(coverage.width()) + size_t(n.x)) * size_t(channels);
@@ -69,6 +69,11 @@ void average_neighbours(float* pixels, int channels, const MarginChannels& which
         return product < 0 || 4 * product * product < 3 * dot(texel, texel) * dot(longest, longest);
     };
     const auto end = std::remove_if(filled.begin(), filled.begin() + count, is_too_different);
+    if (plan) {
+        plan->texels.push_back({ uint32_t((at(t) - pixels) / channels), uint32_t(end - filled.begin()) });
+        for (auto texel = filled.begin(); texel != end; ++texel)
+            plan->sources.push_back(uint32_t((*texel - pixels) / channels));
+    }
     std::copy_n(longest + which.averaged, which.copied, at(t) + which.averaged);
     for (int c = 0; c < which.averaged; ++c) {
         double sum = 0;
@@ -88,7 +93,8 @@ Coverage::Coverage(int width, int height)
 {
 }
 
-void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, const MarginChannels& filled)
+void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, const MarginChannels& filled,
+                 MarginPlan* plan)
 {
     std::vector<Texel> front = border_texels(coverage), next;
     Coverage queued = coverage;
@@ -102,11 +108,26 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, con
                 }
             });
         for (const Texel& t : next)
-            average_neighbours(pixels, channels, filled, coverage, t);
+            average_neighbours(pixels, channels, filled, coverage, t, plan);
         // Only now: the result must not depend on the order within a ring.
         for (const Texel& t : next)
             coverage.set(t.x, t.y);
         front.swap(next);
+    }
+}
+
+void MarginPlan::fill(float* pixels, int channels) const
+{
+    const size_t stride = size_t(channels);
+    const uint32_t* source = sources.data();
+    for (const Texel& texel : texels) {
+        for (size_t c = 0; c < stride; ++c) {
+            double sum = 0;
+            for (uint32_t k = 0; k < texel.sources; ++k)
+                sum += double(pixels[size_t(source[k]) * stride + c]);
+            pixels[size_t(texel.index) * stride + c] = float(sum / double(texel.sources));
+        }
+        source += texel.sources;
     }
 }
 

@@ -37,11 +37,29 @@ struct MarginChannels
     int copied = 0; ///< channels after those, which cannot be averaged
 };
 
+/// Where the averages of a margin are from, to fill further images of the same texels alike, and fast.
+struct MarginPlan
+{
+    struct Texel
+    {
+        uint32_t index; ///< row by row
+        uint32_t sources; ///< how many of `sources`, after those of the texels before
+    };
+    std::vector<Texel> texels; ///< ring by ring
+    std::vector<uint32_t> sources; ///< indices
+
+    /// Fill the margin of `pixels`, all of whose `channels` are averaged.
+    void fill(float* pixels, int channels) const;
+    size_t bytes() const { return texels.capacity() * sizeof(Texel) + sources.capacity() * sizeof(uint32_t); }
+};
+
 /// Grow `coverage` by `rings` texels (negative: until every texel is filled). The averaged channels of a new texel are
 /// the mean over those of its eight neighbours that were filled before its ring and whose direction (channels 1 to 3)
 /// is within 30 degrees of the longest one. Values stay in the convex hull of the covered ones, so that |B| <= V holds
 /// in the margin too. The copied channels come from the neighbour with the longest direction. Time is linear in the
 /// texels filled. `pixels` has `channels` floats per texel, rows without padding.
-void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, const MarginChannels& filled = {});
+/// `plan` is nullptr, or where to append what was averaged.
+void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, const MarginChannels& filled = {},
+                 MarginPlan* plan = nullptr);
 
 } // namespace vmlight

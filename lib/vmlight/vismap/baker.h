@@ -9,6 +9,7 @@
 #include <vmlight/uv/margin.h>
 #include <vmlight/uv/raster.h>
 #include <vmlight/vismap/normal_map.h>
+#include <vmlight/vismap/open_triangles.h>
 #include <vmlight/vismap/sample_count.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -34,7 +35,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
 /// Counts of a bake, or of some tiles of it.
 struct BakeCounts
 {
-    int64_t covered = 0, overlapping = 0, dark = 0, rays = 0;
+    int64_t covered = 0, overlapping = 0, dark = 0, rays = 0, open = 0;
     int64_t tiles = 0; ///< with a covered texel
     void add(const BakeCounts& other);
 };
@@ -82,6 +83,8 @@ public:
     /// The parameters, with the chosen number of rays; and its error.
     const VismapParams& params() const;
     const SampleCount& error() const;
+    /// Which triangles trace no ray.
+    const OpenTriangles& open() const;
 
     /// Working memory of one thread.
     class Scratch;

@@ -4,6 +4,7 @@
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/math/sampling.h>
+#include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
@@ -24,12 +25,13 @@ VismapPilot::VismapPilot(const BakeScene& scene, const NormalMap* normal_map, co
     : m_scene(scene)
     , m_normal_map(normal_map)
     , m_params(params)
+    , m_ground(ground_of(scene, params))
     , m_threads(nthreads)
     , m_progress([progress](double) { return !progress || progress(0); })
 {
 }
 
-bool VismapPilot::pick(const UvRaster& raster)
+bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open)
 {
     struct Worker
     {
@@ -72,11 +74,12 @@ bool VismapPilot::pick(const UvRaster& raster)
             for (; rank != ranks.end() && *rank == at; ++rank) {
                 Texel& texel = m_texels[size_t(rank - ranks.begin())];
                 texel = { surface->at(cover.triangle[size_t(i)], cover.weight1[size_t(i)], cover.weight2[size_t(i)]),
-                          tile_x + i % kTileSize, tile_y + i / kTileSize };
+                          tile_x + i % kTileSize, tile_y + i / kTileSize, open.is_open(cover.triangle[size_t(i)]) };
                 if (m_normal_map)
                     m_normal_map->apply(texel.point, cover.triangle[size_t(i)], cover.weight1[size_t(i)],
                                         cover.weight2[size_t(i)], texel.x, texel.y);
-                adjust_ray_origins(&texel.point, 1, m_scene.occluder());
+                if (!texel.open)
+                    adjust_ray_origins(&texel.point, 1, m_scene.occluder());
             }
             ++at;
         }
@@ -84,9 +87,9 @@ bool VismapPilot::pick(const UvRaster& raster)
     return parallel_items(int64_t(before.size()) - 1, m_threads, take, m_progress);
 }
 
-bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
+// Bake the texels `times` times, at most twice, with two seeds.
+bool VismapPilot::bake(std::vector<std::array<Visibility, 2>>& seen, int samples, int times, bool with_basis) const
 {
-    const Stopwatch timer;
     const SamplePattern pattern(m_params.sampler, samples, m_params.measure == "uniform");
     const Point32 hash = texel_hash(uint32_t(samples), 0, uint32_t(m_params.seed));
     std::array<VismapParams, 2> params { m_params, m_params };
@@ -102,24 +105,41 @@ bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
     std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
     for (Worker& worker : workers) {
         for (size_t k = 0; k < 2; ++k)
-            worker.integrators[k]
-                = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), pattern, params[k], m_scene.frame().scale);
+            worker.integrators[k] = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), pattern, params[k],
+                                                                           m_scene.frame().scale, m_ground);
         worker.basis.resize(basis_channels(m_params).size());
     }
-    std::vector<std::array<Visibility, 2>> seen(m_texels.size());
+    seen.resize(m_texels.size());
     const int64_t step = std::max<int64_t>(1, kRaysPerItem / samples);
     const auto bake = [&](int64_t item, int worker) {
         auto& [integrators, basis] = workers[size_t(worker)];
         for (int64_t i = item * step; i < std::min(texels(), (item + 1) * step); ++i)
-            for (size_t k = 0; k < 2; ++k) {
+            for (size_t k = 0; k < size_t(times); ++k) {
                 const Texel& texel = m_texels[size_t(i)];
-                seen[size_t(i)][k]
-                    = integrators[k]->integrate(texel.point, texel.x, texel.y, with_basis ? basis.data() : nullptr);
+                seen[size_t(i)][k] = integrators[k]->integrate(texel.point, texel.x, texel.y, texel.open,
+                                                               with_basis ? basis.data() : nullptr);
             }
     };
-    if (!parallel_items((texels() + step - 1) / step, m_threads, bake, m_progress))
-        return false;
+    return parallel_items((texels() + step - 1) / step, m_threads, bake, m_progress);
+}
 
+bool VismapPilot::visibility(int samples, std::vector<double>& dst) const
+{
+    std::vector<std::array<Visibility, 2>> seen;
+    if (!bake(seen, samples, 1, false))
+        return false;
+    dst.clear();
+    for (const auto& texel : seen)
+        dst.push_back(texel[0].visibility);
+    return true;
+}
+
+bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
+{
+    const Stopwatch timer;
+    std::vector<std::array<Visibility, 2>> seen;
+    if (!bake(seen, samples, 2, with_basis))
+        return false;
     double variance = 0, lane_variance = 0;
     for (const auto& [one, other] : seen) {
         variance += std::pow(one.visibility - other.visibility, 2) / 2;

@@ -4,11 +4,15 @@
 
 #include <vmlight/base/progress.h>
 #include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/ground_plane.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
 #include <vmlight/vismap/normal_map.h>
+#include <vmlight/vismap/open_triangles.h>
+#include <vmlight/vismap/visibility_integrator.h>
 #include <vmlight/vismap/vismap.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -38,7 +42,7 @@ public:
                 const Progress& progress);
 
     /// Pick covered texels evenly over the map. A function of coverage alone. False if stopped.
-    bool pick(const UvRaster& raster);
+    bool pick(const UvRaster& raster, const OpenTriangles& open);
 
     // After pick().
     /// Covered texels of the whole map, and picked ones.
@@ -52,15 +56,22 @@ public:
     /// @param with_basis also compute the channels of the basis, so that the seconds are those of the bake
     bool measure(int samples, PilotError& dst, bool with_basis = false) const;
 
+    /// Bake the texels once: V of each. False if stopped.
+    bool visibility(int samples, std::vector<double>& dst) const;
+
 private:
+    bool bake(std::vector<std::array<Visibility, 2>>& seen, int samples, int times, bool with_basis) const;
+
     struct Texel
     {
         SurfacePoint point;
         int x, y;
+        bool open;
     };
     const BakeScene& m_scene;
     const NormalMap* m_normal_map;
     const VismapParams m_params;
+    const GroundPlane m_ground;
     const int m_threads;
     const Progress m_progress;
     int64_t m_covered = 0;

@@ -101,8 +101,8 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 } // namespace
 
 bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* normal_map, const UvRaster& raster,
-                    const VismapParams& params, double time_budget, int nthreads, const Progress& progress,
-                    std::string& error)
+                    const OpenTriangles& open, const VismapParams& params, double time_budget, int nthreads,
+                    const Progress& progress, std::string& error)
 {
     dst = {};
     dst.samples = params.samples;
@@ -121,7 +121,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
     }
     const Stopwatch timer;
     VismapPilot pilot(scene, normal_map, params, nthreads, progress);
-    if (!pilot.pick(raster))
+    if (!pilot.pick(raster, open))
         return stopped();
     PilotError measured;
     if (target > 0) {

@@ -48,7 +48,7 @@ template <class Test> void VisibilityIntegrator::take_out(const Test& is_out)
         }
 }
 
-Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, float* basis)
+Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, bool open, float* basis)
 {
     const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
     const bool is_mapped = point.normal != point.mesh_normal;
@@ -74,13 +74,22 @@ Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, flo
         m_traced = m_fan.lanes;
     if (is_mapped)
         take_out([&](const V3f& ray) { return ray.dot(point.geometric_normal) <= 0; });
-    m_rays += is_mapped ? sum_directions(m_fan, point.normal).rays : all.rays;
-    m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
-    const DirectionSums seen = sum_directions(m_fan, point.normal);
+    // Those that the surface itself does not block.
+    const DirectionSums above = is_mapped ? sum_directions(m_fan, point.normal) : all;
 
     Visibility result;
-    result.visibility = double(seen.rays) / double(all.rays);
-    result.direction = mean_direction(seen, all, point.normal);
+    if (m_ground.exists()) {
+        trace_over_ground(result, point, all, open, is_mapped);
+    } else {
+        if (!open) {
+            m_rays += above.rays;
+            m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
+        }
+        const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
+        result.visibility = double(seen.rays) / double(all.rays);
+        result.direction = mean_direction(seen, all, point.normal);
+        result.error = m_wants_error ? lane_scatter(m_traced, m_fan.lanes) : 0;
+    }
     // Chance, and above all rays that are not traced because they are below the facet, make of the rest what no
     // surface can see: too narrow a part of the sky, and so too bright a light under a sun.
     const double length = result.direction.length(), longest = longest_direction(result.visibility);
@@ -93,9 +102,38 @@ Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, flo
         m_basis->project({ m_fan, m_traced, all.rays == m_pattern.count(), point.normal, point.geometric_normal,
                            result.visibility, narrowed },
                          basis);
-    if (m_wants_error)
-        result.error = lane_scatter(m_traced, m_fan.lanes);
     return result;
+}
+
+void VisibilityIntegrator::trace_over_ground(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
+                                             bool open, bool is_mapped)
+{
+    m_ground.clear_blocked(m_fan, point);
+    const DirectionSums above = sum_directions(m_fan, point.normal);
+    // Exact where every direction of the hemisphere counts; of the rest, rays say how much other things block.
+    const bool exact = !is_mapped && all.rays == m_pattern.count() && m_params.measure == "cosine"
+        && m_ground.hides_lower_half(point);
+    if (exact && m_wants_error)
+        m_traced_above = m_fan.lanes;
+    if (!open && above.rays > 0) {
+        m_rays += above.rays;
+        m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
+    }
+    const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
+    dst.visibility = double(seen.rays) / double(all.rays);
+    dst.direction = mean_direction(seen, all, point.normal);
+    dst.error = m_wants_error ? lane_scatter(m_traced, m_fan.lanes) : 0;
+    if (!exact)
+        return;
+    // A ratio: 1 exactly where the ground alone occludes, 0 where nothing is visible. Without a ray above the ground
+    // nothing is known of other things; what is visible is less than a ray's share then.
+    const GroundView view = ground_view(V3d(point.normal));
+    const double share = above.rays > 0 ? double(seen.rays) / double(above.rays) : 1;
+    const double rays = double(all.rays);
+    dst.visibility = view.visibility * share;
+    dst.direction = seen.sum / rays + (view.direction - above.sum / rays) * share;
+    if (m_wants_error)
+        dst.error = view.visibility * lane_scatter(m_traced_above, m_fan.lanes);
 }
 
 V3d VisibilityIntegrator::mean_direction(const DirectionSums& seen, const DirectionSums& all,

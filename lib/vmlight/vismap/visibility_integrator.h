@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/math/sampling.h>
+#include <vmlight/trace/ground_plane.h>
 #include <vmlight/trace/occluder.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/vismap/basis.h>
@@ -38,10 +39,11 @@ public:
     /// @param occluder, pattern, params  must outlive this
     /// @param scale    from mesh units to the units of `occluder`, for VismapParams::max_distance
     VisibilityIntegrator(const Occluder& occluder, const SamplePattern& pattern, const VismapParams& params,
-                         double scale)
+                         double scale, const GroundPlane& ground = {})
         : m_occluder(occluder)
         , m_pattern(pattern)
         , m_params(params)
+        , m_ground(ground)
         , m_length(float(params.max_distance * scale))
         , m_wants_error(params.has("error"))
         , m_fan(pattern.count())
@@ -54,8 +56,10 @@ public:
     /// surface are left out: they are an error of the mesh's interpolated normal. Under a normal map that is so above
     /// the mesh's normal only, and what is below both is blocked by the surface itself.
     ///
+    /// @param open     no triangle can block a ray of the point: none is traced, and the result has the same bits. The
+    ///                 ground still blocks, and the ray origin may be as it was
     /// @param basis    nullptr, or set to one number for each of basis_channels()
-    Visibility integrate(SurfacePoint point, int x, int y, float* basis = nullptr);
+    Visibility integrate(SurfacePoint point, int x, int y, bool open, float* basis = nullptr);
 
     /// Rays traced so far.
     int64_t rays() const { return m_rays; }
@@ -63,17 +67,21 @@ public:
 private:
     // Rays of the fan for which is_out(direction) is true.
     template <class Test> void take_out(const Test& is_out);
+    // Trace what the ground leaves of the fan, and set V, B and their error.
+    void trace_over_ground(Visibility& dst, const SurfacePoint& point, const DirectionSums& all, bool open,
+                           bool is_mapped);
     // B of the rays, however long.
     Imath::V3d mean_direction(const DirectionSums& seen, const DirectionSums& all, const Imath::V3f& normal) const;
 
     const Occluder& m_occluder;
     const SamplePattern& m_pattern;
     const VismapParams& m_params;
+    const GroundPlane m_ground;
     float m_length;
     bool m_wants_error;
     RayFan m_fan;
     std::unique_ptr<BasisAccumulator> m_basis;
-    std::vector<uint8_t> m_traced; // lane bits before the rays are traced
+    std::vector<uint8_t> m_traced, m_traced_above; // lane bits before the rays are traced; and above the ground
     int64_t m_rays = 0;
 };
 

@@ -31,7 +31,8 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
     const Stopwatch timer;
     std::string error;
     auto scene = std::make_shared<BakeScene>();
-    if (!check_params(params, error) || !scene->build(non_owning(mesh), occluders, nthreads, error))
+    if (!check_params(params, error)
+        || !scene->build(non_owning(mesh), occluders, nthreads, error, SceneChoice::within(params.max_distance)))
         return fail_with(dst, error);
     const double build_seconds = timer();
     const bool made = make_vismap(dst, scene, params, report, nthreads, progress);
@@ -78,6 +79,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     counts.overlapping = baked.overlapping;
     counts.dark = baked.dark;
     counts.rays = baked.rays;
+    counts.open = baked.open;
     counts.samples = baker.error().samples;
     counts.error = baker.error().rms;
     counts.error_texels = baker.error().texels;

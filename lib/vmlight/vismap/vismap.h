@@ -45,6 +45,14 @@ struct VismapParams
     std::string measure = "cosine";
     /// Maximum occluder distance, in mesh units.
     double max_distance = std::numeric_limits<double>::infinity();
+    /// Whether the ground occludes: everything below the horizontal plane y = `ground_height`, in mesh units; texels
+    /// below it see nothing. No ray is traced for it; where it is the only occluder, V and B are exact.
+    bool ground = false;
+    /// kLowest is the lowest point of the mesh; as text, only the word "lowest" is.
+    double ground_height = kLowest;
+    static constexpr double kLowest = -std::numeric_limits<double>::infinity();
+    /// Whether texels that provably see everything are left untraced. Changes no pixel, and so is no parameter.
+    bool skip_open = true;
     /// Texels to fill around the texels that the mesh covers; -1 fills the whole map.
     int margin = 16;
     /// Channels to add. `normal`: `normal.x`, `normal.y`, `normal.z`, the interpolated normal in object space, of unit
@@ -65,6 +73,10 @@ struct VismapParams
     /// Bands of the basis `sh`. Measured on six scenes under four skies (bench/ladder.py), relative to the error of
     /// `paper`: 4 bands leave .59, 5 leave .51, 6 leave .46, 8 leave .38. Five bands take 50 bytes per texel as half.
     int order = 5;
+    /// Discs of the sky in object space, such as suns, to store the visibility of: "x,y,z[,half angle in degrees];
+    /// ...", the half angle of the sun without. Adds the channels `sun.0`, `sun.1`, ...: (1/(solid angle)) times the
+    /// integral of vis(w) max(0, n.w) over the disc.
+    std::string sun_directions;
     /// Whether the channel (a word of `channels`) is stored; `normal` also because a basis needs it.
     VMLIGHT_API bool has(const std::string& channel) const;
 
@@ -90,6 +102,9 @@ struct VismapParams
               advanced("Weighting of directions"));
         field("max_distance", max_distance, Range { 1e-30, 1e30, "infinite", std::numeric_limits<double>::infinity() },
               "Maximum occluder distance, in mesh units");
+        field("ground", ground, Flag {}, "Let everything below a horizontal plane occlude, without end");
+        field("ground_height", ground_height, Range { -1e30, 1e30, "lowest", kLowest },
+              "Height of the ground, in mesh units; lowest: the lowest point of the mesh");
         field("margin", margin, Range { 0, 32768, "infinite", -1 }, "Dilation around UV islands, in texels");
         field("channels", channels,
               ChoiceSet { { { "normal", "shading normal, for the model ao" },
@@ -98,6 +113,8 @@ struct VismapParams
               "Extra channels to store");
         field("basis", basis, basis_choices(), "What else to store, for the shading model of the same name");
         field("order", order, Range { 3, 8 }, advanced("Number of bands of the basis sh"));
+        field("sun_directions", sun_directions, Text {},
+              advanced("Suns to store the visibility of, as x,y,z[,HALF_ANGLE];... in object space and degrees"));
     }
 };
 
@@ -128,7 +145,8 @@ struct VismapReport
     int64_t error_texels = 0;
     double expected_seconds = 0; ///< of the bake, if it had a time budget
     double pilot_seconds = 0; ///< of the texels that were baked twice
-    int64_t rays = 0; ///< rays traced: directions below the surface are not
+    int64_t rays = 0; ///< rays traced: directions below the surface are not, nor those that the ground blocks
+    int64_t open = 0; ///< covered texels of triangles that nothing rises above: they trace no ray
     double build_seconds = 0, bake_seconds = 0, margin_seconds = 0;
 };
 
@@ -142,7 +160,7 @@ struct VismapReport
 ///                 normal; directions below the geometric surface count neither as visible nor as blocked. Texels
 ///                 outside triangles and margin are 0. Row 0 is the top of the UDIM tile, v = 1. Tagged as data
 /// @param mesh     triangles with uvs; a texel that several triangles cover goes to the lowest triangle index.
-///                 Triangles without uvs occlude and are not baked
+///                 Triangles without uvs occlude and are not baked. Rays pass where Mesh::opacity says so
 /// @param occluders meshes in the same space that occlude and are not baked
 /// @param report   nullptr, or set to counts and times
 /// @param nthreads 0 means OIIO's default. The result is the same bits for every value.

@@ -2,6 +2,7 @@
 #include <vmlight/stage/recipe/chain.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/effects/switches.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/recipe/udim.h>
 
@@ -27,6 +28,12 @@ std::string identity(const std::string& name)
 std::string missing(const std::string& what, const RecipeChain& chain)
 {
     return (chain.empty() ? "" : format("\"{}\": ", chain.back())) + what + " is missing";
+}
+
+template <class Recipe> std::string effects_fault(const Recipe& recipe, const RecipeChain& chain)
+{
+    const std::string fault = switches_fault(recipe.effects, Recipe::kStage);
+    return fault.empty() ? "" : with_location(recipe, "effects", chain, (chain.empty() ? "effects: " : "") + fault);
 }
 
 // `reason` starts with a key and ": ", unless it concerns several keys.
@@ -85,7 +92,7 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
                              format("{}with unwrap the mesh gets other UVs than those of the normal map; write the "
                                     "unwrapped mesh by --write-mesh, and bake that with a normal map made for it",
                                     chain.empty() ? "normal_map: " : ""));
-    return "";
+    return effects_fault(recipe, chain);
 }
 
 std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)
@@ -101,6 +108,8 @@ std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
         return missing("environment or cfem", chain);
     if (!recipe.cfem.empty() && !recipe.environment.empty())
         return with_location(recipe, "cfem", chain, "environment is set too: set only one of them");
+    if (const std::string fault = effects_fault(recipe, chain); !fault.empty())
+        return fault;
     Rotation rotation;
     std::string error;
     return lightmap_rotation(rotation, recipe.lightmap_params, error) ? ""

@@ -27,6 +27,29 @@
 
 namespace vmlight {
 
+struct CutoutParams
+{
+    /// `auto`: rays pass where materials are transparent (glTF MASK and BLEND, `d` and `map_d` of MTL files); `off`:
+    /// all surfaces are opaque.
+    std::string cutouts = "auto";
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("cutouts", cutouts,
+              Choices { { { "auto", "as transparent as the materials of the files say" },
+                          { "off", "all surfaces are opaque" } } },
+              "Whether light passes where materials have an opacity below 1");
+    }
+};
+
+/// The key of recipes whose effects can be switched.
+template <class Visit> void visit_effects(Visit&& field, std::string& effects)
+{
+    field(
+        "effects", effects, Text {},
+        advanced("Effects to simulate: auto, all, or switches such as -ground,+self-occlusion; --explain lists them"));
+}
+
 /// `hero.vismap`
 struct VismapRecipe
 {
@@ -42,6 +65,10 @@ struct VismapRecipe
     std::string normal_map;
     NormalMapParams normal_map_params;
     VismapParams vismap_params;
+    /// Of the mesh and its occluders.
+    CutoutParams cutout_params;
+    /// Switches of effects: see effects/switches.h. "auto" is what the scene calls for.
+    std::string effects = "auto";
     /// Seconds that the bake may take; 0 is no limit. Set by a command line only: machines differ, recipes do not.
     double time_budget = 0;
     /// Whether the recipe, its name, a query or a flag gave the tile.
@@ -57,7 +84,9 @@ struct VismapRecipe
         field("normal_map", normal_map, Path {}, "Normal map of the mesh, in the UVs that are baked");
         normal_map_params.visit(field);
         vismap_params.visit(field);
+        visit_effects(field, effects);
         mesh_params.visit(field);
+        cutout_params.visit(field);
     }
 };
 
@@ -75,6 +104,13 @@ void visit_image(Visit&& field, std::string& layer, std::string& layout, std::st
           advanced("Linear colour space of the result; default: the working space"));
 }
 
+/// The words of the key `suns` of both.
+inline Choices suns_choices()
+{
+    return { { { "off", "suns stay in the environment" },
+               { "auto", "small strong lights are split off, and lit each by its own visibility" } } };
+}
+
 /// `studio.cfem`
 struct CfemRecipe
 {
@@ -89,6 +125,8 @@ struct CfemRecipe
     CfemParams cfem_params;
     /// Make a stack (cfem/stack.h): the CFEM is then the first of several images in one file.
     bool stack = false;
+    /// `auto`: filter what is left when the suns are split off (cfem/suns.h); they go to the metadata.
+    std::string suns = "off";
     int udim = kFirstUdim;
     /// Whether the recipe, its name, a query or a flag gave the tile.
     bool udim_given = false;
@@ -102,6 +140,7 @@ struct CfemRecipe
         visit_image(field, layer, layout, output_colorspace);
         field("stack", stack, Flag {},
               "Write a stack: filters of several widths and the environment itself, for all models");
+        field("suns", suns, suns_choices(), "Suns to split off, for makelightmap --suns auto");
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         cfem_params.visit(field);
     }
@@ -114,7 +153,15 @@ struct LightmapRecipe
     std::string vismap, environment, cfem, albedo;
     std::string colorspace, colorconfig, albedo_colorspace, layer, albedo_layer, output_colorspace;
     std::string layout = "auto";
+    /// As VismapRecipe::effects.
+    std::string effects = "auto";
     LightmapParams lightmap_params;
+    /// `auto`: split the suns off the environment, or use those that the CFEM was split into, and trace their shadows
+    /// on the mesh of the visibility map.
+    std::string suns = "off";
+    /// That mesh, and what else casts shadows on it, if `vismap` is a file; its recipe names them otherwise.
+    std::string mesh;
+    std::vector<std::string> occluder;
     /// How the environment is filtered: keys cfem_filter, cfem_order, cfem_resolution, cfem_sanitize.
     CfemParams cfem_params;
     int udim = kFirstUdim;
@@ -136,6 +183,10 @@ struct LightmapRecipe
         visit_image(field, layer, layout, output_colorspace);
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);
+        field("suns", suns, suns_choices(), "Lights with hard shadows, such as the sun");
+        field("mesh", mesh, Path {}, "Mesh of the visibility map, to trace suns on; a recipe of a map names it");
+        field("occluder", occluder, Paths {}, "Mesh that occluded the visibility map, to trace suns against");
+        visit_effects(field, effects);
         cfem_params.visit([&](const char* name, auto& value, const auto& allowed, const char* help) {
             field(("cfem_" + std::string(name)).c_str(), value, allowed, advanced(help));
         });

@@ -27,6 +27,8 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "a normal map in object space has no up and down";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)
         return "width and height override it";
+    if (key == "ground_height" && !recipe.vismap_params.ground)
+        return "no ground is given";
     const std::string other_basis = unused_basis_parameter(recipe.vismap_params, key);
     if (!other_basis.empty())
         return other_basis;
@@ -55,6 +57,12 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
         return "only the filter sh uses it";
     if ((key == "albedo_colorspace" || key == "albedo_layer") && recipe.albedo.empty())
         return "no albedo is given";
+    if (key == "mesh" || key == "occluder") {
+        if (recipe.suns == "off")
+            return "only suns are traced: set --suns auto";
+        if (recipe_stage(recipe.vismap) == VismapRecipe::kStage)
+            return "the recipe of the visibility map names its meshes";
+    }
     return "";
 }
 

@@ -266,7 +266,8 @@ size_t Document::stride(int view) const
 void Document::find_image(MaterialTexture& texture, int index)
 {
     if (index < 0 || size_t(index) >= m_images.size()) {
-        m_builder.warn(format("there is no image {}", index));
+        texture.missing = format("there is no image {}", index);
+        m_builder.warn(texture.missing);
         return;
     }
     const Image& image = m_images[size_t(index)];
@@ -290,6 +291,7 @@ void Document::find_image(MaterialTexture& texture, int index)
             }
         }
     } catch (const Error& error) {
+        texture.missing = error.what();
         m_builder.warn(error.what());
     }
 }

@@ -38,7 +38,8 @@ public:
     /// Whether an accessor has a buffer view: without one it is zeros.
     bool has_view(int accessor) const { return m_has_view[size_t(accessor)]; }
     const std::vector<CameraShape>& cameras() const { return m_cameras; }
-    /// Set where the image is in `texture`. If there is no such image, warns, and leaves `texture` as it was.
+    /// Set where the image is in `texture`. If there is no such image, warns, and says so in
+    /// `texture.missing`.
     void find_image(MaterialTexture& texture, int index);
 
 private:

@@ -37,8 +37,8 @@ MaterialTexture read_texture(Document& document, int index, int uv_set, const ti
     if (index < 0)
         return result;
     if (size_t(index) >= model.textures.size()) {
-        document.builder().warn(
-            format("a material uses texture {}, but there are only {}", index, model.textures.size()));
+        result.missing = format("a material uses texture {}, but there are only {}", index, model.textures.size());
+        document.builder().warn(result.missing);
         return result;
     }
     const tinygltf::Texture& texture = model.textures[size_t(index)];

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What cut-outs cost, and what opacity micromaps save:
+///     cutout_bench LEAVES.obj [resolution samples threads]
+/// LEAVES.obj is that of bench/scenes.py: its quads of a quarter of a unit are leaves, each of which gets the
+/// same alpha texture, 512 texels wide, in uvs of its own or in those of the atlas. The rays of a bake are traced
+/// through the same scene, first opaque, then with micromaps, with the texture in memory at every hit, and with
+/// OpenImageIO's texture system at every hit. All take turns; ratios of medians are printed, and whether the same rays
+/// are open.
+#include <vmlight/base/parallel.h>
+#include <vmlight/math/sampling.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/mesh/opacity.h>
+#include <vmlight/trace/embree_scene.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/uv/raster.h>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/texture.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <utility>
+
+using namespace vmlight;
+using Imath::V2f;
+using Imath::V3d;
+using Imath::V3f;
+
+namespace {
+
+constexpr int kSide = 512;
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+/// An ellipse with teeth, of which about three fifths of the card are opaque.
+std::vector<float> leaf_texels()
+{
+    std::vector<float> texels;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const double s = (x + 0.5) / kSide * 2 - 1, t = (y + 0.5) / kSide * 2 - 1;
+            const double r = std::hypot(s, t * 1.2) + 0.05 * std::sin(24 * std::atan2(t, s));
+            texels.push_back(float(std::min(1.0, std::max(0.0, (0.95 - r) * kSide / 8 + 0.5))));
+        }
+    return texels;
+}
+
+bool is_leaf(const Mesh& mesh, size_t triangle)
+{
+    const auto& t = mesh.triangles[triangle];
+    return (mesh.positions[t[1]] - mesh.positions[t[0]]).length() < 0.36;
+}
+
+/// The corners of quads in the order of OBJ faces: (0, 1, 2), (0, 2, 3).
+std::vector<V2f> leaf_uvs(const Mesh& mesh, bool of_the_atlas)
+{
+    const V2f corners[2][3] = { { V2f(0, 0), V2f(1, 0), V2f(1, 1) }, { V2f(0, 0), V2f(1, 1), V2f(0, 1) } };
+    std::vector<V2f> uvs;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const V2f own = mesh.uvs[mesh.triangles[t][k]];
+            // A little apart from leaf to leaf: no two have the same micromap.
+            uvs.push_back(corners[t % 2][k] + (of_the_atlas ? own * 1e-3f : V2f(0)));
+        }
+    return uvs;
+}
+
+Mesh with_leaves(Mesh mesh, bool of_the_atlas)
+{
+    auto opacity = std::make_shared<MeshOpacity>();
+    opacity->materials.resize(2);
+    opacity->materials[1].mode = AlphaMode::mask;
+    opacity->materials[1].textures[0].image
+        = std::make_shared<AlphaTexture>(kSide, kSide, leaf_texels(), TextureWrap::clamp, TextureWrap::clamp);
+    opacity->uvs = { leaf_uvs(mesh, of_the_atlas) };
+    mesh.materials.resize(2);
+    mesh.triangle_materials.resize(mesh.triangles.size());
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        mesh.triangle_materials[t] = is_leaf(mesh, t);
+    mesh.opacity = opacity;
+    return mesh;
+}
+
+/// The texture system at every hit.
+struct SystemScene
+{
+    SystemScene(const Mesh& mesh, const SceneFrame& frame, const std::string& texture)
+        : system(OIIO::TextureSystem::create(false))
+        , handle(system->get_texture_handle(OIIO::ustring(texture)))
+        , uvs(&mesh.opacity->uvs[0])
+        , device(rtcNewDevice("set_affinity=0"))
+        , scene(rtcNewScene(device))
+    {
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        for (int part = 0; part < 2; ++part) {
+            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(
+                geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), mesh.positions.size()));
+            for (size_t v = 0; v < mesh.positions.size(); ++v)
+                vertices[v] = frame.to_scene(mesh.positions[v]);
+            std::vector<std::array<uint32_t, 3>> triangles;
+            for (size_t t = 0; t < mesh.triangles.size(); ++t)
+                if (int(is_leaf(mesh, t)) == part) {
+                    triangles.push_back(mesh.triangles[t]);
+                    if (part)
+                        leaves.push_back(t);
+                }
+            std::memcpy(
+                rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles.size()),
+                triangles.data(), triangles.size() * 12);
+            rtcSetGeometryUserData(geometry, this);
+            if (part)
+                rtcSetGeometryOccludedFilterFunction(geometry, filter);
+            rtcCommitGeometry(geometry);
+            rtcAttachGeometry(scene, geometry);
+            rtcReleaseGeometry(geometry);
+        }
+        rtcCommitScene(scene);
+    }
+    ~SystemScene()
+    {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+        OIIO::TextureSystem::destroy(system);
+    }
+
+    static void filter(const RTCFilterFunctionNArguments* arguments)
+    {
+        const auto& self = *static_cast<const SystemScene*>(arguments->geometryUserPtr);
+        const unsigned n = arguments->N;
+        auto* thread = self.system->get_perthread_info();
+        OIIO::TextureOpt options;
+        options.swrap = options.twrap = OIIO::TextureOpt::WrapClamp;
+        options.interpmode = OIIO::TextureOpt::InterpBilinear;
+        options.mipmode = OIIO::TextureOpt::MipModeNoMIP;
+        for (unsigned i = 0; i < n; ++i) {
+            if (!arguments->valid[i])
+                continue;
+            const float u = RTCHitN_u(arguments->hit, n, i), v = RTCHitN_v(arguments->hit, n, i);
+            const V2f* uvs = &(*self.uvs)[3 * self.leaves[RTCHitN_primID(arguments->hit, n, i)]];
+            const V2f st = uvs[0] + (uvs[1] - uvs[0]) * u + (uvs[2] - uvs[0]) * v;
+            float alpha = 1;
+            if (!self.system->texture(self.handle, thread, options, st.x, 1 - st.y, 0, 0, 0, 0, 1, &alpha)) {
+                std::printf("%s\n", self.system->geterror().c_str());
+                std::exit(1);
+            }
+            if (!(alpha >= 0.5f))
+                arguments->valid[i] = 0;
+        }
+    }
+    void clear_blocked(RayFan& fan, const V3f& origin) const
+    {
+        const embree::FlushDenormals flush;
+        embree::Query query;
+        RTCRay8 rays;
+        for (int lane = 0; lane < kPacketSize; ++lane) {
+            rays.org_x[lane] = origin.x, rays.org_y[lane] = origin.y, rays.org_z[lane] = origin.z;
+            embree::prepare_lane(rays, lane);
+        }
+        for (int packet = 0; packet < fan.packets; ++packet) {
+            alignas(32) int valid[kPacketSize];
+            for (int lane = 0; lane < kPacketSize; ++lane) {
+                valid[lane] = fan.lanes[packet] >> lane & 1 ? -1 : 0;
+                rays.tfar[lane] = kFar;
+            }
+            std::memcpy(rays.dir_x, fan.x + packet * kPacketSize, sizeof(rays.dir_x));
+            std::memcpy(rays.dir_y, fan.y + packet * kPacketSize, sizeof(rays.dir_y));
+            std::memcpy(rays.dir_z, fan.z + packet * kPacketSize, sizeof(rays.dir_z));
+            query.occluded8(valid, scene, rays);
+            for (int lane = 0; lane < kPacketSize; ++lane)
+                if (!(rays.tfar[lane] >= 0))
+                    fan.lanes[packet] &= uint8_t(~(1u << lane));
+        }
+    }
+
+    OIIO::TextureSystem* system;
+    OIIO::TextureSystem::TextureHandle* handle;
+    const std::vector<V2f>* uvs;
+    std::vector<size_t> leaves;
+    RTCDevice device;
+    RTCScene scene;
+};
+
+/// Of this thread: what else runs does not count.
+double cpu_seconds()
+{
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+using Clear = std::function<void(RayFan& fan, const SurfacePoint& point)>;
+
+/// Trace the rays of a bake; append the open ones.
+double trace(const Mesh& mesh, const SceneFrame& frame, const Occluder& near, const UvRaster& raster,
+             const SamplePattern& pattern, int threads, const Clear& clear, std::vector<uint8_t>& open)
+{
+    const int tiles = raster.tiles_across() * raster.tiles_down();
+    std::vector<std::vector<uint8_t>> parts(static_cast<size_t>(tiles));
+    std::vector<double> seconds(static_cast<size_t>(tiles));
+    parallel_items(tiles, threads, [&](int64_t tile, int) {
+        const double start = cpu_seconds();
+        TileCover cover;
+        Surface surface(mesh, frame);
+        RayFan fan(pattern.count());
+        raster.cover(int(tile), cover);
+        for (int i = 0; i < kTileSize * kTileSize; ++i) {
+            const int block = i / 64, x = block % 8 * 8 + i % 8, y = block / 8 * 8 + i / 8 % 8;
+            const size_t texel = size_t(y) * kTileSize + size_t(x);
+            if (cover.triangle[texel] == TileCover::kNone)
+                continue;
+            SurfacePoint point = surface.at(cover.triangle[texel], cover.weight1[texel], cover.weight2[texel]);
+            adjust_ray_origins(&point, 1, near);
+            const Point32 hash = texel_hash(uint32_t(tile * 4096) + uint32_t(texel), 0, 0);
+            pattern.directions(fan, TangentFrame(point.normal), point.geometric_normal, hash);
+            clear(fan, point);
+            parts[size_t(tile)].insert(parts[size_t(tile)].end(), fan.lanes.begin(), fan.lanes.end());
+        }
+        seconds[size_t(tile)] = cpu_seconds() - start;
+    });
+    double sum = 0;
+    for (size_t tile = 0; tile < parts.size(); ++tile) {
+        open.insert(open.end(), parts[tile].begin(), parts[tile].end());
+        sum += seconds[tile];
+    }
+    return sum;
+}
+
+struct Way
+{
+    const char* name;
+    Clear clear;
+    std::vector<double> seconds;
+    std::vector<uint8_t> open;
+
+    double median()
+    {
+        std::sort(seconds.begin(), seconds.end());
+        return seconds[seconds.size() / 2];
+    }
+};
+
+int64_t differing(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b)
+{
+    int64_t count = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        count += __builtin_popcount(a[i] ^ b[i]);
+    return count;
+}
+
+} // namespace
+
+int main(int argc, const char** argv)
+{
+    if (argc < 2) {
+        std::printf("usage: cutout_bench LEAVES.obj [resolution samples threads]\n");
+        return 2;
+    }
+    const int resolution = argc > 2 ? std::atoi(argv[2]) : 512, samples = argc > 3 ? std::atoi(argv[3]) : 64;
+    const int threads = argc > 4 ? std::atoi(argv[4]) : 1;
+    Mesh leaves;
+    std::string error;
+    if (!read_mesh(leaves, argv[1], {}, error)) {
+        std::printf("%s\n", error.c_str());
+        return 1;
+    }
+    const std::string texture = std::filesystem::temp_directory_path() / "cutout_bench_leaf.exr";
+    OIIO::ImageSpec spec(kSide, kSide, 1, OIIO::TypeFloat);
+    std::vector<float> texels = leaf_texels();
+    OIIO::ImageBuf image(spec, texels.data());
+    image.set_write_tiles(64, 64);
+    image.write(texture);
+
+    const SceneFrame frame = SceneFrame::around(leaves);
+    const UvRaster raster(leaves, resolution, resolution);
+    const SamplePattern pattern("fibonacci", samples, false);
+    for (const bool of_the_atlas : { false, true }) {
+        const Mesh cut = with_leaves(leaves, of_the_atlas);
+        Occluder opaque, micromaps, every_hit;
+        double before = cpu_seconds();
+        const auto lap = [&] { return cpu_seconds() - std::exchange(before, cpu_seconds()); };
+        bool good = opaque.build({ &leaves }, frame, threads, error);
+        const double plain_build = lap();
+        good = good && micromaps.build({ &cut }, frame, threads, error);
+        const double micromap_build = lap();
+        if (!good || !every_hit.build({ &cut }, frame, threads, error, CutoutMode::every_hit)) {
+            std::printf("%s\n", error.c_str());
+            return 1;
+        }
+        const SystemScene system(cut, frame, texture);
+        const auto by = [](const Occluder& occluder) {
+            return [&](RayFan& fan, const SurfacePoint& point) {
+                occluder.clear_blocked(fan, point.origin, kFar, point.is_near);
+            };
+        };
+        std::vector<Way> ways { { "opaque", by(opaque), {}, {} },
+                                { "micromaps", by(micromaps), {}, {} },
+                                { "texture in memory", by(every_hit), {}, {} },
+                                { "texture system",
+                                  [&](RayFan& fan, const SurfacePoint& point) {
+                                      system.clear_blocked(fan, point.origin);
+                                  },
+                                  {},
+                                  {} } };
+        for (int round = 0; round < 5; ++round)
+            for (Way& way : ways) {
+                way.open.clear();
+                way.seconds.push_back(trace(leaves, frame, opaque, raster, pattern, threads, way.clear, way.open));
+            }
+        const CutoutCounts& counts = micromaps.cutouts();
+        const CutoutWork work = micromaps.cutout_work();
+        const double rays = double(ways[0].open.size()) * 8;
+        std::printf("%s: %lld mixed triangles, %lld cells, %.2f %% of them unknown, %.1f MB; build %.3f s, opaque "
+                    "%.3f s; %.2f hits a ray, %.2f %% of them ask the texture\n",
+                    of_the_atlas ? "uvs of its own for each leaf" : "all leaves in the same uvs",
+                    (long long)counts.mixed, (long long)counts.cells,
+                    100.0 * double(counts.unknown) / double(std::max<int64_t>(1, counts.cells)),
+                    double(counts.bytes) * 1e-6, micromap_build, plain_build, double(work.hits) / 5 / rays,
+                    100.0 * double(work.lookups) / double(std::max<int64_t>(1, work.hits)));
+        for (Way& way : ways)
+            std::printf("  %-18s %7.1f ns a ray, %.2f of opaque, %.2f of micromaps; %lld of %.0f rays differ from "
+                        "micromaps\n",
+                        way.name, way.median() / rays * 1e9, way.median() / ways[0].median(),
+                        way.median() / ways[1].median(), (long long)differing(way.open, ways[1].open), rays);
+    }
+    std::filesystem::remove(texture);
+    return 0;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What decides on effects: numbers that are known before the work, or cheap to find.
+#pragma once
+
+#include <vmlight/trace/caster_reach.h>
+#include <vmlight/trace/cutouts.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// Of a bake. Lengths are in mesh units.
+struct BakeFacts
+{
+    int64_t triangles = 0; ///< of the baked mesh, with UVs
+    int64_t open_triangles = 0; ///< of them, those that nothing rises above
+    double open_share = 0; ///< of the area in UV
+    bool proven = false; ///< whether every triangle was looked at
+    bool self = true; ///< whether the mesh is in the ray-tracing scene
+    int64_t covered = 0, texels = 0; ///< texels that the mesh covers, of the map
+    int samples = 0;
+
+    std::vector<CasterReach> occluders;
+    CutoutCounts cutouts;
+
+    bool has_normal_map = false, has_flat_normal_map = false;
+
+    bool has_ground = false;
+    double ground_height = 0, lowest = 0; ///< of the plane; of the mesh
+    double diagonal = 0; ///< of the box around mesh and occluders
+    double reach = std::numeric_limits<double>::infinity(); ///< length of rays
+    int margin = 0;
+    std::string basis = "vector";
+    int udim = 1001;
+    bool udim_given = false, half = false, whole_numbers = false;
+};
+
+/// Of a lightmap.
+struct LightFacts
+{
+    bool converts_color = false; ///< whether light, albedo or output change their colour space
+    std::string color_note;
+    double rotation_degrees = 0; ///< angle of the rotation as a whole
+    bool has_albedo = false;
+    double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels
+    int levels = 0; ///< images of the light that the model reads
+    std::string model;
+    bool constant_light = false; ///< whether the environment is of one colour
+    bool has_environment = false; ///< rather than filtered light
+};
+
+struct EffectFacts
+{
+    BakeFacts bake;
+    LightFacts light;
+};
+
+} // namespace vmlight

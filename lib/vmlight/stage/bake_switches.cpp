@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/bake_switches.h>
+
+#include <vmlight/effects/effect.h>
+
+namespace vmlight {
+
+EffectSwitches switches_of(const std::string& effects, const char* stage)
+{
+    EffectSwitches switches;
+    std::string ignored;
+    EffectSwitches::parse(switches, effects, stage, ignored);
+    return switches;
+}
+
+VismapRecipe with_switches(const VismapRecipe& recipe)
+{
+    const EffectSwitches switches = switches_of(recipe.effects, VismapRecipe::kStage);
+    const VismapParams defaults;
+    VismapRecipe switched = recipe;
+    VismapParams& params = switched.vismap_params;
+    if (switches.of("ground") == Switch::off) {
+        params.ground = false;
+        params.ground_height = defaults.ground_height;
+    }
+    if (switches.of("cut-outs") == Switch::off)
+        switched.cutout_params.cutouts = "off";
+    if (switches.of("normal-map") == Switch::off)
+        switched.normal_map.clear();
+    if (switches.of("max-distance") == Switch::off)
+        params.max_distance = defaults.max_distance;
+    if (switches.of("margin") == Switch::off)
+        params.margin = 0;
+    params.skip_open = switches.of("self-occlusion") != Switch::on;
+    return switched;
+}
+
+SceneChoice scene_choice(const VismapRecipe& recipe)
+{
+    const EffectSwitches switches = switches_of(recipe.effects, VismapRecipe::kStage);
+    SceneChoice choice;
+    choice.self = switches.of("self-occlusion") != Switch::off;
+    choice.occluders = switches.of("occluders") != Switch::off;
+    choice.cull = switches.of("occluders") != Switch::on;
+    if (!recipe.occluder.empty()) // without, maps of any distance share the scene
+        choice.reach = recipe.vismap_params.max_distance;
+    return choice;
+}
+
+std::string switched_off(const std::string& effects, const char* stage)
+{
+    const EffectSwitches switches = switches_of(effects, stage);
+    std::string text;
+    for (const Effect& effect : all_effects())
+        if (std::string(effect.stage) == stage && switches.of(effect.name) == Switch::off)
+            text += std::string(text.empty() ? "-" : ",-") + effect.name;
+    return text;
+}
+
+} // namespace vmlight

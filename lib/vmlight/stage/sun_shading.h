@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The suns of a lightmap: their shadows on the mesh of its visibility map, traced for each rotation.
+#pragma once
+
+#include <vmlight/base/once_cache.h>
+#include <vmlight/lightmap/sun_light.h>
+#include <vmlight/stage/make_options.h>
+#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/sun_visibility.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+class SunShading
+{
+public:
+    /// Find the meshes: those of the recipe of the visibility map, or the recipe's own `mesh` and `occluder`, read as
+    /// the metadata of the map say. Reads no mesh.
+    ///
+    /// @param recipe   with its UDIM tile resolved; its suns are not off
+    /// @param vismap   the header of the visibility map
+    /// @returns nullptr, with the location and reason in `error`, if there are neither a mesh nor channels `sun.N`, a
+    ///          file is missing, or the map is only a part of one
+    static std::shared_ptr<SunShading> open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
+                                            std::string& error, const RecipeChain& chain);
+
+    /// Equal keys, equal shadows.
+    const std::string& key() const { return m_key; }
+
+    /// Reads a channel of the visibility map: one float for each pixel. False, with the reason in `error`, on failure.
+    using ReadChannel = std::function<bool(int channel, std::vector<float>& dst, std::string& error)>;
+
+    /// Trace `suns` at the rotation of `params`; or take their visibility from the channels `sun.N` of the map if it
+    /// has them all, within a quarter of a degree. Traces nothing if there are none.
+    ///
+    /// @param dst      set to their light; memory is reused
+    /// @returns false, with the location and reason in `error`, if the mesh cannot be read or is not the one that was
+    ///          baked, memory runs out, or the work was stopped
+    bool light(SunLight& dst, const std::vector<Sun>& suns, const LightmapParams& params, const ReadChannel& read,
+               const MakeOptions& options, std::string& error);
+
+    bool failed() const { return m_prepare.failed(); }
+    size_t bytes() const { return m_tracer.bytes(); }
+
+private:
+    bool read_stored(std::vector<float>& dst, const std::vector<Disc>& discs, const ReadChannel& read, bool& matches,
+                     std::string& error) const;
+    bool prepare(const MakeOptions& options, std::string& error);
+
+    LightmapRecipe m_recipe;
+    VismapRecipe m_mesh; ///< what to trace on
+    VismapParams m_map; ///< its texels
+    OIIO::ROI m_roi;
+    std::string m_normal_map; ///< of a stored map that was baked with one
+    std::string m_hash, m_occluder_hashes; ///< of the meshes that were baked; "" if unknown
+    std::vector<Disc> m_stored; ///< the discs of channels `sun.N`
+    std::vector<int> m_channels; ///< and their indices
+    SceneStamps m_stamps;
+    std::string m_key;
+    RunOnce m_prepare;
+    SunTracer m_tracer;
+};
+
+/// Of the inputs of a lightmap.
+struct LightmapSuns
+{
+    std::vector<Sun> list; ///< in the colour of the light
+    std::shared_ptr<SunShading> shading;
+};
+
+} // namespace vmlight

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/trace/caster_reach.h>
+
+#include <vmlight/trace/horizon.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+
+using Imath::V3d;
+
+namespace {
+
+// Vertices to look at, for all triangles of the mesh together: far less work than building the occluder.
+constexpr int64_t kVertices = int64_t(1) << 22;
+
+bool hides_all(const Horizon& horizon, const Mesh& occluder, const SceneFrame& frame, int64_t& left)
+{
+    for (const auto& triangle : occluder.triangles) {
+        left -= 3;
+        for (const uint32_t vertex : triangle)
+            if (left < 0 || !horizon.hides(V3d(frame.to_scene(occluder.positions[vertex]))))
+                return false;
+    }
+    return true;
+}
+
+bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& box, const SceneFrame& frame)
+{
+    int64_t left = kVertices;
+    for (const auto& triangle : mesh.triangles) {
+        const V3d normal = surface_normal(mesh, triangle);
+        if (!(normal.length2() > 0.5)) // no area: no texel
+            continue;
+        std::array<V3d, 3> corners;
+        for (size_t k = 0; k < 3; ++k)
+            corners[k] = V3d(frame.to_scene(mesh.positions[triangle[k]]));
+        const Horizon horizon(corners, normal);
+        if (!horizon.hides(box) && !hides_all(horizon, occluder, frame, left))
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
+SceneBox scene_box(const Mesh& mesh, const SceneFrame& frame)
+{
+    SceneBox box;
+    for (const auto& triangle : mesh.triangles)
+        for (const uint32_t vertex : triangle)
+            box.add(frame.to_scene(mesh.positions[vertex]));
+    return box;
+}
+
+CasterReach find_reach(const Mesh& mesh, const Mesh& occluder, const SceneFrame& frame, const SceneChoice& choice)
+{
+    CasterReach found;
+    found.name = occluder.name;
+    found.triangles = int64_t(occluder.triangles.size());
+    const SceneBox box = scene_box(occluder, frame);
+    const double gap = occluder.triangles.empty() ? 0 : std::sqrt(box.distance2(scene_box(mesh, frame)));
+    found.gap = gap / frame.scale;
+    // Ray origins are off the surface, and boxes and lengths are floats.
+    if (gap > choice.reach * frame.scale * (1 + 1e-5) + 4 * kRayOffset)
+        found.verdict = CasterReach::too_far;
+    else if (is_below_horizon(mesh, occluder, box, frame))
+        found.verdict = CasterReach::below_horizon;
+    return found;
+}
+
+} // namespace vmlight

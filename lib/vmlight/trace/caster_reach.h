@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which occluders can block a ray of the baked mesh at all.
+#pragma once
+
+#include <vmlight/mesh/mesh.h>
+#include <vmlight/trace/occluder.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// What of the given meshes goes into the ray-tracing scene of a bake.
+struct SceneChoice
+{
+    /// Whether the baked mesh occludes itself; whether the occluders occlude.
+    bool self = true, occluders = true;
+    /// Leave out occluders that no ray can meet: the same visibility without them. False builds them nevertheless.
+    bool cull = true;
+    /// Length of rays, in mesh units.
+    double reach = std::numeric_limits<double>::infinity();
+
+    static SceneChoice within(double reach)
+    {
+        SceneChoice choice;
+        choice.reach = reach;
+        return choice;
+    }
+};
+
+/// An occluder, and whether a ray of the mesh can meet it.
+struct CasterReach
+{
+    enum Verdict
+    {
+        reaches,
+        too_far, ///< farther from the mesh than rays reach
+        below_horizon ///< below the tangent plane of every triangle of the mesh
+    };
+    std::string name;
+    int64_t triangles = 0;
+    Verdict verdict = reaches;
+    /// Between its bounding box and that of the mesh, in mesh units.
+    double gap = 0;
+
+    /// Whether it is in the scene.
+    bool is_traced(const SceneChoice& choice) const { return choice.occluders && (verdict == reaches || !choice.cull); }
+};
+
+/// Judge one occluder, conservatively: what it says to be out of reach, no ray of a texel of `mesh` can meet. Looks at
+/// each of its vertices for few triangles only.
+CasterReach find_reach(const Mesh& mesh, const Mesh& occluder, const SceneFrame& frame, const SceneChoice& choice);
+
+} // namespace vmlight

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Cut-outs: which triangles rays pass, and where. Opaque triangles are traced as ever, transparent ones are left out,
+/// and the rest is asked hit by hit.
+#pragma once
+
+#include <vmlight/mesh/mesh.h>
+#include <vmlight/mesh/opacity.h>
+#include <vmlight/trace/opacity_micromap.h>
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace vmlight {
+
+/// What a scene has of cut-outs. All 0 where all is opaque.
+struct CutoutCounts
+{
+    int64_t triangles = 0; ///< with a material that is not opaque everywhere
+    int64_t opaque = 0, transparent = 0, mixed = 0; ///< of those
+    int64_t cells = 0, unknown = 0; ///< of the mixed ones; those that ask the texture
+    size_t bytes = 0;
+
+    void add(const CutoutCounts& other);
+};
+
+/// Work of rays at mixed triangles.
+struct CutoutWork
+{
+    int64_t hits = 0; ///< that a filter was asked about
+    int64_t lookups = 0; ///< of those, by texture
+};
+
+enum class CutoutMode
+{
+    micromaps,
+    every_hit ///< no micromaps: ask the texture at every hit. The same result, for tests and benchmarks
+};
+
+/// The cut-outs of one mesh. Thread-safe once made.
+class Cutouts
+{
+public:
+    /// @param mesh     need not outlive this; its triangles may lie outside its list of materials
+    /// @param caster   its number among the meshes of the scene
+    /// @returns nullptr if no triangle has a material that is not opaque
+    static std::unique_ptr<const Cutouts> make(const Mesh& mesh, uint32_t caster, int nthreads,
+                                               CutoutMode mode = CutoutMode::micromaps);
+
+    const CutoutCounts& counts() const { return m_counts; }
+    /// The triangles that stop all light, in the mesh's order, and those that must be asked.
+    const std::vector<uint32_t>& opaque() const { return m_opaque; }
+    const std::vector<uint32_t>& mixed() const { return m_mixed; }
+
+    /// Opacity at a hit, from 0 to 1.
+    ///
+    /// @param mixed        an index into mixed()
+    /// @param u, v         barycentric weights of the triangle's second and third corners
+    double opacity(uint32_t mixed, double u, double v, CutoutWork& work) const;
+
+    /// Whether light passes where opacity is in between: by a hash of the ray and the triangle. Its mean is exact, and
+    /// no threads, tiles or order of hits change it.
+    ///
+    /// @param ray          bits that identify the ray
+    bool passes(uint32_t mixed, double opacity, uint64_t ray) const;
+
+private:
+    struct Map
+    {
+        size_t first_word; ///< into m_cells
+        MicromapGrid grid;
+    };
+
+    void sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, int nthreads, CutoutMode mode);
+
+    std::shared_ptr<const MeshOpacity> m_opacity;
+    uint32_t m_caster = 0;
+    CutoutCounts m_counts;
+    std::vector<uint32_t> m_opaque, m_mixed;
+    // For each of the mixed triangles: its micromap, which triangles with equal uvs share, its material, its uvs.
+    std::vector<uint32_t> m_map_of, m_material_of;
+    std::vector<std::array<std::array<Imath::V2f, 3>, 2>> m_uvs;
+    std::vector<Map> m_maps;
+    std::vector<uint64_t> m_cells;
+};
+
+} // namespace vmlight

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Opacity micromaps: a triangle cut into cells of which most are known to be opaque or transparent, so that a hit
+/// needs its texture only in the rest. Source of the idea: H. Gruen et al., "Sub-triangle opacity masks for faster ray
+/// tracing of transparent objects", PACM CGIT 3(2), 2020.
+#pragma once
+
+#include <vmlight/mesh/opacity.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vmlight {
+
+enum class CellState : uint8_t
+{
+    transparent,
+    opaque,
+    unknown
+};
+
+/// The cells of a triangle at a level: its edges are cut into 2^level, which makes 4^level cells. In the unit square of
+/// the barycentric weights u and v they are halves of squares, row by row, below the diagonal and then above it.
+struct MicromapGrid
+{
+    static constexpr int kDeepest = 8;
+
+    int level = 0;
+
+    int64_t count() const { return int64_t(1) << (2 * level); }
+    /// The cell of a point: u and v at least 0, u + v at most 1. Points beyond that by rounding belong to the cell that
+    /// they are nearest to.
+    int64_t cell(double u, double v) const
+    {
+        const int n = 1 << level;
+        int i = std::min(int(u * n), n - 1), j = std::min(int(v * n), n - 1);
+        if (i + j >= n - 1) { // along the hypotenuse: no half above it
+            j = std::max(0, n - 1 - i);
+            return index(i, j, false);
+        }
+        return index(i, j, (u * n - i) + (v * n - j) > 1);
+    }
+    /// Where the half of square (i, j) is stored.
+    int64_t index(int i, int j, bool is_upper) const
+    {
+        return int64_t(j) * ((int64_t(2) << level) - j) + 2 * int64_t(i) + is_upper;
+    }
+};
+
+/// What is known of a triangle's opacity. No cell ever disagrees with TriangleOpacity::at().
+struct OpacityMicromap
+{
+    /// Of the whole triangle: unknown if it is neither one nor the other throughout.
+    CellState whole = CellState::unknown;
+    MicromapGrid grid;
+    /// Two bits a cell, 32 cells a word; empty unless `whole` is unknown.
+    std::vector<uint64_t> cells;
+    int64_t unknown = 0; ///< cells
+
+    CellState state(int64_t cell) const { return CellState(cells[size_t(cell / 32)] >> (2 * (cell % 32)) & 3); }
+};
+
+/// The level at which a triangle's cells are about as large as a few texels; 0 if its opacity is the same everywhere.
+int micromap_level(const TriangleOpacity& triangle);
+
+/// Sort the cells of a triangle at a level, by the range of opacity in each.
+OpacityMicromap make_micromap(const TriangleOpacity& triangle, int level);
+
+} // namespace vmlight

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/sun_visibility.h>
+
+#include <vmlight/base/format.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/math/sampling.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+
+using Imath::V3d;
+using Imath::V3f;
+
+bool parse_sun_directions(std::vector<Disc>& dst, const std::string& text, std::string& error)
+{
+    constexpr double kSunHalfAngle = 0.265, kDegree = latlong::pi / 180; // of the sun seen from the earth
+    std::vector<Disc> discs;
+    for (const std::string& part : OIIO::Strutil::splits(OIIO::Strutil::strip(text), ";")) {
+        const std::vector<std::string> words = OIIO::Strutil::splits(part, ",");
+        std::vector<double> numbers;
+        for (const std::string& word : words)
+            if (OIIO::Strutil::string_is_float(word))
+                numbers.push_back(OIIO::Strutil::stod(word));
+        const bool has_angle = numbers.size() == 4;
+        const V3d direction = numbers.size() < 3 ? V3d(0) : V3d(numbers[0], numbers[1], numbers[2]);
+        const bool good = words.size() == numbers.size() && (has_angle || numbers.size() == 3)
+            && std::isfinite(direction.length()) && direction.length() > 0
+            && (!has_angle || (numbers[3] >= 0 && numbers[3] <= 90));
+        if (!good) {
+            error
+                = format("sun_directions: \"{}\" is no sun; each is x,y,z or x,y,z,HALF_ANGLE, with a direction other "
+                         "than 0 and 0 to 90 degrees, and \";\" goes between them",
+                         part);
+            return false;
+        }
+        discs.push_back({ direction.normalized(), (has_angle ? numbers[3] : kSunHalfAngle) * kDegree });
+    }
+    dst = std::move(discs);
+    return true;
+}
+
+std::string sun_directions_text(OIIO::cspan<Disc> discs)
+{
+    std::string text;
+    for (const Disc& disc : discs)
+        text += format("{}{:.6g},{:.6g},{:.6g},{:.4g}", text.empty() ? "" : ";", disc.direction.x, disc.direction.y,
+                       disc.direction.z, disc.half_angle * 180 / latlong::pi);
+    return text;
+}
+
+std::vector<std::string> sun_channels(const std::string& text)
+{
+    std::vector<Disc> discs;
+    std::string ignored;
+    parse_sun_directions(discs, text, ignored);
+    return numbered_channels("sun", 0, int(discs.size()));
+}
+
+namespace {
+
+// Of a wide disc: if they all agree, the texel is not in the penumbra.
+constexpr int kProbes = 16;
+
+} // namespace
+
+int disc_rays(double half_angle)
+{
+    // As many as half degrees fit in the disc, side by side.
+    const double half_degrees = half_angle * 360 / latlong::pi;
+    int rays = 1;
+    while (rays < 64 && rays < half_degrees * half_degrees)
+        rays *= 2;
+    return rays;
+}
+
+DiscTracer::DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, int rays, float length,
+                       int seed, const GroundPlane& ground)
+    : m_occluder(occluder)
+    , m_samples(samples)
+    , m_direction(disc.direction)
+    , m_sine(std::sin(disc.half_angle))
+    , m_mean_length(disc_mean_length(disc.half_angle))
+    , m_rays_each(rays)
+    , m_length(length)
+    , m_seed(uint32_t(seed))
+    , m_ground(ground)
+{
+    m_texels.reserve(kPacketSize + 1);
+}
+
+void DiscTracer::add(const SurfacePoint& point, int x, int y, float* dst)
+{
+    const V3d normal(point.normal), geometric(point.geometric_normal);
+    const double facing = normal.dot(m_direction), above = geometric.dot(m_direction);
+    *dst = 0;
+    const float lowest = m_ground.lowest_ray(point);
+    if (facing <= -m_sine || above <= -m_sine || m_direction.y + m_sine < double(lowest))
+        return;
+    const bool is_whole = facing >= m_sine && above >= m_sine && m_direction.y - m_sine >= double(lowest);
+    // What a normal map adds is in front of the surface or behind it, and not left out.
+    const double counted = (1 + V3d(point.mesh_normal).dot(geometric)) / 2;
+    const double scale = (is_whole ? facing * m_mean_length : 1.0 / m_rays_each) / counted;
+    const uint32_t hash = texel_hash(uint32_t(x), uint32_t(y), m_seed).u;
+    const bool is_probe = is_whole && m_rays_each > kProbes;
+    start({ dst, point, hash, scale, is_whole, is_probe, lowest }, is_probe ? kProbes : m_rays_each);
+}
+
+void DiscTracer::start(const Texel& texel, int rays)
+{
+    m_texels.push_back(texel);
+    m_texels.back().rays_left = rays;
+    for (int ray = 0; ray < rays; ++ray) {
+        Texel& own = m_texels.back();
+        const V3f& direction = own.is_probe ? m_samples.probe(own.hash, ray) : m_samples.at(own.hash, ray, rays);
+        const double cosine = double(direction.dot(own.point.normal));
+        if (!(cosine > 0 && direction.dot(own.point.geometric_normal) > 0 && direction.y >= own.lowest)) {
+            if (--own.rays_left == 0)
+                finish(own);
+            continue;
+        }
+        own.all += cosine;
+        m_origins[size_t(m_count)] = own.point.origin;
+        m_directions[size_t(m_count)] = direction;
+        m_cosines[size_t(m_count)] = cosine;
+        m_owner[size_t(m_count)] = m_texels.size() - 1;
+        if (++m_count == kPacketSize)
+            trace();
+    }
+    if (m_texels.back().rays_left == 0)
+        m_texels.pop_back();
+}
+
+void DiscTracer::flush()
+{
+    if (m_count > 0)
+        trace();
+    std::vector<Texel> again;
+    again.swap(m_again);
+    for (Texel& texel : again) {
+        texel.is_probe = false;
+        texel.all = texel.seen = 0;
+        start(texel, m_rays_each);
+    }
+    if (m_count > 0)
+        trace();
+    m_texels.clear();
+}
+
+void DiscTracer::trace()
+{
+    for (int i = m_count; i < kPacketSize; ++i) { // unused lanes must hold valid numbers too
+        m_origins[size_t(i)] = m_origins[0];
+        m_directions[size_t(i)] = m_directions[0];
+    }
+    const uint8_t blocked = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length);
+    for (int i = 0; i < m_count; ++i) {
+        Texel& texel = m_texels[m_owner[size_t(i)]];
+        texel.seen += blocked >> i & 1 ? 0 : m_cosines[size_t(i)];
+        if (--texel.rays_left == 0)
+            finish(texel);
+    }
+    m_rays += m_count;
+    m_count = 0;
+    // The last may have rays to come.
+    std::swap(m_texels.front(), m_texels.back());
+    m_texels.erase(m_texels.begin() + 1, m_texels.end());
+}
+
+void DiscTracer::finish(const Texel& texel)
+{
+    if (texel.is_probe && texel.seen > 0 && texel.seen < texel.all) {
+        m_again.push_back(texel);
+        return;
+    }
+    const double mean = !texel.is_whole ? texel.seen : texel.all > 0 ? texel.seen / texel.all : 0;
+    *texel.dst = float(texel.scale * mean);
+}
+
+} // namespace vmlight

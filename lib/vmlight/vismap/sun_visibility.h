@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How much of a disc of the sky, such as a sun, each texel of a mesh sees, traced.
+#pragma once
+
+#include <vmlight/base/progress.h>
+#include <vmlight/math/disc.h>
+#include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/ground_plane.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/vismap/normal_map.h>
+#include <vmlight/vismap/vismap.h>
+
+#include <OpenImageIO/span.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// Rays per texel for a disc: one up to half a degree wide, whose penumbras are narrow; more for wider discs, up to 64.
+/// A power of 2. Above 16, all are traced only where 16 that probe the disc do not agree.
+int disc_rays(double half_angle);
+
+/// The discs of VismapParams::sun_directions. Returns false, with the reason in `error`, if the text is none.
+bool parse_sun_directions(std::vector<Disc>& dst, const std::string& text, std::string& error);
+/// Text that parse_sun_directions() reads back.
+std::string sun_directions_text(OIIO::cspan<Disc> discs);
+/// Names of their channels: `sun.0`, ...; none if the text is none.
+std::vector<std::string> sun_channels(const std::string& text);
+
+/// Traces one disc for surface points of one scene, eight rays at a time. One per thread.
+class DiscTracer
+{
+public:
+    /// @param occluder, samples    must outlive this
+    /// @param rays     per texel; divides DiscSamples::kCount
+    /// @param length   of rays, in the units of `occluder`
+    /// @param ground   hides what of the disc is below its horizon
+    DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, int rays, float length, int seed,
+               const GroundPlane& ground);
+
+    /// Trace the disc for `point`, the centre of texel (x, y), whose ray origin adjust_ray_origins() has set. Its
+    /// visibility goes to `*dst`, by the next flush() at the latest:
+    ///     T = mean over the disc of vis(w) max(0, n.w),
+    /// which is n.d (1 + cos a) / 2 where all of it is seen. As in visibility maps and the reference, directions below the
+    /// geometric surface g are left out, and the result is divided by the share of the cosine above it, (1 + n.g) / 2.
+    /// A texel whose horizon is above the disc gets 0 and traces no ray.
+    void add(const SurfacePoint& point, int x, int y, float* dst);
+    /// Trace what is left.
+    void flush();
+
+    int64_t rays() const { return m_rays; }
+
+private:
+    struct Texel
+    {
+        float* dst;
+        SurfacePoint point;
+        uint32_t hash;
+        double scale; // of a mean
+        bool is_whole; // the whole disc is above all horizons
+        bool is_probe; // traced again with all rays if these do not agree
+        float lowest; // GroundPlane::lowest_ray()
+        double all = 0, seen = 0; // sums of cosines
+        int rays_left = 0;
+    };
+    void start(const Texel& texel, int rays);
+    void trace();
+    void finish(const Texel& texel);
+
+    const Occluder& m_occluder;
+    const DiscSamples& m_samples;
+    const Imath::V3d m_direction;
+    const double m_sine, m_mean_length;
+    const int m_rays_each;
+    const float m_length;
+    const uint32_t m_seed;
+    const GroundPlane m_ground;
+    int64_t m_rays = 0;
+    // Rays that wait for their packet to fill.
+    int m_count = 0;
+    std::array<Imath::V3f, kPacketSize> m_origins, m_directions;
+    std::array<double, kPacketSize> m_cosines {};
+    std::array<size_t, kPacketSize> m_owner {};
+    std::vector<Texel> m_texels, m_again;
+};
+
+/// The texels of a map, ready to trace discs, again and again as they turn.
+class SunTracer
+{
+public:
+    SunTracer();
+    ~SunTracer();
+
+    /// Find the points of all texels. Keeps them if they take no more than 256 MiB, else finds them each time.
+    ///
+    /// @param scene    built
+    /// @param map      size, UDIM tile, maximum distance, ground, margin and seed, as for the visibility map of the
+    /// same
+    ///                 texels
+    /// @param normal_map   likewise; nullptr without
+    /// @returns false, with the reason in `error`, if a parameter is out of range or `progress` stopped the work
+    bool prepare(BakeScenePointer scene, const VismapParams& map, std::string& error, int nthreads = 0,
+                 const Progress& progress = {}, NormalMapPointer normal_map = nullptr);
+
+    /// Trace `discs`, which are in object space.
+    ///
+    /// @param dst  set to one float for each disc, texel by texel: T of DiscTracer::add(), and in the margin the mean
+    /// of
+    ///             neighbours whose normals are alike; 0 elsewhere. The same bits for any number of threads
+    /// @returns false if `progress` stopped the work
+    bool trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthreads = 0, const Progress& progress = {}) const;
+
+    /// Rays of the last trace().
+    int64_t rays() const { return m_rays; }
+    size_t bytes() const;
+
+private:
+    struct Setup;
+    std::unique_ptr<Setup> m_setup;
+    mutable int64_t m_rays = 0;
+};
+
+} // namespace vmlight

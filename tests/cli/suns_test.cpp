@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suns on the command line: split off, traced, and never lost.
+#include "command_test.h"
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <cmath>
+
+using namespace vmlight;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+class Suns : public CommandTest
+{
+protected:
+    // A sun at 45 degrees above the horizon that +x is on, in a constant sky; and a floor that looks up, with a wall on
+    // its right that is twice as high as the floor is wide.
+    Suns()
+    {
+        OIIO::ImageBuf sky(OIIO::ImageSpec(512, 256, 3, OIIO::TypeFloat));
+        for (int y = 0; y < 256; ++y)
+            for (int x = 0; x < 512; ++x) {
+                const bool sun = (x == 127 || x == 128) && (y == 63 || y == 64);
+                const float rgb[3] { sun ? 2e4f : 1, sun ? 1e4f : 1, sun ? 5e3f : 1 };
+                sky.setpixel(x, y, rgb);
+            }
+        EXPECT_TRUE(sky.write(path("sunny.exr"))) << sky.geterror();
+        make_sky({ 1, 1, 1 }, "cloudy.exr", 512, 256);
+        write("floor.obj",
+              "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 1 0\n"
+              "f 1/1/1 2/2/1 3/3/1 4/4/1\n");
+        write("wall.obj", "v 1 0 9\nv 1 0 -9\nv 1 1 -9\nv 1 1 9\nf 1 2 3 4\n");
+        write("hero.vismap", "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 64\n");
+    }
+
+    // Of the middle row.
+    float red(const std::string& name, int x) const { return pixels(name).values[3 * (32 * 64 + size_t(x))]; }
+};
+
+} // namespace
+
+TEST_F(Suns, AShadowHasItsEdgeWhereTheSunPutsIt)
+{
+    EXPECT_THAT(done("makelightmap hero.vismap sunny.exr --suns auto -o lit.exr"), HasSubstr("suns: 1 with"));
+    done("makelightmap hero.vismap sunny.exr -o soft.exr");
+    // The wall is 1 high and the sun at 45 degrees: the shadow ends in the middle.
+    const double flux = 2e4 * 4 * std::pow(M_PI / 256, 2) * std::sin(M_PI / 4) / M_PI, lit = flux * std::sin(M_PI / 4);
+    EXPECT_LT(red("lit.exr", 35), 1.01f);
+    EXPECT_LT(red("lit.exr", 60), 1.01f);
+    EXPECT_NEAR(red("lit.exr", 28), 1 + lit, 0.2 + 0.01 * lit);
+    EXPECT_NEAR(red("lit.exr", 3), 1 + lit, 0.2 + 0.01 * lit);
+    EXPECT_GT(red("soft.exr", 35), 2);
+    // The whole object turned: the wall is behind.
+    done("makelightmap hero.vismap sunny.exr --suns auto --rotate 0,180,0 -o turned.exr");
+    EXPECT_NEAR(red("turned.exr", 60), 0.5 + lit, 0.6 + 0.01 * lit);
+}
+
+TEST_F(Suns, AFileOfTheMapNeedsItsMeshAndGivesTheSameLight)
+{
+    done("makevismap hero.vismap -o vm.exr");
+    done("makelightmap hero.vismap sunny.exr --suns auto --rotate 0,30,0 -o a.exr");
+    done("makelightmap vm.exr sunny.exr --suns auto --rotate 0,30,0 --mesh floor.obj --occluder wall.obj -o b.exr");
+    expect_same_pixels("a.exr", "b.exr", 0);
+    refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --suns auto -o c.exr");
+    refused(1, "not the mesh that",
+            "makelightmap vm.exr sunny.exr --suns auto --mesh {spot} --occluder wall.obj -o c.exr");
+    refused(1, "the occluders are not those", "makelightmap vm.exr sunny.exr --suns auto --mesh floor.obj -o c.exr");
+    refused(2, "set --suns auto", "makelightmap vm.exr sunny.exr --mesh floor.obj -o c.exr");
+    refused(2, "the recipe of the visibility map",
+            "makelightmap hero.vismap sunny.exr --suns auto --mesh floor.obj -o c.exr");
+}
+
+TEST_F(Suns, AFilteredSkyCarriesThemInItsMetadata)
+{
+    for (const char* model : { "paper", "lobe" }) {
+        const std::string flags = std::string(" --model ") + model;
+        done(std::string("makecfem sunny.exr --suns auto -o cfem.exr") + (model[0] == 'l' ? " --stack" : ""));
+        EXPECT_THAT(attribute("cfem.exr", "vmlight:suns"), HasSubstr("0.7"));
+        done("makelightmap hero.vismap sunny.exr --suns auto -o a.exr" + flags);
+        done("makelightmap hero.vismap cfem.exr --suns auto -o b.exr" + flags);
+        expect_same_pixels("a.exr", "b.exr", 0);
+        EXPECT_EQ(attribute("b.exr", "vmlight:cfem_suns"), attribute("cfem.exr", "vmlight:suns"));
+        refused(1, "its suns were split off", "makelightmap hero.vismap cfem.exr -o c.exr" + flags);
+    }
+}
+
+TEST_F(Suns, WhereThereAreNoneNothingChanges)
+{
+    done("makecfem cloudy.exr --stack -o a.exr");
+    EXPECT_THAT(done("makecfem cloudy.exr --stack --suns auto -o b.exr"), HasSubstr("suns: none"));
+    EXPECT_EQ(read("a.exr"), read("b.exr"));
+    done("makelightmap hero.vismap cloudy.exr -o lit.exr");
+    done("makelightmap hero.vismap cloudy.exr --suns auto -o same.exr");
+    EXPECT_EQ(read("lit.exr"), read("same.exr"));
+}
+
+TEST_F(Suns, EveryModelAddsThemAndSoDoAlbedoAndExposure)
+{
+    done("makelightmap hero.vismap sunny.exr --suns auto -o plain.exr");
+    make_sky({ 0.5f, 0.25f, 1 }, "albedo.exr", 64, 64);
+    done("makelightmap hero.vismap sunny.exr --suns auto --albedo albedo.exr --exposure 1 -o lit.exr");
+    const Pixels plain = pixels("plain.exr"), lit = pixels("lit.exr");
+    for (size_t i = 0; i < plain.values.size(); i += 3) {
+        ASSERT_NEAR(lit.values[i], plain.values[i], 1e-5f * plain.values[i]);
+        ASSERT_NEAR(lit.values[i + 1], 0.5f * plain.values[i + 1], 1e-5f * plain.values[i]);
+    }
+    for (const char* basis : { "sh", "mask", "cells" }) {
+        done(std::string("makevismap hero.vismap --basis ") + basis + " -o vm.exr");
+        done("makelightmap vm.exr sunny.exr --suns auto --mesh floor.obj --occluder wall.obj -o model.exr");
+        for (const int x : { 3, 10, 20, 40, 50, 60 })
+            EXPECT_NEAR(red("model.exr", x), red("plain.exr", x), 0.3) << basis << " " << x;
+    }
+}
+
+TEST_F(Suns, ARecipeKeepsThemAndFramesShareTheMesh)
+{
+    done("makelightmap hero.vismap sunny.exr --suns auto --rotate 0,20,0 -o hero.lightmap");
+    EXPECT_THAT(read("hero.lightmap"), HasSubstr("suns = \"auto\""));
+    done("makelightmap hero.lightmap -o a.exr");
+    done("makelightmap hero.vismap sunny.exr --suns auto --frames 1-3 --rotate-y 10:30 -o f.#.exr");
+    expect_same_pixels("a.exr", "f.2.exr", 1e-6f);
+}
+
+TEST_F(Suns, AMapCanStoreWhatItSeesOfThem)
+{
+    done("makevismap hero.vismap --sun-directions 1,1,0,0.8;0,1,0 -o vm.exr");
+    EXPECT_THAT(channel_names("vm.exr"), testing::IsSupersetOf({ "sun.0", "sun.1" }));
+    done("makelightmap hero.vismap sunny.exr --suns auto -o traced.exr");
+    EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto -o lit.exr"),
+                HasSubstr("suns: from the visibility map"));
+    for (const int x : { 3, 10, 20, 28, 36, 50, 60 })
+        EXPECT_NEAR(red("lit.exr", x), red("traced.exr", x), 0.1 + 0.02 * red("traced.exr", x)) << x;
+    refused(1, "the suns are not among those", "makelightmap vm.exr sunny.exr --suns auto --rotate 0,20,0 -o c.exr");
+    EXPECT_THAT(
+        done("makelightmap vm.exr sunny.exr --suns auto --rotate 0,20,0 --mesh floor.obj --occluder wall.obj -o c.exr"),
+        HasSubstr("rays in"));
+    refused(1, "is no sun", "makevismap hero.vismap --sun-directions 0,0,0 -o d.exr");
+    done("makevismap hero.vismap -o plain.exr");
+    EXPECT_EQ(visibility("plain.exr").values, visibility("vm.exr").values);
+    EXPECT_EQ(attribute("plain.exr", "vmlight:sun_directions"), "");
+}

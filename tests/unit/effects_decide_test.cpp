@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decisions on effects: a scene that calls for each and one that does not, switches, and what they refuse.
+#include <vmlight/effects/effect.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace vmlight;
+
+namespace {
+
+// Facts of a scene that calls for every effect.
+EffectFacts everything()
+{
+    EffectFacts facts;
+    BakeFacts& bake = facts.bake;
+    bake.triangles = 1000;
+    bake.open_triangles = 250;
+    bake.open_share = 0.25;
+    bake.proven = true;
+    bake.covered = 5000;
+    bake.texels = 10000;
+    bake.samples = 64;
+    bake.occluders = { { "tree", 500, CasterReach::reaches, 2 } };
+    bake.has_ground = true;
+    bake.cutouts.triangles = bake.cutouts.mixed = 12;
+    bake.cutouts.cells = 300;
+    bake.cutouts.unknown = 30;
+    bake.has_normal_map = true;
+    bake.diagonal = 10;
+    bake.reach = 3;
+    bake.margin = 16;
+    bake.udim = 1002;
+    bake.udim_given = bake.half = true;
+    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", false, true };
+    return facts;
+}
+
+// Facts of a scene that calls for none.
+EffectFacts nothing()
+{
+    EffectFacts facts;
+    BakeFacts& bake = facts.bake;
+    bake.triangles = bake.open_triangles = 1000;
+    bake.open_share = 1;
+    bake.proven = true;
+    bake.covered = bake.texels = 10000;
+    bake.diagonal = 10;
+    bake.occluders = { { "tree", 500, CasterReach::below_horizon, 2 } };
+    bake.has_normal_map = bake.has_flat_normal_map = true;
+    facts.light.levels = 1;
+    facts.light.model = "paper";
+    facts.light.has_albedo = true;
+    facts.light.albedo_low = facts.light.albedo_high = 1;
+    return facts;
+}
+
+std::vector<EffectDecision> decide(const char* stage, const EffectFacts& facts, const char* text, std::string& error)
+{
+    EffectSwitches switches;
+    std::vector<EffectDecision> decisions;
+    if (EffectSwitches::parse(switches, text, stage, error))
+        decide_effects(decisions, stage, facts, switches, error);
+    return decisions;
+}
+
+std::vector<EffectDecision> decided(const char* stage, const EffectFacts& facts, const char* text = "auto")
+{
+    std::string error;
+    const auto decisions = decide(stage, facts, text, error);
+    EXPECT_EQ(error, "");
+    return decisions;
+}
+
+std::string refusal(const EffectFacts& facts, const char* text)
+{
+    std::string error;
+    decide("vismap", facts, text, error);
+    return error;
+}
+
+} // namespace
+
+TEST(EffectsDecide, EachIsOnWhereTheSceneCallsForItAndOffWhereNot)
+{
+    size_t rows = 0;
+    for (const char* stage : { "vismap", "lightmap" }) {
+        const auto on = decided(stage, everything()), off = decided(stage, nothing());
+        ASSERT_EQ(on.size(), off.size());
+        rows += on.size();
+        double share = 0;
+        for (size_t i = 0; i < on.size(); ++i) {
+            EXPECT_TRUE(on[i].on && on[i].called_for) << on[i].name;
+            EXPECT_FALSE(off[i].on || off[i].called_for) << off[i].name;
+            EXPECT_NE(on[i].reason, off[i].reason) << on[i].name;
+            EXPECT_EQ(off[i].share, 0) << off[i].name;
+            share += on[i].share;
+            for (const EffectDecision& decision : { on[i], off[i] })
+                EXPECT_FALSE(decision.reason.empty() || decision.reason.back() == '.') << decision.name;
+        }
+        EXPECT_LE(share, 1);
+        EXPECT_GT(share, 0.1);
+    }
+    EXPECT_EQ(rows, size_t(all_effects().size()));
+}
+
+TEST(EffectsDecide, ReasonsHaveTheNumbers)
+{
+    const auto find = [](const std::vector<EffectDecision>& decisions, const char* name) {
+        const auto found = std::find_if(decisions.begin(), decisions.end(),
+                                        [&](const EffectDecision& decision) { return decision.name == name; });
+        return found == decisions.end() ? std::string() : found->reason;
+    };
+    const auto on = decided("vismap", everything());
+    EXPECT_EQ(find(on, "self-occlusion"),
+              "something rises above 750 of 1000 triangles; the rest, 25 % of the UV area, trace no ray");
+    EXPECT_EQ(find(on, "occluders"), "500 triangles, 2 away, may rise above the horizon of a texel");
+    EXPECT_EQ(find(on, "cut-outs"),
+              "12 triangles: 0 opaque, 0 transparent, 12 in part, where 10 % of the cells ask the texture");
+    EXPECT_EQ(find(on, "max-distance"), "rays end after 3, and the scene is 10 across");
+    const auto off = decided("vismap", nothing());
+    EXPECT_EQ(find(off, "self-occlusion"), "nothing rises above the tangent plane of any of 1000 triangles");
+    EXPECT_EQ(find(off, "normal-map"), "it is flat: every normal stays as it is");
+    EXPECT_EQ(find(off, "occluders"), "500 triangles, all below the tangent plane of each of 1000 triangles");
+}
+
+TEST(EffectsDecide, SwitchesOverrideOneByOne)
+{
+    const auto state = [](const char* text) {
+        std::string states;
+        for (const EffectDecision& decision : decided("vismap", nothing(), text))
+            states += decision.on ? '1' : '0';
+        return states;
+    };
+    // self-occlusion, occluders, ground, cut-outs, normal-map, max-distance, udim, margin, half
+    EXPECT_EQ(state("auto"), "000000000");
+    EXPECT_EQ(state("all"), "110010000") << "what is not given cannot be forced";
+    EXPECT_EQ(state("+occluders"), "010000000");
+    EXPECT_EQ(state("all,-occluders"), "100010000");
+    EXPECT_EQ(state(" auto , +self-occlusion "), "100000000");
+}
+
+TEST(EffectsDecide, WhatIsLeftOutThoughCalledForIsNamed)
+{
+    EXPECT_EQ(left_out(decided("vismap", everything(), "-ground,-occluders")), "occluders \"tree\", ground");
+    EXPECT_EQ(left_out(decided("vismap", nothing(), "-ground,-occluders")), "");
+}
+
+TEST(EffectsDecide, TheImpossibleIsRefused)
+{
+    EXPECT_EQ(refusal(nothing(), "+ground"), "effects: +ground is impossible: no --ground is given");
+    EXPECT_EQ(refusal(everything(), "-udim"), "effects: -udim: cannot be left out: tile 1002 of UV space");
+    EXPECT_EQ(refusal(everything(), "+gruond"),
+              "\"gruond\" is not an effect: did you mean \"ground\"?; there are self-occlusion, occluders, ground, "
+              "cut-outs, normal-map, max-distance, udim, margin, half");
+    EXPECT_EQ(refusal(everything(), "ground"),
+              "\"ground\" is not a switch: auto, all, or + or - before the name of an effect: self-occlusion, "
+              "occluders, ground, cut-outs, normal-map, max-distance, udim, margin, half");
+    EXPECT_EQ(refusal(everything(), "+ground,-ground"), "\"ground\" is named twice");
+    EXPECT_EQ(refusal(everything(), "+ground,all"), "\"all\" must be the first word");
+}
+
+TEST(EffectsDecide, ATableHasALineForEach)
+{
+    const auto decisions = decided("vismap", everything(), "-ground");
+    const std::vector<std::string> lines = decision_lines(decisions);
+    ASSERT_EQ(lines.size(), decisions.size());
+    EXPECT_NE(lines[2].find("switched off"), std::string::npos) << lines[2];
+    EXPECT_NE(lines[1].find("occluders \"tree\"  on"), std::string::npos) << lines[1];
+}
