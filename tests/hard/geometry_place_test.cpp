@@ -54,7 +54,8 @@ TEST(Geometry, AFileAtTenMillion)
     EXPECT_LT(BakedMap(through_float(out), {}, map_params(64, 64, 1)).report.covered, 4096 / 20);
     row.naive("as floats, most triangles lose their area: less than 5 % of the sphere is baked");
     const auto expect_kept = [&](const char* name, const auto& bytes_of) {
-        const Mesh outside = read_file(folder.write(name, bytes_of(out))), inside = read_file(folder.write(name, bytes_of(in)));
+        const Mesh outside = read_file(folder.write(name, bytes_of(out))),
+                   inside = read_file(folder.write(name, bytes_of(in)));
         EXPECT_EQ(farthest_corner(outside, out), 0) << name;
         EXPECT_EQ(texels_that_see_less_than_all(outside, 64, 64), 0) << name;
         EXPECT_EQ(texels_that_see(inside, 64, 64), 0) << name;

@@ -3,13 +3,10 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
-#include <vmlight/image/channels.h>
-#include <vmlight/image/color.h>
 #include <vmlight/math/sampling.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/islands.h>
 #include <vmlight/uv/tile_progress.h>
-#include <vmlight/version.h>
 #include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/sun_visibility.h>
 #include <vmlight/vismap/visibility_integrator.h>
@@ -37,39 +34,6 @@ double most_rays(const VismapParams& params)
 }
 
 } // namespace
-
-OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params)
-{
-    std::vector<std::string> names(kVismapChannels.begin(), kVismapChannels.end());
-    if (params.has("normal"))
-        names.insert(names.end(), kNormalChannels.begin(), kNormalChannels.end());
-    if (params.has("error"))
-        names.push_back(kErrorChannel);
-    const std::vector<std::string> suns = sun_channels(params.sun_directions);
-    names.insert(names.end(), suns.begin(), suns.end());
-    const std::vector<std::string> basis = basis_channels(params);
-    names.insert(names.end(), basis.begin(), basis.end());
-    if (params.has("coverage"))
-        names.push_back(kCoverageChannel);
-    OIIO::ImageSpec spec(width_of(params), height_of(params), int(names.size()), OIIO::TypeDesc::FLOAT);
-    spec.channelnames = names;
-    spec.tile_width = spec.tile_height = kTileSize;
-    spec.tile_depth = 1;
-    tag_data(spec);
-    append_params(spec, params);
-    if (params.target_error > 0)
-        spec.erase_attribute("vmlight:samples");
-    if (params.sun_directions.empty())
-        spec.erase_attribute("vmlight:sun_directions");
-    // A map without ground has the metadata that it always had.
-    for (const char* name : { "ground", "ground_height" })
-        if (!params.ground)
-            spec.erase_attribute(metadata_name(name));
-    spec.attribute("vmlight:stage", kVismapStage);
-    spec.attribute("vmlight:version", VMLIGHT_VERSION_STRING);
-    spec.attribute("vmlight:mesh", mesh_name);
-    return spec;
-}
 
 void BakeCounts::add(const BakeCounts& other)
 {

@@ -45,9 +45,9 @@ public:
     /// Trace the disc for `point`, the centre of texel (x, y), whose ray origin adjust_ray_origins() has set. Its
     /// visibility goes to `*dst`, by the next flush() at the latest:
     ///     T = mean over the disc of vis(w) max(0, n.w),
-    /// which is n.d (1 + cos a) / 2 where all of it is seen. As in visibility maps and the reference, directions below the
-    /// geometric surface g are left out, and the result is divided by the share of the cosine above it, (1 + n.g) / 2.
-    /// A texel whose horizon is above the disc gets 0 and traces no ray.
+    /// which is n.d (1 + cos a) / 2 where all of it is seen. As in visibility maps and the reference, directions below
+    /// the geometric surface g are left out, and the result is divided by the share of the cosine above it, (1 + n.g)
+    /// / 2. A texel whose horizon is above the disc gets 0 and traces no ray.
     void add(const SurfacePoint& point, int x, int y, float* dst);
     /// Trace what is left.
     void flush();
