@@ -231,11 +231,12 @@ TEST_F(CutoutStage, GltfMasksAndOtherUvSets)
     file.primitive()["attributes"]["TEXCOORD_1"] = left;
     file.primitive()["material"] = 0;
     const size_t view = file.add_view(folder.bytes("leaf.png"));
-    file.root["images"] = { { { "bufferView", view }, { "mimeType", "image/png" } } };
-    file.root["textures"] = { { { "source", 0 } } };
+    // Compilers differ in what a list of one is.
+    file.root["images"] = json::array({ json { { "bufferView", view }, { "mimeType", "image/png" } } });
+    file.root["textures"] = json::array({ json { { "source", 0 } } });
     json material = { { "name", "leaf" }, { "alphaMode", "MASK" } };
     material["pbrMetallicRoughness"]["baseColorTexture"] = { { "index", 0 } };
-    file.root["materials"] = { material };
+    file.root["materials"] = json::array({ material });
     VismapRecipe recipe;
     recipe.vismap_params.resolution = { 4, 4 };
     const auto counts = [&](const char* name) {
@@ -249,7 +250,7 @@ TEST_F(CutoutStage, GltfMasksAndOtherUvSets)
     file.root["materials"][0]["alphaMode"] = "OPAQUE";
     EXPECT_EQ(counts("opaque.glb").triangles, 0);
     file.root["materials"][0]["alphaMode"] = "MASK";
-    file.root["images"] = { { { "uri", "none.png" } } };
+    file.root["images"] = json::array({ json { { "uri", "none.png" } } });
     recipe.mesh = folder.write("missing.gltf", file.text());
     EXPECT_THAT(refusal(recipe),
                 testing::AllOf(HasSubstr("material \"leaf\" needs the alpha of its texture: image 0: "),
