@@ -71,6 +71,9 @@ TEST_F(NormalMaps, AreAnEffect)
                 testing::ContainsRegex("calls for normal-map, left out: V is off by about 0\\.1"));
     done("makevismap quad.obj -o c.exr" + small);
     expect_same_pixels("b.exr", "c.exr", 0);
+    // How far off a picture is without it takes the map itself.
+    write("quad.vismap", "mesh = \"quad.obj\"\nnormal_map = \"no.png\"\neffects = \"-normal-map\"\n");
+    refused(1, "\"quad.vismap\": \"no.png\": no such file", "makevismap quad.vismap -o d.exr" + small);
     refused(1, "+normal-map is impossible: no --normal-map is given",
             "makevismap quad.obj --effects +normal-map -o x.exr" + small);
 }

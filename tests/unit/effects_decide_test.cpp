@@ -22,7 +22,6 @@ EffectFacts everything()
     bake.proven = true;
     bake.covered = 5000;
     bake.texels = 10000;
-    bake.samples = 64;
     bake.occluders = { { "tree", 500, CasterReach::reaches, 2 } };
     bake.has_ground = true;
     bake.cutouts.triangles = bake.cutouts.mixed = 12;
@@ -34,7 +33,7 @@ EffectFacts everything()
     bake.margin = 16;
     bake.udim = 1002;
     bake.udim_given = bake.half = true;
-    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", false, true };
+    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true };
     return facts;
 }
 

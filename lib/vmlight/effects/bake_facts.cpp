@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/effects/bake_facts.h>
 
-#include <vmlight/vismap/basis.h>
-
 namespace vmlight {
 
 BakeFacts bake_facts(const BakeScene& scene, const VismapBaker& baker, int64_t covered)
@@ -17,7 +15,6 @@ BakeFacts bake_facts(const BakeScene& scene, const VismapBaker& baker, int64_t c
     facts.self = scene.choice().self;
     facts.covered = covered;
     facts.texels = int64_t(baker.width()) * baker.height();
-    facts.samples = params.samples;
     facts.occluders = scene.reach();
     facts.cutouts = scene.occluder().cutouts();
     facts.has_ground = params.ground;
@@ -26,8 +23,6 @@ BakeFacts bake_facts(const BakeScene& scene, const VismapBaker& baker, int64_t c
     facts.diagonal = scene.diagonal();
     facts.reach = params.max_distance;
     facts.margin = params.margin;
-    facts.basis = params.basis;
-    facts.whole_numbers = find_basis(params.basis).whole_numbers;
     facts.udim = params.udim;
     return facts;
 }

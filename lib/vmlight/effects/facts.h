@@ -21,7 +21,6 @@ struct BakeFacts
     bool proven = false; ///< whether every triangle was looked at
     bool self = true; ///< whether the mesh is in the ray-tracing scene
     int64_t covered = 0, texels = 0; ///< texels that the mesh covers, of the map
-    int samples = 0;
 
     std::vector<CasterReach> occluders;
     CutoutCounts cutouts;
@@ -33,9 +32,8 @@ struct BakeFacts
     double diagonal = 0; ///< of the box around mesh and occluders
     double reach = std::numeric_limits<double>::infinity(); ///< length of rays
     int margin = 0;
-    std::string basis = "vector";
     int udim = 1001;
-    bool udim_given = false, half = false, whole_numbers = false;
+    bool udim_given = false, half = false;
 };
 
 /// Of a lightmap.
@@ -48,7 +46,6 @@ struct LightFacts
     double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels
     int levels = 0; ///< images of the light that the model reads
     std::string model;
-    bool constant_light = false; ///< whether the environment is of one colour
     bool has_environment = false; ///< rather than filtered light
 };
 

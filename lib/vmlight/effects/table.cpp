@@ -218,10 +218,7 @@ void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const
 {
     const LightFacts& light = facts.light;
     dst.push_back(decision(effect, light.has_environment,
-                           !light.has_environment     ? "the light is filtered already"
-                               : light.constant_light ? "the environment is of one colour: its filter is too"
-                                                      : "the environment varies",
-                           0.5));
+                           light.has_environment ? "an environment is given" : "the light is filtered already", 0.5));
 }
 
 void decide_levels(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)

@@ -26,9 +26,8 @@ struct BakeForecast
 };
 
 /// Decide on the effects of `recipe` as given, whose scene and normal map with its switches applied are `scene` and
-/// `normal_map`. Reports the table if
-/// the options ask for it; warns of each effect that is left out though the scene calls for it, with the difference of
-/// V with and without, which traces some texels of both scenes.
+/// `normal_map`. Reports the table if the options ask for it; warns of each effect that is left out though the scene
+/// calls for it, with the difference of V with and without, which traces some texels of both scenes.
 ///
 /// @returns false, with the reason in `error`, if the switches ask for what is impossible, or the work was stopped
 bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const NormalMapPointer& normal_map,

@@ -13,8 +13,8 @@ namespace vmlight {
 /// The recipe's switches, which recipe_fault() has checked.
 EffectSwitches switches_of(const std::string& effects, const char* stage);
 
-/// What the recipe bakes: without the ground, the maximum distance or the margin, if they are switched off; tracing all
-/// texels, if self-occlusion is switched on.
+/// What the recipe bakes: without the ground, cut-outs, the normal map, the maximum distance or the margin, if they are
+/// switched off; tracing all texels, if self-occlusion is switched on.
 VismapRecipe with_switches(const VismapRecipe& recipe);
 
 /// What goes into the recipe's ray-tracing scene.

@@ -247,19 +247,19 @@ bool share_mesh(std::shared_ptr<const Mesh>& dst, const VismapRecipe& recipe, co
 
 PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain, Sharing sharing)
 {
-    const VismapRecipe recipe = resolve_udim(given);
+    const VismapRecipe recipe = resolve_udim(given), switched = with_switches(recipe);
     error = recipe_fault(recipe, chain);
     if (!error.empty() || !check_params(recipe.vismap_params, error) || !check_params(recipe.mesh_params, error)
         || !check_params(recipe.normal_map_params, error))
         return nullptr;
     SceneStamps stamps;
     std::string at;
-    if (!stamp_scene(stamps, with_switches(recipe), at, error)) {
+    if (!stamp_scene(stamps, switched, at, error)) {
         error = with_location(recipe, at, chain, error);
         return nullptr;
     }
     std::string normal_map;
-    if (!recipe.normal_map.empty() && !stamp_file(normal_map, recipe.normal_map, error)) {
+    if (!switched.normal_map.empty() && !stamp_file(normal_map, switched.normal_map, error)) {
         error = with_location(recipe, "normal_map", chain, error);
         return nullptr;
     }

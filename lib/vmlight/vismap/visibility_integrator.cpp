@@ -81,14 +81,7 @@ Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, boo
     if (m_ground.exists()) {
         trace_over_ground(result, point, all, open, is_mapped);
     } else {
-        if (!open) {
-            m_rays += above.rays;
-            m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
-        }
-        const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
-        result.visibility = double(seen.rays) / double(all.rays);
-        result.direction = mean_direction(seen, all, point.normal);
-        result.error = m_wants_error ? lane_scatter(m_traced, m_fan.lanes) : 0;
+        trace(result, point, all, above, open);
     }
     // Chance, and above all rays that are not traced because they are below the facet, make of the rest what no
     // surface can see: too narrow a part of the sky, and so too bright a light under a sun.
@@ -105,6 +98,20 @@ Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, boo
     return result;
 }
 
+DirectionSums VisibilityIntegrator::trace(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
+                                          const DirectionSums& above, bool open)
+{
+    if (!open && above.rays > 0) {
+        m_rays += above.rays;
+        m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
+    }
+    const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
+    dst.visibility = double(seen.rays) / double(all.rays);
+    dst.direction = mean_direction(seen, all, point.normal);
+    dst.error = m_wants_error ? lane_scatter(m_traced, m_fan.lanes) : 0;
+    return seen;
+}
+
 void VisibilityIntegrator::trace_over_ground(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
                                              bool open, bool is_mapped)
 {
@@ -115,14 +122,7 @@ void VisibilityIntegrator::trace_over_ground(Visibility& dst, const SurfacePoint
         && m_ground.hides_lower_half(point);
     if (exact && m_wants_error)
         m_traced_above = m_fan.lanes;
-    if (!open && above.rays > 0) {
-        m_rays += above.rays;
-        m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
-    }
-    const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
-    dst.visibility = double(seen.rays) / double(all.rays);
-    dst.direction = mean_direction(seen, all, point.normal);
-    dst.error = m_wants_error ? lane_scatter(m_traced, m_fan.lanes) : 0;
+    const DirectionSums seen = trace(dst, point, all, above, open);
     if (!exact)
         return;
     // A ratio: 1 exactly where the ground alone occludes, 0 where nothing is visible. Without a ray above the ground

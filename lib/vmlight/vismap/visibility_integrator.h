@@ -67,6 +67,9 @@ public:
 private:
     // Rays of the fan for which is_out(direction) is true.
     template <class Test> void take_out(const Test& is_out);
+    // Trace the fan, of which `above` is left, and set V, B and their error. Returns what is seen.
+    DirectionSums trace(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
+                        const DirectionSums& above, bool open);
     // Trace what the ground leaves of the fan, and set V, B and their error.
     void trace_over_ground(Visibility& dst, const SurfacePoint& point, const DirectionSums& all, bool open,
                            bool is_mapped);
