@@ -5,9 +5,11 @@
 #include "scenes.h"
 #include "turned.h"
 
+#include <vmlight/math/sampling.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
 
+#include <numeric>
 #include <random>
 
 using namespace vmlight;
@@ -48,31 +50,66 @@ Mesh wedge(double degrees)
     return mesh;
 }
 
+// The texels of a mesh, and the scene that their rays meet.
+struct TracedTexels
+{
+    TracedTexels(const Mesh& mesh, int size)
+        : raster(mesh, size, size)
+        , frame(SceneFrame::around(mesh))
+        , surface(mesh, frame)
+    {
+        std::string error;
+        EXPECT_TRUE(occluder.build({ &mesh }, frame, 1, error));
+    }
+    template <class Visit> void each_covered(const Visit& visit)
+    {
+        for (int tile = 0; tile < raster.tiles_across() * raster.tiles_down(); ++tile) {
+            TileCover cover;
+            raster.cover(tile, cover);
+            for (size_t i = 0; i < cover.triangle.size(); ++i)
+                if (cover.triangle[i] != TileCover::kNone)
+                    visit(surface.at(cover.triangle[i], cover.weight1[i], cover.weight2[i]), cover.triangle[i]);
+        }
+    }
+    const UvRaster raster;
+    const SceneFrame frame;
+    Surface surface;
+    Occluder occluder;
+};
+
 // How many of `mesh`'s covered texels are not as `wanted` from where Surface has rays start that know of nothing near.
 template <class Wanted> int64_t wrong_from_afar(const Mesh& mesh, int size, const Wanted& wanted)
 {
-    const SceneFrame frame = SceneFrame::around(mesh);
-    Occluder occluder;
-    std::string error;
-    EXPECT_TRUE(occluder.build({ &mesh }, frame, 1, error));
-    Surface surface(mesh, frame);
-    const UvRaster raster(mesh, size, size);
+    TracedTexels texels(mesh, size);
     int64_t wrong = 0;
-    for (int tile = 0; tile < raster.tiles_across() * raster.tiles_down(); ++tile) {
-        TileCover cover;
-        raster.cover(tile, cover);
-        for (size_t i = 0; i < cover.triangle.size(); ++i) {
-            if (cover.triangle[i] == TileCover::kNone)
-                continue;
-            const SurfacePoint point = surface.at(cover.triangle[i], cover.weight1[i], cover.weight2[i]);
-            RayFan fan(1);
-            fan.x[0] = point.normal.x, fan.y[0] = point.normal.y, fan.z[0] = point.normal.z;
-            fan.lanes[0] = 1;
-            occluder.clear_blocked(fan, point.origin, std::numeric_limits<float>::infinity());
-            wrong += (fan.lanes[0] == 1) != wanted(cover.triangle[i]);
-        }
-    }
+    texels.each_covered([&](const SurfacePoint& point, uint32_t triangle) {
+        RayFan fan(1);
+        fan.x[0] = point.normal.x, fan.y[0] = point.normal.y, fan.z[0] = point.normal.z;
+        fan.lanes[0] = 1;
+        texels.occluder.clear_blocked(fan, point.origin, std::numeric_limits<float>::infinity());
+        wrong += (fan.lanes[0] == 1) != wanted(triangle);
+    });
     return wrong;
+}
+
+// Rays that `mesh` blocks from as near to its texels as rays start.
+int64_t blocked_from_near(const Mesh& mesh, int size, bool is_near)
+{
+    const SamplePattern pattern("fibonacci", 64, false);
+    TracedTexels texels(mesh, size);
+    int64_t blocked = 0;
+    texels.each_covered([&](const SurfacePoint& point, uint32_t) {
+        RayFan fan(64);
+        pattern.directions(fan, TangentFrame(point.normal), point.geometric_normal, {});
+        const auto rays = [&fan] {
+            return std::accumulate(fan.lanes.begin(), fan.lanes.end(), 0,
+                                   [](int sum, uint8_t lanes) { return sum + __builtin_popcount(lanes); });
+        };
+        const int all = rays();
+        texels.occluder.clear_blocked(fan, point.near_origin, std::numeric_limits<float>::infinity(), is_near);
+        blocked += all - rays();
+    });
+    return blocked;
 }
 
 } // namespace
@@ -215,17 +252,19 @@ TEST(Geometry, SliversMeetThemselves)
     // Quads as wide as long down to 1e-7 of that, each alone in its mesh.
     std::mt19937 random(1);
     std::uniform_real_distribution<double> in(-1, 1);
-    int64_t wrong = 0;
+    const auto point = [&] { return V3d(in(random), in(random), in(random)); };
+    int64_t wrong = 0, naive = 0, guarded = 0;
     for (int run = 0; run < 200; ++run) {
         const double width = std::pow(10.0, -7 * std::abs(in(random)));
-        V3d p[3];
-        for (V3d& corner : p)
-            corner = V3d(in(random), in(random), in(random));
-        p[2] = p[1] + (p[2] - p[1]) * width;
+        const V3d a = point(), b = point(), c = b + (point() - b) * width;
         Mesh mesh;
-        add_quad(mesh, p[0], p[1], p[2], p[0] + p[2] - p[1], V2f(0, 0), V2f(1, 1));
+        add_quad(mesh, a, b, c, a + c - b, V2f(0, 0), V2f(1, 1));
         wrong += count_covered_unless(BakedMap(mesh, {}, map_params(24, 24, 64)), sees_all);
+        naive += blocked_from_near(mesh, 24, false);
+        guarded += blocked_from_near(mesh, 24, true);
     }
     EXPECT_EQ(wrong, 0);
+    EXPECT_GT(naive, 0);
+    EXPECT_EQ(guarded, 0);
     row.ours("V = 1 exactly: near a surface, the side is computed in double");
 }

@@ -28,27 +28,23 @@ std::string extension_of(const ImportRequest& request)
     return OIIO::Strutil::splits(request.format.extensions).front();
 }
 
-// Leave `importer` the one importer of the format, which then reads only what was inspected as that. Of formats that
-// are not inspected (X3D, 3MF, glTF 1.0, ...) a short file can make assimp recurse for ever.
+// Leave `importer` the one importer of the format, if it was built with it: another that takes the file for its own
+// would read what was not inspected, and a short X3D or 3MF can make assimp recurse for ever.
 void keep_importer_of(const ImportRequest& request, Assimp::Importer& importer)
 {
-    const std::string extension = extension_of(request);
     for (size_t i = importer.GetImporterCount(); i-- > 0;) {
-        const aiImporterDesc& description = *importer.GetImporterInfo(i);
-        const std::vector<std::string> extensions = OIIO::Strutil::splits(description.mFileExtensions);
-        const bool is_gltf1 = OIIO::Strutil::starts_with(description.mName, "glTF Importer");
-        if (!extensions.empty() && extensions.front() == extension && !is_gltf1)
+        const std::vector<std::string> extensions = OIIO::Strutil::splits(importer.GetImporterInfo(i)->mFileExtensions);
+        if (!extensions.empty() && extensions.front() == extension_of(request))
             continue;
         const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i)); // ours once it is not listed
         importer.UnregisterLoader(other.get());
     }
 }
 
-// The file under a name from which assimp guesses its format right. It knows a GLB by nothing else.
+// The file under a name from which assimp guesses its format right.
 std::string known_name(const ImportRequest& request)
 {
-    const bool is_glb = OIIO::Strutil::starts_with(request.head.bytes, "glTF");
-    const std::string ending = "." + (is_glb ? "glb" : extension_of(request));
+    const std::string ending = "." + extension_of(request);
     return OIIO::Strutil::iends_with(request.path, ending) ? request.path : request.path + ending;
 }
 
