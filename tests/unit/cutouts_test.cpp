@@ -139,6 +139,47 @@ TEST(Cutouts, MicromapsChangeNoBitOfWhatTheTextureSaysAtEveryHit)
         }
 }
 
+// Where Embree's own weights of hits are the least exact.
+TEST(Cutouts, MicromapsChangeNoBitOfSliversFarAwayAndFromTheSide)
+{
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> exponent(-3, 0);
+    std::normal_distribution<double> normal;
+    const auto direction = [&] { return V3d(normal(random), normal(random), normal(random)).normalized(); };
+    Mesh slivers = foliage(400, 9);
+    for (size_t quad = 0; quad < slivers.triangles.size() / 2; ++quad) {
+        const V3d along = direction();
+        const double shrink = 1 - std::pow(10, exponent(random)), size = std::pow(10, exponent(random));
+        const V3d place = direction() * 3;
+        for (size_t k = 0; k < 4; ++k) { // four vertices a quad
+            const V3d p(slivers.positions[4 * quad + k] - slivers.positions[4 * quad]);
+            slivers.positions[4 * quad + k] = V3f(place + (p - along * along.dot(p) * shrink) * size);
+        }
+    }
+    const Mesh crown = with_material(std::move(slivers), material(AlphaMode::mask, leaf(256)));
+    const CutTrace fast(crown), slow(crown, CutoutMode::every_hit);
+    int blocked = 0, differing = 0;
+    for (int packet = 0; packet < 20000; ++packet) {
+        std::array<V3f, kPacketSize> origins, directions;
+        for (size_t lane = 0; lane < kPacketSize; ++lane) {
+            const auto& corners = crown.triangles[random() % crown.triangles.size()];
+            const double u = std::abs(normal(random)) * 0.3, v = std::abs(normal(random)) * 0.3;
+            const V3d a(crown.positions[corners[0]]), b(crown.positions[corners[1]]), c(crown.positions[corners[2]]);
+            const V3d target = a + (b - a) * u + (c - a) * v, away = direction() * std::pow(10, 1 + exponent(random));
+            origins[lane] = V3f(target + away);
+            directions[lane] = V3f((target - V3d(origins[lane])).normalized());
+        }
+        const float length = std::numeric_limits<float>::infinity();
+        const uint8_t a = fast.occluder.find_blocked(origins.data(), directions.data(), kPacketSize, length);
+        const uint8_t b = slow.occluder.find_blocked(origins.data(), directions.data(), kPacketSize, length);
+        blocked += __builtin_popcount(b);
+        differing += __builtin_popcount(a ^ b);
+    }
+    EXPECT_GT(blocked, 40000);
+    EXPECT_EQ(differing, 0);
+    EXPECT_LT(fast.occluder.cutout_work().lookups, slow.occluder.cutout_work().lookups / 2);
+}
+
 TEST(Cutouts, TrianglesThatAreOneOrTheOtherAreNeverAskedAbout)
 {
     const auto flat = [](float value) { return texture(16, 16, [value](int, int) { return value; }); };

@@ -206,3 +206,33 @@ TEST(OpacityMicromap, HostileTexturesAndUvsAreDefined)
                 }
         }
 }
+
+TEST(OpacityMicromap, ACellWithinAnErrorIsThatOfEveryPointThere)
+{
+    Dice dice(5);
+    int certain = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const MicromapGrid grid { dice.below(MicromapGrid::kDeepest + 1) };
+        const float error = float(std::pow(10, dice.in(-7, -1)));
+        float u = float(dice.in(0, 1)), v = float(dice.in(0, 1)) * (1 - u);
+        if (dice.below(2)) // close to lines of the grid
+            u = std::round(u * float(1 << grid.level)) / float(1 << grid.level) + float(dice.in(-2, 2)) * error;
+        const int64_t cell = grid.cell_within(u, v, error);
+        if (cell < 0)
+            continue;
+        ++certain;
+        for (const double du : { -1.0, 0.0, 1.0 })
+            for (const double dv : { -1.0, 0.0, 1.0 })
+                ASSERT_EQ(grid.cell(u + du * double(error), v + dv * double(error)), cell)
+                    << u << " " << v << " +- " << error << " at level " << grid.level;
+    }
+    EXPECT_GT(certain, 50000);
+    const float none = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    const MicromapGrid grid { 4 };
+    EXPECT_EQ(grid.cell_within(none, 0.3f, 1e-6f), -1);
+    EXPECT_EQ(grid.cell_within(0.3f, none, 1e-6f), -1);
+    EXPECT_EQ(grid.cell_within(0.33f, 0.3f, none), -1);
+    EXPECT_EQ(grid.cell_within(0.33f, 0.3f, infinite), -1);
+    EXPECT_EQ(grid.cell_within(1, 0, 1e-6f), -1);
+    EXPECT_EQ(grid.cell_within(-1e-7f, 0.3f, 1e-6f), -1);
+}

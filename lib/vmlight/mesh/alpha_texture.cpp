@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -163,15 +164,22 @@ AlphaRange AlphaTexture::range(const Imath::V2d& low, const Imath::V2d& high) co
 
 void AlphaTexture::add_texels(AlphaRange& dst, const Span& across, const Span& down) const
 {
-    float low = 1, high = 0;
+    // Floats from 0 on are in the order of their bits, and compilers make vectors of whole numbers' least and greatest.
+    constexpr int kOne = 0x3f800000;
+    int low = kOne, high = 0;
     for (int y = down.first; y <= down.last; ++y) {
         const float* row = &m_texels[size_t(y) * size_t(m_width)];
         for (int x = across.first; x <= across.last; ++x) {
-            low = std::min(low, row[x]);
-            high = std::max(high, row[x]);
+            int bits;
+            std::memcpy(&bits, row + x, sizeof(bits));
+            low = std::min(low, bits);
+            high = std::max(high, bits);
         }
     }
-    dst.add(double(low), double(high));
+    float least, greatest;
+    std::memcpy(&least, &low, sizeof(least));
+    std::memcpy(&greatest, &high, sizeof(greatest));
+    dst.add(double(least), double(greatest));
 }
 
 AlphaRange AlphaTexture::range() const

@@ -119,12 +119,11 @@ void Cutouts::sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, in
         in_portions(count, nthreads,
                     [&](size_t key) { maps[key] = make_micromap(triangle(key), std::min(levels[key], deepest)); });
     }
-    std::vector<uint32_t> map_of(count, 0);
+    std::vector<size_t> first_word(count, 0);
     for (size_t key = 0; key < count; ++key) {
         if (maps[key].whole != CellState::unknown)
             continue;
-        map_of[key] = uint32_t(m_maps.size());
-        m_maps.push_back({ m_cells.size(), maps[key].grid });
+        first_word[key] = m_cells.size();
         m_cells.insert(m_cells.end(), maps[key].cells.begin(), maps[key].cells.end());
     }
 
@@ -147,12 +146,13 @@ void Cutouts::sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, in
             m_counts.cells += map.grid.count();
             m_counts.unknown += map.cells.empty() ? map.grid.count() : map.unknown;
             m_mixed.push_back(uint32_t(t));
-            m_map_of.push_back(map_of[key]);
+            m_maps.push_back({ first_word[key], map.grid });
             m_material_of.push_back(keys.keys()[key].material);
             m_uvs.push_back(keys.keys()[key].uvs);
         }
     }
-    m_counts.bytes = m_cells.size() * sizeof(uint64_t) + m_mixed.size() * (sizeof(m_uvs[0]) + 3 * sizeof(uint32_t));
+    m_counts.bytes
+        = m_cells.size() * sizeof(uint64_t) + m_mixed.size() * (sizeof(m_uvs[0]) + sizeof(Map) + 2 * sizeof(uint32_t));
     for (const MaterialOpacity& material : m_opacity->materials)
         for (const MaterialOpacity::Texture& texture : material.textures)
             m_counts.bytes += texture.image ? texture.image->bytes() : 0;
@@ -161,13 +161,10 @@ void Cutouts::sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, in
 double Cutouts::opacity(uint32_t mixed, double u, double v, CutoutWork& work) const
 {
     ++work.hits;
-    const Map& map = m_maps[m_map_of[mixed]];
-    if (!m_cells.empty()) {
-        const auto cell = size_t(map.grid.cell(u, v));
-        const auto state = CellState(m_cells[map.first_word + cell / 32] >> (2 * (cell % 32)) & 3);
-        if (state != CellState::unknown)
-            return state == CellState::opaque ? 1 : 0;
-    }
+    const Map& map = m_maps[mixed];
+    if (!m_cells.empty())
+        if (const CellState found = state(map, size_t(map.grid.cell(u, v))); found != CellState::unknown)
+            return found == CellState::opaque ? 1 : 0;
     ++work.lookups;
     return TriangleOpacity(m_opacity->materials[m_material_of[mixed]], m_uvs[mixed]).at(u, v);
 }

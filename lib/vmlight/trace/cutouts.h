@@ -62,6 +62,15 @@ public:
     /// @param u, v         barycentric weights of the triangle's second and third corners
     double opacity(uint32_t mixed, double u, double v, CutoutWork& work) const;
 
+    /// What its micromap says of a hit whose weights are not exact: unknown unless all points within `error` of them
+    /// lie in one cell that is opaque or transparent. Never disagrees with opacity().
+    CellState known(uint32_t mixed, float u, float v, float error) const
+    {
+        const Map& map = m_maps[mixed];
+        const int64_t cell = map.grid.cell_within(u, v, error);
+        return cell < 0 || m_cells.empty() ? CellState::unknown : state(map, size_t(cell));
+    }
+
     /// Whether light passes where opacity is in between: by a hash of the ray and the triangle. Its mean is exact, and
     /// no threads, tiles or order of hits change it.
     ///
@@ -75,6 +84,10 @@ private:
         MicromapGrid grid;
     };
 
+    CellState state(const Map& map, size_t cell) const
+    {
+        return CellState(m_cells[map.first_word + cell / 32] >> (2 * (cell % 32)) & 3);
+    }
     void sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, int nthreads, CutoutMode mode);
 
     std::shared_ptr<const MeshOpacity> m_opacity;
@@ -82,9 +95,9 @@ private:
     CutoutCounts m_counts;
     std::vector<uint32_t> m_opaque, m_mixed;
     // For each of the mixed triangles: its micromap, which triangles with equal uvs share, its material, its uvs.
-    std::vector<uint32_t> m_map_of, m_material_of;
-    std::vector<std::array<std::array<Imath::V2f, 3>, 2>> m_uvs;
     std::vector<Map> m_maps;
+    std::vector<uint32_t> m_material_of;
+    std::vector<std::array<std::array<Imath::V2f, 3>, 2>> m_uvs;
     std::vector<uint64_t> m_cells;
 };
 

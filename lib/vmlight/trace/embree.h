@@ -90,6 +90,25 @@ inline void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)
 }
 #endif
 
+/// A bit for each of the lanes that are valid, -1, rather than 0. `n` is 1, 4, 8 or 16.
+inline unsigned valid_lanes(const int* valid, unsigned n)
+{
+    unsigned lanes = 0;
+    unsigned i = 0;
+#if defined(__SSE__)
+    for (; i + 4 <= n; i += 4)
+        lanes |= unsigned(_mm_movemask_ps(_mm_loadu_ps(reinterpret_cast<const float*>(valid + i)))) << i;
+#endif
+    for (; i < n; ++i)
+        lanes |= unsigned(valid[i] != 0) << i;
+    return lanes;
+}
+/// The number of its lowest bit; not of 0.
+inline unsigned first_lane(unsigned lanes)
+{
+    return unsigned(__builtin_ctz(lanes));
+}
+
 /// Flushes denormals to zero during its lifetime, as Embree recommends, then restores the thread's own setting, so that
 /// hosts never see a difference. No effect on CPUs other than x86.
 class FlushDenormals

@@ -30,28 +30,62 @@ uint64_t ray_bits(const V3f& origin, const V3f& direction)
 
 } // namespace
 
+namespace {
+
+std::vector<float> longest_edges(const Buffers& buffers)
+{
+    std::vector<float> result;
+    for (size_t t = 0; t < buffers.triangle_count; ++t) {
+        const auto& corners = buffers.triangles[t];
+        float longest = 0;
+        for (size_t k = 0; k < 3; ++k)
+            longest
+                = std::max(longest, (buffers.vertices[corners[k]] - buffers.vertices[corners[(k + 1) % 3]]).length());
+        result.push_back(longest);
+    }
+    return result;
+}
+
+// Opacity at lane `i` of a filter's hits, exactly.
+double opacity_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments& arguments, unsigned i,
+                      const V3f& start, const V3f& along, CutoutWork& work)
+{
+    const unsigned triangle = RTCHitN_primID(arguments.hit, arguments.N, i);
+    const auto& corners = buffers.triangles[triangle];
+    // Embree's own u and v differ in their last bits from one instruction set to another.
+    const V3d a(buffers.vertices[corners[0]]), origin(start), direction(along);
+    const V3d side1 = V3d(buffers.vertices[corners[1]]) - a, side2 = V3d(buffers.vertices[corners[2]]) - a;
+    const V3d p = direction.cross(side2), s = origin - a, q = s.cross(side1);
+    const double scale = 1 / side1.dot(p);
+    const double u = s.dot(p) * scale, v = direction.dot(q) * scale;
+    const double inside_u = u > 0 ? std::min(u, 1.0) : 0; // not a number: 0
+    const double inside_v = v > 0 ? std::min(v, 1 - inside_u) : 0;
+    return buffers.cutouts->opacity(triangle, inside_u, inside_v, work);
+}
+
+} // namespace
+
 void reject_open_hits(const RTCFilterFunctionNArguments* arguments)
 {
     const auto& buffers = *static_cast<const Buffers*>(arguments->geometryUserPtr);
     CutoutWork& work = static_cast<QueryContext*>(arguments->context)->cutouts;
     RTCRayN* ray = arguments->ray;
+    RTCHitN* hit = arguments->hit;
     const unsigned n = arguments->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (!arguments->valid[i])
-            continue;
-        const unsigned triangle = RTCHitN_primID(arguments->hit, n, i);
-        const auto& corners = buffers.triangles[triangle];
-        const V3f start(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
+    for (unsigned lanes = valid_lanes(arguments->valid, n); lanes; lanes &= lanes - 1) {
+        const unsigned i = first_lane(lanes);
+        const unsigned triangle = RTCHitN_primID(hit, n, i);
         const V3f along(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
-        // Embree's own u and v differ in their last bits from one instruction set to another.
-        const V3d a(buffers.vertices[corners[0]]), origin(start), direction(along);
-        const V3d side1 = V3d(buffers.vertices[corners[1]]) - a, side2 = V3d(buffers.vertices[corners[2]]) - a;
-        const V3d p = direction.cross(side2), s = origin - a, q = s.cross(side1);
-        const double scale = 1 / side1.dot(p);
-        const double u = s.dot(p) * scale, v = direction.dot(q) * scale;
-        const double inside_u = u > 0 ? std::min(u, 1.0) : 0; // not a number: 0
-        const double inside_v = v > 0 ? std::min(v, 1 - inside_u) : 0;
-        const double opacity = buffers.cutouts->opacity(triangle, inside_u, inside_v, work);
+        const V3f normal(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
+        const float error = weight_error(RTCRayN_tfar(ray, n, i), buffers.longest_edges[triangle], normal.dot(along));
+        const CellState known = buffers.cutouts->known(triangle, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i), error);
+        if (known != CellState::unknown) { // nearly always
+            ++work.hits;
+            arguments->valid[i] = known == CellState::opaque ? -1 : 0;
+            continue;
+        }
+        const V3f start(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
+        const double opacity = opacity_at_hit(buffers, *arguments, i, start, along, work);
         if (opacity <= 0 || (opacity < 1 && buffers.cutouts->passes(triangle, opacity, ray_bits(start, along))))
             arguments->valid[i] = 0;
     }
@@ -103,6 +137,8 @@ bool Scene::attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<
         for (size_t i = 0; i < part.size(); ++i)
             indices[i] = mesh.triangles[part[i]];
         m_buffers.push_back({ static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, part.size(), cutouts });
+        if (cutouts)
+            m_buffers.back().longest_edges = longest_edges(m_buffers.back());
         rtcSetGeometryUserData(geometry, &m_buffers.back());
         if (cutouts)
             rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);

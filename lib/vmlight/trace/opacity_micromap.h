@@ -7,6 +7,7 @@
 #include <vmlight/mesh/opacity.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,6 +41,21 @@ struct MicromapGrid
             return index(i, j, false);
         }
         return index(i, j, (u * n - i) + (v * n - j) > 1);
+    }
+    /// The same where every point within `error` of (u, v), in each, lies in one cell; else -1. u and v are about
+    /// from 0 to 1.
+    int64_t cell_within(float u, float v, float error) const
+    {
+        const int n = 1 << level;
+        const float slack = 2 * error * float(n);
+        const float x = std::min(float(n), u * float(n)), y = std::min(float(n), v * float(n)); // NaN: n
+        const int i = int(x), j = int(y);
+        const float across = x - float(i), up = y - float(j);
+        const bool is_upper = across + up > 1;
+        // Without branches: which way they go is as random as the hits.
+        const bool is_inside = (std::fabs(across - 0.5f) < 0.5f - slack) & (std::fabs(up - 0.5f) < 0.5f - slack)
+            & (std::fabs(across + up - 1) > slack) & (i + j + int(is_upper) < n);
+        return is_inside ? index(i, j, is_upper) : -1;
     }
     /// Where the half of square (i, j) is stored.
     int64_t index(int i, int j, bool is_upper) const
