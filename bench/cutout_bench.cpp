@@ -6,6 +6,8 @@
 /// through the same scene, first opaque, then with micromaps, with the texture in memory at every hit, and with
 /// OpenImageIO's texture system at every hit. All take turns; ratios of medians are printed, and whether the same rays
 /// are open.
+#include "texture_system_scene.h"
+
 #include <vmlight/base/parallel.h>
 #include <vmlight/math/sampling.h>
 #include <vmlight/mesh/import/read_mesh.h>
@@ -16,7 +18,6 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/texture.h>
 
 #include <algorithm>
 #include <array>
@@ -88,106 +89,6 @@ Mesh with_leaves(Mesh mesh, bool of_the_atlas)
     mesh.opacity = opacity;
     return mesh;
 }
-
-/// The texture system at every hit.
-struct SystemScene
-{
-    SystemScene(const Mesh& mesh, const SceneFrame& frame, const std::string& texture)
-        : system(OIIO::TextureSystem::create(false))
-        , handle(system->get_texture_handle(OIIO::ustring(texture)))
-        , uvs(&mesh.opacity->uvs[0])
-        , device(rtcNewDevice("set_affinity=0"))
-        , scene(rtcNewScene(device))
-    {
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        for (int part = 0; part < 2; ++part) {
-            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            auto* vertices = static_cast<V3f*>(rtcSetNewGeometryBuffer(
-                geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), mesh.positions.size()));
-            for (size_t v = 0; v < mesh.positions.size(); ++v)
-                vertices[v] = frame.to_scene(mesh.positions[v]);
-            std::vector<std::array<uint32_t, 3>> triangles;
-            for (size_t t = 0; t < mesh.triangles.size(); ++t)
-                if (int(is_leaf(mesh, t)) == part) {
-                    triangles.push_back(mesh.triangles[t]);
-                    if (part)
-                        leaves.push_back(t);
-                }
-            std::memcpy(
-                rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles.size()),
-                triangles.data(), triangles.size() * 12);
-            rtcSetGeometryUserData(geometry, this);
-            if (part)
-                rtcSetGeometryOccludedFilterFunction(geometry, filter);
-            rtcCommitGeometry(geometry);
-            rtcAttachGeometry(scene, geometry);
-            rtcReleaseGeometry(geometry);
-        }
-        rtcCommitScene(scene);
-    }
-    ~SystemScene()
-    {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-        OIIO::TextureSystem::destroy(system);
-    }
-
-    static void filter(const RTCFilterFunctionNArguments* arguments)
-    {
-        const auto& self = *static_cast<const SystemScene*>(arguments->geometryUserPtr);
-        const unsigned n = arguments->N;
-        auto* thread = self.system->get_perthread_info();
-        OIIO::TextureOpt options;
-        options.swrap = options.twrap = OIIO::TextureOpt::WrapClamp;
-        options.interpmode = OIIO::TextureOpt::InterpBilinear;
-        options.mipmode = OIIO::TextureOpt::MipModeNoMIP;
-        for (unsigned i = 0; i < n; ++i) {
-            if (!arguments->valid[i])
-                continue;
-            const float u = RTCHitN_u(arguments->hit, n, i), v = RTCHitN_v(arguments->hit, n, i);
-            const V2f* uvs = &(*self.uvs)[3 * self.leaves[RTCHitN_primID(arguments->hit, n, i)]];
-            const V2f st = uvs[0] + (uvs[1] - uvs[0]) * u + (uvs[2] - uvs[0]) * v;
-            float alpha = 1;
-            if (!self.system->texture(self.handle, thread, options, st.x, 1 - st.y, 0, 0, 0, 0, 1, &alpha)) {
-                std::printf("%s\n", self.system->geterror().c_str());
-                std::exit(1);
-            }
-            if (!(alpha >= 0.5f))
-                arguments->valid[i] = 0;
-        }
-    }
-    void clear_blocked(RayFan& fan, const V3f& origin) const
-    {
-        const embree::FlushDenormals flush;
-        embree::Query query;
-        RTCRay8 rays;
-        for (int lane = 0; lane < kPacketSize; ++lane) {
-            rays.org_x[lane] = origin.x, rays.org_y[lane] = origin.y, rays.org_z[lane] = origin.z;
-            embree::prepare_lane(rays, lane);
-        }
-        for (int packet = 0; packet < fan.packets; ++packet) {
-            alignas(32) int valid[kPacketSize];
-            for (int lane = 0; lane < kPacketSize; ++lane) {
-                valid[lane] = fan.lanes[packet] >> lane & 1 ? -1 : 0;
-                rays.tfar[lane] = kFar;
-            }
-            std::memcpy(rays.dir_x, fan.x + packet * kPacketSize, sizeof(rays.dir_x));
-            std::memcpy(rays.dir_y, fan.y + packet * kPacketSize, sizeof(rays.dir_y));
-            std::memcpy(rays.dir_z, fan.z + packet * kPacketSize, sizeof(rays.dir_z));
-            query.occluded8(valid, scene, rays);
-            for (int lane = 0; lane < kPacketSize; ++lane)
-                if (!(rays.tfar[lane] >= 0))
-                    fan.lanes[packet] &= uint8_t(~(1u << lane));
-        }
-    }
-
-    OIIO::TextureSystem* system;
-    OIIO::TextureSystem::TextureHandle* handle;
-    const std::vector<V2f>* uvs;
-    std::vector<size_t> leaves;
-    RTCDevice device;
-    RTCScene scene;
-};
 
 /// Of this thread: what else runs does not count.
 double cpu_seconds()
@@ -295,7 +196,7 @@ int main(int argc, const char** argv)
             std::printf("%s\n", error.c_str());
             return 1;
         }
-        const SystemScene system(cut, frame, texture);
+        const TextureSystemScene system(cut, frame, texture);
         const auto by = [](const Occluder& occluder) {
             return [&](RayFan& fan, const SurfacePoint& point) {
                 occluder.clear_blocked(fan, point.origin, kFar, point.is_near);

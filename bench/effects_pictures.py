@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The picture of docs/effects.md: above, scenes without an effect that they call for; below, with it.
+
+    bench/effects_pictures.py BIN_FOLDER OUT.png
+
+Each column is one effect: bakes with and without it, then vmframes at the same light and exposure. Needs oiiotool.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import leaf_cards
+import scenes
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+DATA = os.path.join(HERE, "../tests/data")
+CONFIG = os.path.join(HERE, "../configs/ocio/config.ocio")
+STUDIO, SUNNY = os.path.join(DATA, "studio_small_03.hdr"), os.path.join(DATA, "kloppenheim_05.hdr")
+GAZEBO, SPOT = os.path.join(DATA, "gazebo.obj"), os.path.join(DATA, "spot.obj")
+SIDE = 240
+
+
+def wall(path):
+    """A wall behind spot, and one to its left."""
+    mesh = scenes.Mesh()
+    for patch in (scenes.Patch([-2, -1, -1.2], [4, 0, 0], [0, 3, 0]), scenes.Patch([-0.9, -1, 2], [0, 0, -4], [0, 3, 0])):
+        patch.build(mesh, 0, 0, 0.1)
+    mesh.write(path)
+
+
+def bumps(path):
+    """A normal map of a bumpy hide, in tangent space."""
+    import math
+    import struct
+    import zlib
+
+    size, rows = 512, b""
+    for y in range(size):
+        row = b"\0"
+        for x in range(size):
+            slope = [0.55 * math.cos(2 * math.pi * 24 * x / size) * math.sin(2 * math.pi * 24 * y / size),
+                     -0.55 * math.sin(2 * math.pi * 24 * x / size) * math.cos(2 * math.pi * 24 * y / size), 1]
+            length = scenes.length(slope)
+            row += bytes(round(127.5 + 127.5 * s / length) for s in slope)
+        rows += row
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0))
+                   + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def columns(folder):
+    """For each effect: the words of vmframes for both, without it, with it."""
+    def made(name):
+        return os.path.join(folder, name)
+
+    scenes.well_stairs().write(made("well_stairs.obj"))
+    wall(made("wall.obj"))
+    bumps(made("bumps.png"))
+    subprocess.run([sys.executable, leaf_cards.__file__, folder], check=True)
+    leaves = [made("leaf_cards.gltf"), STUDIO, "--uv-set", "1", "--white", "--elevation", "15", "--exposure", "-1.5"]
+    return {
+        "self-occlusion": ([GAZEBO, STUDIO, "--exposure", "-1.5"], ["--effects", "-self-occlusion"], []),
+        "occluders": ([SPOT, STUDIO, "--azimuth", "30", "--exposure", "-1.5"], [], ["--occluder", made("wall.obj")]),
+        "ground": ([SPOT, SUNNY, "--elevation", "-5", "--white"], [], ["--bake-ground"]),
+        "cut-outs": (leaves, ["--cutouts", "off"], []),
+        "normal-map": ([SPOT, STUDIO, "--white", "--exposure", "-1.5"], [], ["--normal-map", made("bumps.png")]),
+        "max-distance": ([made("well_stairs.obj"), STUDIO, "--elevation", "75", "--exposure", "-1"], [], ["--max-distance", "0.3"]),
+        #"suns": ([GAZEBO, SUNNY, "--elevation", "20", "--model", "lobe"], [], ["--suns", "auto"]),
+    }
+
+
+def picture(binaries, folder, words, name):
+    out = os.path.join(folder, name + ".exr")
+    map_words, frame_words, i = [], [], 2
+    while i < len(words):
+        flag = words[i]
+        step = 1 if flag in ("--white", "--bake-ground") else 2
+        to_map = flag in ("--effects", "--occluder", "--bake-ground", "--normal-map", "--max-distance", "--uv-set",
+                          "--cutouts")
+        both = flag in ("--uv-set", "--cutouts")
+        part = ["--ground"] if flag == "--bake-ground" else words[i:i + step]
+        if to_map:
+            map_words += part
+        if not to_map or both:
+            frame_words += part
+        i += step
+    vismap = os.path.join(folder, name + "_vismap.exr")
+    subprocess.run([os.path.join(binaries, "makevismap"), words[0], "--resolution", "512", "--quiet", "-o", vismap]
+                   + map_words, check=True)
+    subprocess.run([os.path.join(binaries, "vmframes"), words[0], words[1], "--vismap", vismap, "--size", str(SIDE),
+                    "--background", "0.18,0.18,0.18", "--colorconfig", CONFIG, "--quiet", "-o", out] + frame_words,
+                   check=True)
+    return out
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit("usage: bench/effects_pictures.py BIN_FOLDER OUT.png")
+    with tempfile.TemporaryDirectory() as folder:
+        above, below = [], []
+        for name, (words, without, with_it) in columns(folder).items():
+            for row, extra, suffix in ((above, without, "without"), (below, with_it, "with")):
+                row.append(picture(sys.argv[1], folder, words + extra, f"{name}_{suffix}"))
+        subprocess.run(["oiiotool", "--colorconfig", CONFIG, "--nosoftwareattrib"] + above + below
+                       + ["--mosaic:pad=4", f"{len(above)}x2", "--ociodisplay:from=ACEScg", "sRGB - Display",
+                          "ACES 1.0 - SDR Video", "--ch", "R,G,B", "-d", "uint8", "-o", sys.argv[2]], check=True)
+
+
+if __name__ == "__main__":
+    main()
