@@ -42,6 +42,8 @@ SceneChoice scene_choice(const VismapRecipe& recipe)
     choice.self = switches.of("self-occlusion") != Switch::off;
     choice.occluders = switches.of("occluders") != Switch::off;
     choice.cull = switches.of("occluders") != Switch::on;
+    if (switches.of("cut-outs") == Switch::on)
+        choice.cutouts = CutoutMode::every_hit;
     if (!recipe.occluder.empty()) // without, maps of any distance share the scene
         choice.reach = recipe.vismap_params.max_distance;
     return choice;

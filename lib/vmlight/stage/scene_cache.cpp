@@ -243,7 +243,8 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
     }
     // What is traced of them.
     const SceneChoice choice = scene_choice(recipe);
-    stamps.key += format("traced={}{}{} {}\n", choice.self, choice.occluders, choice.cull, choice.reach);
+    stamps.key += format("traced={}{}{}{} {}\n", choice.self, choice.occluders, choice.cull,
+                         choice.cutouts == CutoutMode::every_hit, choice.reach);
     for (size_t i = 0; i < stamps.files.size(); ++i) {
         at = key_of(i);
         if (!stamp_file(stamps.files[i], path_of(recipe, i), error))

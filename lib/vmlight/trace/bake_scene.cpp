@@ -117,20 +117,17 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
 // Give Embree what the rays of the mesh can meet.
 bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error)
 {
-    std::vector<const Mesh*> casters;
-    if (m_choice.self)
-        casters.push_back(m_mesh.get());
+    std::vector<const Mesh*> casters { m_choice.self ? m_mesh.get() : nullptr };
     SceneBox box = scene_box(*m_mesh, m_frame);
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
-        if (m_reach.back().is_traced(m_choice))
-            casters.push_back(&occluder);
+        casters.push_back(m_reach.back().is_traced(m_choice) ? &occluder : nullptr);
     }
     m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
     const auto occluder = std::make_shared<Occluder>();
     m_occluder = occluder;
-    return occluder->build(casters, m_frame, nthreads, error);
+    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts);
 }
 
 bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,

@@ -19,6 +19,8 @@ struct SceneChoice
     bool self = true, occluders = true;
     /// Leave out occluders that no ray can meet: the same visibility without them. False builds them nevertheless.
     bool cull = true;
+    /// How triangles are asked that are transparent in part: the same visibility either way.
+    CutoutMode cutouts = CutoutMode::micromaps;
     /// Length of rays, in mesh units.
     double reach = std::numeric_limits<double>::infinity();
 

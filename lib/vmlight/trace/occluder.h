@@ -51,7 +51,8 @@ public:
     Occluder(const Occluder&) = delete;
     Occluder& operator=(const Occluder&) = delete;
 
-    /// Build the scene from the triangles of all `meshes`. False, with the reason in `error`, if Embree fails (out of
+    /// Build the scene from the triangles of all `meshes`; nullptr is one that is left out, and keeps its number, on
+    /// which chance depends where opacity is in between. False, with the reason in `error`, if Embree fails (out of
     /// memory). Traversal is robust: rays do not leak between triangles that share vertices.
     ///
     /// What Mesh::opacity says of a mesh is honoured: rays pass where it is transparent, and as often as it says where
