@@ -22,6 +22,7 @@ struct WorkCounts
     std::atomic<int64_t> pixels_converted { 0 }; ///< from one colour space to another
     std::atomic<int64_t> tangents_made { 0 }; ///< meshes whose tangents a normal map needed
     std::atomic<int64_t> margin_texels { 0 }; ///< filled around UV islands
+    std::atomic<int64_t> directions_below_ground { 0 }; ///< for which the ground saved a ray
 };
 WorkCounts& work_counts();
 

@@ -22,6 +22,8 @@ struct BakeFacts
     bool self = true; ///< whether the mesh is in the ray-tracing scene
     int64_t covered = 0, texels = 0; ///< texels that the mesh covers, of the map
 
+    int64_t tests = 0; ///< what deciding took: boxes, triangles and vertices compared with a horizon
+
     std::vector<CasterReach> occluders;
     CutoutCounts cutouts;
 
@@ -47,6 +49,8 @@ struct LightFacts
     int levels = 0; ///< images of the light that the model reads
     std::string model;
     bool has_environment = false; ///< rather than filtered light
+    bool is_one_color = false; ///< the light, whatever it is filtered by
+    int64_t lit = 0, shadowed = 0; ///< texels with V above 0; of them, with V below 1
 };
 
 struct EffectFacts

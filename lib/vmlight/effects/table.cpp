@@ -107,9 +107,11 @@ void decide_cutouts(std::vector<EffectDecision>& dst, const Effect& effect, cons
     const CutoutCounts& cutouts = facts.bake.cutouts;
     const double unknown = double(cutouts.unknown) / double(std::max<int64_t>(1, cutouts.cells));
     dst.push_back(
-        decision(effect, cutouts.triangles > 0,
-                 cutouts.triangles == 0
-                     ? std::string("no material has an opacity below 1")
+        decision(effect, cutouts.transparent + cutouts.mixed > 0,
+                 cutouts.triangles == 0 ? std::string("no material has an opacity below 1")
+                     : cutouts.opaque == cutouts.triangles
+                     ? format("{}, opaque wherever a texture covers them",
+                              count_text(cutouts.triangles, "triangle", "triangles"))
                      : format("{}: {} opaque, {} transparent, {} in part, where {} of the cells ask the texture",
                               count_text(cutouts.triangles, "triangle", "triangles"), cutouts.opaque,
                               cutouts.transparent, cutouts.mixed, percent_text(unknown)),
@@ -214,21 +216,36 @@ void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const
         dst.back().impossible = "no --albedo is given";
 }
 
+void decide_visibility(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const std::string lit = count_text(light.lit, "texel", "texels");
+    dst.push_back(decision(effect, light.shadowed > 0,
+                           light.shadowed > 0 ? format("V is below 1 in {} of {}", light.shadowed, lit)
+                                              : format("V is 1 in all of {}: the light of the open sky", lit)));
+}
+
 void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
-    dst.push_back(decision(effect, light.has_environment,
-                           light.has_environment ? "an environment is given" : "the light is filtered already", 0.5));
+    dst.push_back(decision(effect, light.has_environment && !light.is_one_color,
+                           !light.has_environment   ? "the light is filtered already"
+                               : light.is_one_color ? "the environment is of one colour, which no filter changes"
+                                                    : "an environment is given",
+                           0.5));
+    if (!light.has_environment)
+        dst.back().impossible = "the light is filtered already";
 }
 
 void decide_levels(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
-    dst.push_back(decision(effect, light.levels > 1,
-                           light.levels > 1
-                               ? format("the model {} reads {} images of the light", light.model, light.levels)
-                               : format("the model {} reads one image of the light", light.model),
-                           0.2));
+    dst.push_back(
+        decision(effect, light.levels > 1 && !light.is_one_color,
+                 light.is_one_color     ? std::string("the light is of one colour: V times it, wherever texels look")
+                     : light.levels > 1 ? format("the model {} reads {} images of the light", light.model, light.levels)
+                                        : format("the model {} reads one image of the light", light.model),
+                 0.2));
 }
 
 // Name, phrase, stage, can be off, decide.
@@ -243,6 +260,7 @@ constexpr Effect kEffects[] = {
     { "margin", "texels around UV islands are filled", "vismap", true, decide_margin },
     { "half", "16 bits per channel", "vismap", false, decide_half },
     { "color-conversion", "inputs are brought to one colour space", "lightmap", false, decide_color },
+    { "visibility", "part of the sky is hidden", "lightmap", false, decide_visibility },
     { "filter", "the environment is filtered by the cosine", "lightmap", false, decide_filter },
     { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
     { "rotation", "the light is turned", "lightmap", true, decide_rotation },

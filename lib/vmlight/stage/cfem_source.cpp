@@ -5,6 +5,7 @@
 #include <vmlight/base/text_format.h>
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
@@ -138,9 +139,10 @@ private:
         if (splits())
             options.report(suns_line());
         options.report("colour: " + note + m_output.note());
-        options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
+        options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s{}", range.first == kStackLevels ? "reduce" : "filter",
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
-                              m_spec.height, timer()));
+                              m_spec.height, timer(),
+                              find_one_color(dst) ? ": of one colour, which stays as it is" : ""));
         if (const int repaired = dst[0].spec().get_int_attribute("vmlight:sanitized"))
             options.report_warning(format("{} of the environment {} repaired",
                                           count_text(repaired, "bad value", "bad values"),

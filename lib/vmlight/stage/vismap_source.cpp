@@ -96,7 +96,7 @@ public:
         VismapReport report;
         double build_seconds = 0;
         std::string at;
-        if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error)) {
+        if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error, options.steps())) {
             error = with_location(m_recipe, at, options.chain, error);
             return false;
         }
@@ -116,10 +116,12 @@ public:
         if ((options.explain || m_given.effects != "auto")
             && !forecast_effects(forecast, scene, normal_map, options, error))
             return false;
+        const BakeWork before = BakeWork::so_far(*scene);
         dst.clear();
         OIIO::ImageBuf& map = dst.emplace_back();
         if (!make_vismap(map, scene, m_recipe.vismap_params, &report, options.threads,
-                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget, normal_map)) {
+                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget, normal_map,
+                         options.steps())) {
             error = map.geterror();
             return false;
         }
@@ -134,7 +136,7 @@ public:
         report_bake(options, report, map.spec(), m_recipe, scene->mesh());
         report_cutouts(options, cutouts);
         if (options.explain)
-            report_taken(report, options);
+            report_taken(forecast, report, before, *scene, options);
         return true;
     }
 
@@ -146,7 +148,7 @@ public:
         TimeTaken taken;
         BakeScenePointer scene;
         std::string at;
-        if (!share_scene(scene, m_recipe, m_stamps, options.threads, nullptr, at, error)) {
+        if (!share_scene(scene, m_recipe, m_stamps, options.threads, nullptr, at, error, options.steps())) {
             error = with_location(m_recipe, at, options.chain, error);
             return false;
         }

@@ -46,6 +46,8 @@ struct CasterReach
     Verdict verdict = reaches;
     /// Between its bounding box and that of the mesh, in mesh units.
     double gap = 0;
+    /// Boxes and vertices that a horizon was compared with.
+    int64_t tests = 0;
 
     /// Whether it is in the scene.
     bool is_traced(const SceneChoice& choice) const { return choice.occluders && (verdict == reaches || !choice.cull); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Imath/ImathVec.h>
+#include <vmlight/base/progress.h>
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/cutouts.h>
@@ -58,7 +59,7 @@ public:
     /// What Mesh::opacity says of a mesh is honoured: rays pass where it is transparent, and as often as it says where
     /// it is in between.
     bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
-               CutoutMode mode = CutoutMode::micromaps);
+               CutoutMode mode = CutoutMode::micromaps, const StepListener& at_step = {});
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`, which must be off
     /// the surface: see SurfacePoint. Not checked: that build() succeeded.
