@@ -28,6 +28,7 @@ struct BakeFacts
     CutoutCounts cutouts;
 
     bool has_normal_map = false, has_flat_normal_map = false;
+    bool has_material_normals = false; ///< it is that of the materials
 
     bool has_ground = false;
     double ground_height = 0, lowest = 0; ///< of the plane; of the mesh

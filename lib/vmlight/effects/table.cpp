@@ -125,12 +125,14 @@ void decide_normal_map(std::vector<EffectDecision>& dst, const Effect& effect, c
     const BakeFacts& bake = facts.bake;
     dst.push_back(decision(effect, bake.has_normal_map && !bake.has_flat_normal_map,
                            !bake.has_normal_map ? "none is given"
+                               : bake.has_flat_normal_map && bake.has_material_normals
+                               ? "no material names one that is not flat: every normal stays as it is"
                                : bake.has_flat_normal_map
                                ? "it is flat: every normal stays as it is"
                                : "normals of texels are mapped; rays into the surface are not traced",
                            0.02));
     if (!bake.has_normal_map)
-        dst.back().impossible = "no --normal-map is given";
+        dst.back().impossible = "no --normal-map is given, and no --material-normals";
 }
 
 void decide_distance(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)

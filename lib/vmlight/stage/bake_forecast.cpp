@@ -88,8 +88,9 @@ bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const Norma
             return false;
         facts.bake.cutouts = other->occluder().cutouts();
     }
-    facts.bake.has_normal_map = !recipe.normal_map.empty();
-    facts.bake.has_flat_normal_map = !switched.normal_map.empty() && !normal_map;
+    facts.bake.has_normal_map = recipe.has_normal_map();
+    facts.bake.has_flat_normal_map = switched.has_normal_map() && !normal_map;
+    facts.bake.has_material_normals = recipe.material_normals;
     facts.bake.reach = recipe.vismap_params.max_distance;
     facts.bake.margin = recipe.vismap_params.margin;
     facts.bake.udim_given = recipe.udim_given;

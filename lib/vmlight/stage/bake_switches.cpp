@@ -25,8 +25,10 @@ VismapRecipe with_switches(const VismapRecipe& recipe)
     }
     if (switches.of("cut-outs") == Switch::off)
         switched.cutout_params.cutouts = "off";
-    if (switches.of("normal-map") == Switch::off)
+    if (switches.of("normal-map") == Switch::off) {
         switched.normal_map.clear();
+        switched.material_normals = false;
+    }
     if (switches.of("max-distance") == Switch::off)
         params.max_distance = defaults.max_distance;
     if (switches.of("margin") == Switch::off)

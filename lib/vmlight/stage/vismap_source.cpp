@@ -43,6 +43,10 @@ void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
         spec.attribute(metadata_name("normal_map"), OIIO::Filesystem::filename(recipe.normal_map));
         append_params(spec, recipe.normal_map_params);
     }
+    if (recipe.material_normals) {
+        spec.attribute(metadata_name("material_normals"), value_text(recipe.material_normals, Flag {}));
+        append_params(spec, recipe.normal_map_params);
+    }
     if (const std::string off = switched_off(recipe.effects, VismapRecipe::kStage); !off.empty())
         spec.attribute(metadata_name("effects"), off);
     MeshSelection selection = recipe.selection;
@@ -105,7 +109,8 @@ public:
         NormalMapPointer normal_map;
         std::vector<std::string> notes, warnings;
         if (!read_normal_map(normal_map, m_recipe, mesh_of(scene), options.threads, notes, warnings, error)) {
-            error = with_location(m_recipe, "normal_map", options.chain, error);
+            error = with_location(m_recipe, m_recipe.material_normals ? "material_normals" : "normal_map",
+                                  options.chain, error);
             return false;
         }
         for (const std::string& note : notes)
@@ -166,7 +171,10 @@ public:
         return true;
     }
 
-    bool failed() const override { return m_prepare.failed() || (m_bytes && !are_unchanged(m_scene->files)); }
+    bool failed() const override
+    {
+        return m_prepare.failed() || (m_bytes && !(are_unchanged(m_scene->files) && are_unchanged(m_textures)));
+    }
     // A shared scene is divided by the number of sharers, so that together they count it once.
     size_t bytes() const override
     {
@@ -196,7 +204,7 @@ private:
         NormalMapPointer normal_map;
         std::vector<std::string> ignored;
         if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
-            || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error)
+            || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error, &m_textures)
             || !m_baker.prepare(m_scene, m_recipe.vismap_params, error, 0, {}, 0, normal_map))
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
@@ -214,6 +222,7 @@ private:
     const SceneStamps m_stamps;
     RunOnce m_prepare;
     BakeScenePointer m_scene;
+    std::vector<FileStamp> m_textures; // that materials name as normal maps
     VismapBaker m_baker;
     std::unique_ptr<VismapTiles> m_tiles;
     std::atomic<size_t> m_bytes { 0 }; // set last: nonzero means that everything else is ready
