@@ -22,16 +22,16 @@ namespace vmlight::cost {
 namespace {
 
 constexpr int kLightWidth = 128;
-constexpr const char* kModel = "lobe";
+constexpr const char* kEffectModel = "lobe";
 
-bool failed(const OIIO::ImageBuf& image, std::string& error)
+bool stage_failed(const OIIO::ImageBuf& image, std::string& error)
 {
     error = image.geterror();
     return false;
 }
 
 // A map, and the light on it under each environment.
-struct Picture
+struct EffectPicture
 {
     OIIO::ImageBuf map;
     std::vector<OIIO::ImageBuf> lit;
@@ -50,7 +50,7 @@ public:
         m_quiet.threads = options.threads;
     }
 
-    bool bake(Picture& dst, const VismapRecipe& recipe, std::string& error)
+    bool bake(EffectPicture& dst, const VismapRecipe& recipe, std::string& error)
     {
         const VismapRecipe switched = with_switches(recipe);
         BakeScenePointer scene;
@@ -62,7 +62,7 @@ public:
                                normal_map);
         };
         if (!measure_time(dst.bake, make))
-            return failed(dst.map, error);
+            return stage_failed(dst.map, error);
         dst.lit.resize(m_inputs.environments.size());
         for (size_t i = 0; i < dst.lit.size(); ++i) {
             const FilteredLight* light = find_light(i, false, error);
@@ -88,7 +88,8 @@ public:
     }
 
     // Suns, split off and traced, against suns that stay in the environment. Nothing is added if there are none.
-    bool add_suns(std::vector<EffectCost>& dst, const Picture& plain, const VismapRecipe& recipe, std::string& error)
+    bool add_suns(std::vector<EffectCost>& dst, const EffectPicture& plain, const VismapRecipe& recipe,
+                  std::string& error)
     {
         EffectCost cost { "suns", "", 0, 0, 0, 0 };
         size_t found = 0;
@@ -178,9 +179,9 @@ private:
                std::string& error) const
     {
         LightmapParams params;
-        params.model = kModel;
+        params.model = kEffectModel;
         return make_lightmap(dst, map, light.images, suns, params, nullptr, m_options.threads, m_progress)
-            || failed(dst, error);
+            || stage_failed(dst, error);
     }
 
     const Inputs& m_inputs;
@@ -219,7 +220,7 @@ bool measure_effects(std::vector<EffectCost>& dst, const Inputs& inputs, const V
     recipe.vismap_params.margin = 0;
     recipe.vismap_params.channels = { "coverage" };
     EffectBench bench(inputs, params, options, progress);
-    Picture with;
+    EffectPicture with;
     std::vector<EffectDecision> decisions;
     dst.clear();
     if (!bench.decide(decisions, recipe, error) || !bench.bake(with, recipe, error))
@@ -231,7 +232,7 @@ bool measure_effects(std::vector<EffectCost>& dst, const Inputs& inputs, const V
                 reason += (reason.empty() ? "" : "; ") + decision.reason;
         if (reason.empty())
             continue;
-        Picture without;
+        EffectPicture without;
         recipe.effects = std::string("-") + effect.name;
         if (!bench.bake(without, recipe, error))
             return false;

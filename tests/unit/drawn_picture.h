@@ -94,8 +94,7 @@ private:
         std::vector<OIIO::ImageBuf> images;
         EXPECT_TRUE(choose_model(model, params, map.spec(), true, error)) << error;
         EXPECT_TRUE(lightmap_rotation(rotation, params, error)) << error;
-        if (drawn_light.suns)
-            EXPECT_TRUE(split.find(env, true, error)) << error;
+        EXPECT_TRUE(!drawn_light.suns || split.find(env, true, error)) << error;
         suns = split.suns().size();
         const Environment rest = split.rest(env);
         EXPECT_TRUE(make_model_light(images, rest, switched.cfem_params, model.light, error, 1)) << error;

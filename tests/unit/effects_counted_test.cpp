@@ -182,7 +182,7 @@ TEST(EffectsCounted, AGroundTracesNoRayAndSavesThoseThatItBlocks)
     EXPECT_EQ(work_of(inputs, map), without);
 }
 
-TEST(EffectsCounted, DecidingIsUnderAHundredthOfTheBake)
+TEST(EffectsCounted, DecidingIsUnderAHundredthOfTheBakeOrATenthOfWhatItSaves)
 {
     // Boxes that a ray is compared with on its way: twice the depth of the tree, at least.
     const auto boxes_of = [](const BakeScene& scene) { return 2 * std::log2(2.0 + double(scene.triangle_count())); };
@@ -209,11 +209,11 @@ TEST(EffectsCounted, DecidingIsUnderAHundredthOfTheBake)
             for (const uint64_t row : bits)
                 covered += __builtin_popcountll(row);
         }
-        // What would be traced if nothing had been decided.
+        // What would be traced if nothing had been decided; and of it, what is not.
         const double bake = double(covered) * params.samples * boxes_of(*scene);
         const BakeFacts facts = bake_facts(*scene, baker, covered);
         EXPECT_GT(facts.tests, 0) << mesh.name;
-        EXPECT_LT(double(facts.tests), 0.01 * bake) << mesh.name;
+        EXPECT_LT(double(facts.tests), 0.01 * bake + 0.1 * bake * facts.open_share) << mesh.name;
     }
 }
 

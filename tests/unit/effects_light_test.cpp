@@ -7,6 +7,7 @@
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/model_light.h>
+#include <vmlight/math/packed_visibility.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -14,6 +15,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 using namespace vmlight;
 using namespace scene;
@@ -258,5 +260,21 @@ TEST(EffectsLight, ARotationThatTurnsNothingAndAnExposureOfNothingChangeNothing)
         ASSERT_TRUE(make_lightmap(with, map, light, one));
         EXPECT_EQ(before.since().lookups, least.lookups);
         EXPECT_EQ(std::memcmp(pixels(with), pixels(without), size_t(with.spec().image_bytes())), 0);
+    }
+}
+
+TEST(EffectsLight, OnlyTheFiltersThatTheModelReadsAreMade)
+{
+    const std::map<ModelLight, int64_t> passes { { ModelLight::cfem, 1 },
+                                                 { ModelLight::lobes, 4 },
+                                                 { ModelLight::radiance, 1 } };
+    for (const ModelEntry& entry : model_entries()) {
+        CfemParams filter;
+        filter.resolution = { 16, 8 };
+        std::vector<ImageBuf> images;
+        std::string error;
+        const LightWorkDone before;
+        ASSERT_TRUE(make_model_light(images, random_cfem(32, 16), filter, entry.light, error)) << error;
+        EXPECT_EQ(before.since().passes, passes.at(entry.light)) << entry.name;
     }
 }

@@ -54,9 +54,11 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
     std::vector<double> rgb;
     const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
     const bool exact = params.filter == "exact";
-    const bool done = (color && params.skip_one_color)
-        || (exact ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
-                  : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress));
+    const bool skip = color && params.skip_one_color;
+    const bool done = skip
+        ? !progress || progress(1)
+        : (exact ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
+                 : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress));
     if (!done)
         return fail_with(dst, rows.error().empty() ? "interrupted" : rows.error());
     if (color)

@@ -90,7 +90,8 @@ bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams
     }
     const std::optional<OneColor> color = find_one_color(env, params.sanitize);
     std::vector<double> means;
-    if (!(color && params.skip_one_color) && !reduce(means, rows, params.resolution, progress)) {
+    const bool skip = color && params.skip_one_color;
+    if (skip ? progress && !progress(1) : !reduce(means, rows, params.resolution, progress)) {
         error = rows.error().empty() ? "interrupted" : rows.error();
         return false;
     }

@@ -9,6 +9,12 @@
 #include <ctime>
 
 namespace vmlight {
+namespace {
+
+// Colour that varies is harder to compress than visibility. Measured on lightmaps of 256 and 1024, two thirds covered.
+constexpr double kColorWrite = 1.3;
+
+} // namespace
 
 bool forecast_light(const LightmapInputs& inputs, const LightmapParams& params, const LightPlan& plan,
                     const TimeTaken& taken, const MakeOptions& options, std::string& error)
@@ -24,7 +30,7 @@ bool forecast_light(const LightmapInputs& inputs, const LightmapParams& params, 
         return false;
     const double next = timer.lap();
     const double read = taken.read * double(plan.reads), light = first + next * double(plan.frames - 1);
-    const double write = write_seconds(lightmap.spec(), options.threads) * double(plan.frames);
+    const double write = write_seconds(lightmap.spec(), options.threads) * kColorWrite * double(plan.frames);
     const double start = start_seconds({ 0, taken.processor + double(std::clock() - begin) / CLOCKS_PER_SEC });
     options.report(format("expected: {:.2f} s: start {:.2f} s, read and filter {:.2f} s, light {:.2f} s, {} {:.2f} s; "
                           "{:.0f} MB of memory",

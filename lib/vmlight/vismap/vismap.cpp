@@ -51,8 +51,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (check_params(params, error))
         error = memory_shortage(describe_vismap("", params));
     VismapBaker baker;
-    const bool has_pilot = params.target_error > 0 || time_budget > 0 || params.has("error");
-    begin_step(at_step, has_pilot ? "prove and sample" : "prove");
+    begin_step(at_step, "prove");
     if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, std::move(normal_map)))
         return fail_with(dst, error);
     const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
