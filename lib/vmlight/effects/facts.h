@@ -46,7 +46,7 @@ struct LightFacts
     std::string color_note;
     double rotation_degrees = 0; ///< angle of the rotation as a whole
     bool has_albedo = false;
-    double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels
+    double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels; crossed: not read
     int levels = 0; ///< images of the light that the model reads
     std::string model;
     bool has_environment = false; ///< rather than filtered light

@@ -210,8 +210,9 @@ void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const
     const bool is_one = light.albedo_low == 1 && light.albedo_high == 1;
     const bool called = light.has_albedo && !is_one;
     dst.push_back(decision(effect, called,
-                           !light.has_albedo ? std::string("none is given")
-                               : is_one      ? std::string("it is 1 everywhere")
+                           !light.has_albedo                          ? std::string("none is given")
+                               : light.albedo_high < light.albedo_low ? std::string("one is given, and not read")
+                               : is_one                               ? std::string("it is 1 everywhere")
                                         : format("values from {:.3g} to {:.3g}", light.albedo_low, light.albedo_high),
                            0.1));
     if (!light.has_albedo)

@@ -253,7 +253,8 @@ PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, cons
         error = with_location(recipe, "colorconfig", chain, error);
         return nullptr;
     }
-    const std::string key = recipe_key(recipe) + config + environment->key();
+    const char* forced = recipe.cfem_params.skip_one_color ? "" : "every filter\n"; // the same pixels, for more work
+    const std::string key = recipe_key(recipe) + forced + config + environment->key();
     const bool shared = sharing == Sharing::process;
     if (PixelSourcePointer known = shared ? find_source(key) : nullptr)
         return known;

@@ -63,6 +63,8 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
         const auto range = OIIO::ImageBufAlgo::computePixelStats(inputs.albedo);
         dst.albedo_low = *std::min_element(range.min.begin(), range.min.end());
         dst.albedo_high = *std::max_element(range.max.begin(), range.max.end());
+    } else {
+        dst.albedo_low = 1;
     }
     measure_visibility(dst, inputs.vismap);
     return true;
@@ -142,6 +144,8 @@ bool explain_light(const LightmapInputs& inputs, const SwitchedLight& light, con
     Difference off;
     if (!compare(off, inputs, light, options, error))
         return false;
+    if (off.rms == 0) // such as an albedo of 1, which is not read where it is switched off
+        return true;
     options.report_warning(format("effects: the picture has {}, left out: light is off by about {:.2g} (RMS), and its "
                                   "mean is {:.2g}",
                                   missing, off.rms, off.mean));
