@@ -8,7 +8,10 @@
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/light_level.h>
 #include <vmlight/stage/light_effects.h>
+#include <vmlight/stage/light_forecast.h>
 #include <vmlight/stage/recipe/udim.h>
+
+#include <ctime>
 
 using namespace vmlight;
 
@@ -60,10 +63,13 @@ int main(int argc, const char** argv)
             return exposure.wanted || set_param(recipe, "exposure", text, error);
         });
     stage.params("Light:", recipe.lightmap_params);
-    bool explain = false;
+    bool explain = false, dry_run = false;
     stage.group("Effects:");
     stage.option("explain", "", "Say before the light which effects it simulates and why",
                  [&](auto, auto&) { return explain = true; });
+    stage.option("dry_run", "",
+                 "Say the same with the expected time and memory, and write nothing; reads and filters the inputs",
+                 [&](auto, auto&) { return dry_run = true; });
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o, and in inputs that are sequences",
                  [&](auto text, auto& error) {
@@ -90,6 +96,8 @@ int main(int argc, const char** argv)
         [&]() -> std::string {
             if (animation.has_frames || animation.rotates())
                 return "--frames and --rotate-y cannot be saved in a recipe";
+            if (dry_run)
+                return "--dry-run cannot be saved in a recipe";
             return exposure.wanted ? "--exposure auto cannot be saved in a recipe: give the stops that it prints"
                                    : tiles.unsavable();
         });
@@ -104,19 +112,35 @@ int main(int argc, const char** argv)
         return std::string();
     });
 
+    stage.check([&] {
+        return dry_run && !recipe_stage(recipe.vismap).empty() ? format(
+                   "--dry-run: \"{}\" is a recipe, whose map would have to be baked: makevismap {} --dry-run says what "
+                   "that takes",
+                   recipe.vismap, recipe_path(recipe.vismap))
+                                                               : std::string();
+    });
+
     LightmapInputs inputs; // frames and tiles share what they can
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
         MakeOptions options = given;
+        const LightWork before = LightWork::so_far();
         double seconds = 0;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
             const LightmapRecipe asked = animation.inputs_at(tile, i), frame = with_switches(asked);
+            const Stopwatch reading;
+            const std::clock_t begin = std::clock();
             if (!read_lightmap_inputs(inputs, frame, options, error))
                 return false;
             LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
             options.explain = explain && i == 0;
-            if ((options.explain || asked.effects != "auto") && error.empty()
-                && !explain_light(inputs, asked, animation.params_at(asked.lightmap_params, i, error), options, error))
+            options.dry_run = dry_run;
+            if ((options.explain || dry_run || asked.effects != "auto") && error.empty()
+                && !explain_light(inputs, { asked, animation.params_at(asked.lightmap_params, i, error), params },
+                                  options, error))
                 return false;
+            if (dry_run && error.empty())
+                return forecast_light(inputs, params, { animation.frames.size(), animation.reads(tile) },
+                                      { reading(), double(std::clock() - begin) / CLOCKS_PER_SEC }, options, error);
             if (exposure.known)
                 params.exposure = exposure.stops;
             OIIO::ImageBuf lightmap;
@@ -146,6 +170,8 @@ int main(int argc, const char** argv)
         given.say(format("light: {} of {}x{} in {:.3f} s",
                          animation.frames.size() == 1 ? "1 map" : format("{} maps", animation.frames.size()),
                          inputs.vismap.spec().width, inputs.vismap.spec().height, seconds));
+        if (explain)
+            report_taken(before, given);
         return true;
     };
     return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });

@@ -62,7 +62,7 @@ std::string command_text(const Setting& setting, const CommandInputs& inputs)
     const ModelVariant* variant = find_variant(setting.model);
     if (!variant)
         return "";
-    VismapParams map;
+    VismapParams map = inputs.mesh.vismap_params;
     map.samples = setting.samples;
     map.resolution = { map.resolution.width / setting.divisor, map.resolution.height / setting.divisor };
     variant->set_bake(map);

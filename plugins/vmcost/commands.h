@@ -13,7 +13,7 @@ namespace vmlight::cost {
 /// What the commands are for. Paths are as the user gave them.
 struct CommandInputs
 {
-    /// The mesh, its occluders and mesh parameters; bake parameters are ignored.
+    /// The mesh, its occluders and mesh parameters; of the bake's parameters, those of CostParams::set_scene().
     VismapRecipe mesh;
     std::string environment;
     /// Colour space, OCIO config, layer and layout of the environment; the rest is ignored.

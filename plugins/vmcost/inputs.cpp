@@ -18,6 +18,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
+#include <cmath>
 #include <set>
 
 namespace vmlight::cost {
@@ -111,6 +112,7 @@ VismapParams reference_map(const CostParams& params)
 {
     VismapParams map;
     map.resolution = { params.side(), params.side() };
+    params.set_scene(map);
     return map;
 }
 
@@ -123,6 +125,8 @@ bool trace_references(Inputs& inputs, const CostParams& params, const std::strin
         reference.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
             text += format("{}={}\n", name, value_text(value, allowed));
         });
+        if (params.ground || std::isfinite(params.max_distance))
+            text += format("ground={} {} {}\n", params.ground, params.ground_height, params.max_distance);
         environment.reference_key = hash_key(text);
         const std::string path
             = format("{}/reference_{}_{}.exr", folder, environment.name, environment.reference_key.substr(0, 12));

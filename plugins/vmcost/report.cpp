@@ -28,7 +28,7 @@ figure { margin: 1em 0; } figcaption { color: #555; font-size: .92em; max-width:
 figure svg { width: 100%; height: auto; max-width: 760px; }
 .heat { display: flex; flex-wrap: wrap; gap: .6em; } .heat figure { margin: 0; text-align: center; }
 .heat img { width: 128px; image-rendering: pixelated; } h3 { font-size: 1em; margin-bottom: .3em; }
-.none { color: #777; } dl { display: grid; grid-template-columns: max-content auto; gap: .1em 1.2em; }
+.effects td:last-child, .effects th:last-child { text-align: left; max-width: 26em; } .none { color: #777; } dl { display: grid; grid-template-columns: max-content auto; gap: .1em 1.2em; }
 dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
 @media print { body { margin: 0; font-size: 11px; max-width: none; } figure, table { break-inside: avoid; } }
 </style>
@@ -156,6 +156,24 @@ std::string heat_maps(const Report& report)
     return text;
 }
 
+std::string effects_table(const std::vector<EffectCost>& effects)
+{
+    if (effects.empty())
+        return "<p class=none>This scene calls for none that could be left out.</p>\n";
+    std::string text = "<table class=effects>\n"
+        + cells("th",
+                { "effect", "with", "without", "share of the time", "V off without it", "light off without it",
+                  "called for, because" });
+    for (const EffectCost& effect : effects) {
+        const double share = effect.seconds > 0 ? 1 - effect.without / effect.seconds : 0;
+        text += cells("td",
+                      { effect.name, seconds_text(effect.seconds), seconds_text(effect.without), percent_text(share),
+                        effect.visibility > 0 ? format("{:.3f}", effect.visibility) : "&ndash;",
+                        percent_text(effect.light), escaped(effect.reason) });
+    }
+    return wide(text + "</table>\n");
+}
+
 } // namespace
 
 std::vector<std::string> choice_lines(const std::vector<Point>& points, const CommandInputs& commands)
@@ -205,6 +223,15 @@ std::string report_html(const Report& report)
                    "less than {:g} %.</p>\n",
                    100 * kKneeGain)
         + knees(report.points);
+    text
+        += "<h2>What each effect costs</h2>\n<p>The mesh baked at the reference's size with everything that this scene "
+           "calls for, and once more without each effect alone. V and light are off by so much without it, RMS over "
+           "the "
+           "surface; light is that of the model lobe, relative to its mean. Whatever is left out in this way is gone "
+           "from "
+           "the picture (<i>--effects -NAME</i>); what the scene does not call for costs nothing and is not "
+           "listed.</p>\n"
+        + effects_table(report.effects);
     text += format("<h2>Where the errors are</h2>\n<p>At the default settings, in texture space: red is too bright, "
                    "blue too "
                    "dark, full colour is {:g} % of the mean light or more. Grey is not covered by the mesh.</p>\n",

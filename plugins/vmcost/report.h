@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands.h"
+#include "effects.h"
 #include "summary.h"
 #include "tables.h"
 
@@ -25,6 +26,7 @@ struct Report
     /// typical_spread() of the timings.
     double spread = 0;
     CommandInputs commands;
+    std::vector<EffectCost> effects;
     std::vector<Picture> plots;
     /// By environment, one picture per model.
     std::vector<std::pair<std::string, std::vector<Picture>>> heat_maps;

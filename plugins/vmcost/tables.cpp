@@ -42,7 +42,7 @@ std::string csv_text(const std::vector<Row>& rows)
     return OIIO::Strutil::join(lines, "\n") + "\n";
 }
 
-std::string json_text(const std::vector<Row>& rows, const Facts& facts)
+std::string json_text(const std::vector<Row>& rows, const Facts& facts, const std::vector<EffectCost>& effects)
 {
     nlohmann::ordered_json json;
     for (const auto& [name, value] : facts)
@@ -50,6 +50,11 @@ std::string json_text(const std::vector<Row>& rows, const Facts& facts)
     json["rows"] = nlohmann::ordered_json::array();
     for (const Row& row : rows)
         json["rows"].push_back(row_to_json(row));
+    json["effects"] = nlohmann::ordered_json::array();
+    for (EffectCost effect : effects) {
+        nlohmann::ordered_json& object = json["effects"].emplace_back();
+        effect.visit([&](const char* name, auto& value) { object[name] = value; });
+    }
     // File names may contain any bytes.
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

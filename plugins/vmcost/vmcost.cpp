@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "effects.h"
 #include "gnuplot.h"
 #include "report.h"
 #include "write_report.h"
@@ -8,6 +9,7 @@
 #include <vmlight/cli/main.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 
 using namespace vmlight;
 using namespace vmlight::cost;
@@ -32,7 +34,16 @@ int main(int argc, const char** argv)
         mesh.occluder.emplace_back(text);
         return true;
     });
+    stage.option("normal_map", "FILE", "Normal map, for the table of effects alone: all else has the mesh's normals",
+                 mesh.normal_map);
+    stage.params("Inputs:", mesh.normal_map_params);
     add_environment_options(stage, light);
+    stage.unused([&](const std::string& name) {
+        const bool of_normal_map = OIIO::Strutil::starts_with(name, "normal_map_");
+        return std::string(name == "ground_height" && !params.ground      ? "no ground is given"
+                               : of_normal_map && mesh.normal_map.empty() ? "no normal map is given"
+                                                                          : "");
+    });
 
     return stage.run(argc, argv, [&](std::string& error) {
         const std::vector<std::string>& operands = stage.operands();
@@ -40,7 +51,9 @@ int main(int argc, const char** argv)
         const MakeOptions options = stage.make_options();
         Inputs inputs;
         Measured measured;
+        std::vector<EffectCost> effects;
         mesh.mesh = operands[0];
+        params.set_scene(mesh.vismap_params);
         const CommandInputs commands { mesh, operands[1], light, params.sanitize };
         error = params.no_plots ? "" : gnuplot_fault();
         if (!error.empty()
@@ -55,13 +68,16 @@ int main(int argc, const char** argv)
         double total = double(environments) * reference_weight(params.pairs());
         for (const Setting& setting : settings)
             total += weight_of(setting, environments);
+        total += effects_weight(environments);
         const int64_t pictures = int64_t(settings.size() * environments + environments);
         WholeProgress progress(options.progress("measure", pictures * params.side() * params.side()), total);
         if (!trace_references(inputs, params, folder, options, progress, error)
-            || !measure(measured, settings, inputs, params, folder, options, progress, error))
+            || !measure(measured, settings, inputs, params, folder, options, progress, error)
+            || !measure_effects(effects, inputs, mesh, params, options, progress.part(effects_weight(environments)),
+                                error))
             return false;
         progress.finish();
-        if (!write_report(measured, inputs, params, commands, folder, options, error))
+        if (!write_report(measured, effects, inputs, params, commands, folder, options, error))
             return false;
         options.say("measured " + count_text(measured.measured, "row", "rows") + ", reused "
                     + std::to_string(measured.reused));

@@ -73,9 +73,9 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
 
 } // namespace
 
-bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params,
-                  const CommandInputs& commands, const std::string& folder, const MakeOptions& options,
-                  std::string& error)
+bool write_report(const Measured& measured, const std::vector<EffectCost>& effects, const Inputs& inputs,
+                  const CostParams& params, const CommandInputs& commands, const std::string& folder,
+                  const MakeOptions& options, std::string& error)
 {
     const DeferInterrupts writing;
     Report report;
@@ -83,11 +83,12 @@ bool write_report(const Measured& measured, const Inputs& inputs, const CostPara
     report.points = summarize(measured.rows);
     report.spread = typical_spread(measured.rows);
     report.commands = commands;
+    report.effects = effects;
     report.facts = facts_of(inputs, params, options);
     return (params.no_plots || draw(report.plots, report.points, folder, error))
         && read_heat_maps(report, measured, inputs, folder, error)
         && write_file(folder + "/costs.csv", csv_text(measured.rows), error)
-        && write_file(folder + "/costs.json", json_text(measured.rows, report.facts), error)
+        && write_file(folder + "/costs.json", json_text(measured.rows, report.facts, effects), error)
         && write_file(folder + "/report.html", report_html(report), error);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "commands.h"
+#include "effects.h"
 #include "inputs.h"
 #include "measure.h"
 
@@ -9,8 +10,8 @@ namespace vmlight::cost {
 
 /// Write costs.csv, costs.json, the plots as SVG and PNG, and report.html to `folder`, each atomically. Returns false,
 /// with the reason in `error`.
-bool write_report(const Measured& measured, const Inputs& inputs, const CostParams& params,
-                  const CommandInputs& commands, const std::string& folder, const MakeOptions& options,
-                  std::string& error);
+bool write_report(const Measured& measured, const std::vector<EffectCost>& effects, const Inputs& inputs,
+                  const CostParams& params, const CommandInputs& commands, const std::string& folder,
+                  const MakeOptions& options, std::string& error);
 
 } // namespace vmlight::cost

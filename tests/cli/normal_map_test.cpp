@@ -6,6 +6,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 using namespace vmlight;
@@ -115,4 +116,89 @@ TEST_F(NormalMaps, TilesHaveTheirOwn)
     done("makevismap two.obj --normal-map 'n.<UDIM>.png' --channels normal -o 'a.<UDIM>.exr'" + small);
     EXPECT_EQ(greatest_x("a.1001.exr"), 0);
     EXPECT_NEAR(greatest_x("a.1002.exr"), 0.6f, 0.01f);
+}
+
+namespace {
+
+// The quad of kQuad, its lower right half of material A and its upper left one of B; A's texture is as `statement`
+// says.
+class MaterialNormals : public NormalMaps
+{
+protected:
+    MaterialNormals()
+    {
+        write("halves.obj",
+              "mtllib halves.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+              "usemtl A\nf 1/1/1 2/2/1 3/3/1\nusemtl B\nf 1/1/1 3/3/1 4/4/1\n");
+        make_map("n.png", { 0.8f, 0.5f, 0.9f });
+    }
+    std::string bake(const std::string& name, const std::string& statement, const std::string& flags) const
+    {
+        write("halves.mtl", "newmtl A\n" + statement + "\nnewmtl B\nKd 1 1 1\n");
+        return done("makevismap halves.obj --channels normal --margin 0 -o " + name + " " + flags + small);
+    }
+};
+
+} // namespace
+
+TEST_F(MaterialNormals, EachTexelHasThatOfItsTriangle)
+{
+    EXPECT_THAT(bake("own.exr", "norm n.png", "--material-normals"), HasSubstr("normal maps: of 1 material"));
+    bake("whole.exr", "Kd 1 1 1", "--normal-map n.png");
+    bake("none.exr", "norm n.png", "");
+    const Pixels own = pixels("own.exr"), whole = pixels("whole.exr"), none = pixels("none.exr");
+    ASSERT_EQ(own.values.size(), whole.values.size());
+    int mapped = 0, plain = 0;
+    for (int y = 0; y < own.height; ++y)
+        for (int x = 0; x < own.width; ++x) {
+            const size_t first = size_t(y * own.width + x) * size_t(own.channels), end = first + size_t(own.channels);
+            const bool is_own = x + y >= own.width; // row 0 is the top
+            for (size_t i = first; i < end; ++i)
+                EXPECT_TRUE(x + y == own.width - 1 || own.values[i] == (is_own ? whole.values[i] : none.values[i]))
+                    << x << " " << y;
+            mapped += is_own;
+            plain += !is_own;
+        }
+    EXPECT_GT(std::min(mapped, plain), 10);
+    EXPECT_EQ(attribute("own.exr", "vmlight:material_normals"), "true");
+    EXPECT_EQ(attribute("none.exr", "vmlight:material_normals"), "");
+    write("halves.vismap",
+          "mesh = \"halves.obj\"\nmaterial_normals = true\nresolution = 8\nsamples = 16\nmargin = 0\n"
+          "channels = [\"normal\"]\n");
+    write("halves.mtl", "newmtl A\nnorm n.png\nnewmtl B\nKd 1 1 1\n");
+    done("makevismap halves.vismap -o recipe.exr");
+    expect_same_pixels("recipe.exr", "own.exr", 0);
+    done("makevismap halves.vismap --effects -normal-map -o off.exr");
+    expect_same_pixels("off.exr", "none.exr", 0);
+}
+
+TEST_F(MaterialNormals, AScaleMultipliesTheLean)
+{
+    bake("half.exr", "norm -bm 0.5 n.png", "--material-normals");
+    // n.png leans by x / z = .6 / .8.
+    const double lean = 0.5 * 0.6 / 0.8;
+    EXPECT_NEAR(double(greatest_x("half.exr")), lean / std::sqrt(1 + lean * lean), 0.01);
+    EXPECT_THAT(bake("zero.exr", "norm -bm 0 n.png", "--material-normals --explain"),
+                testing::AllOf(HasSubstr("flat, so that nothing changes"),
+                               HasSubstr("no material names one that is not flat")));
+    bake("none.exr", "norm n.png", "");
+    expect_same_pixels("zero.exr", "none.exr", 0);
+}
+
+TEST_F(MaterialNormals, WhatIsElsewhereIsLeftOutWithAWarning)
+{
+    EXPECT_THAT(bake("a.exr", "norm -s 2 2 1 n.png", "--material-normals"),
+                HasSubstr("material \"A\": its normal map is moved, scaled or turned in the UVs: left out"));
+    bake("none.exr", "norm n.png", "");
+    expect_same_pixels("a.exr", "none.exr", 0);
+    EXPECT_THAT(bake("a.exr", "map_Bump n.png", "--material-normals"), HasSubstr("normal maps: of 0 materials"));
+    const std::string command = "makevismap halves.obj --material-normals -o x.exr";
+    refused(2, "material_normals: a normal map is given too", command + " --normal-map n.png");
+    refused(2, "material_normals: with unwrap", command + " --unwrap");
+    refused(2, "normal maps of materials are in tangent space", command + " --normal-map-space object");
+    write("halves.mtl", "newmtl A\nnorm gone.png\n");
+    refused(1, "\"halves.obj\": material \"A\": its normal map: \"gone.png\": no such file", command);
+    make_map("gray.png", { 0.5f });
+    write("halves.mtl", "newmtl A\nnorm gray.png\n");
+    refused(1, "material \"A\": its normal map: one channel: a bump or height map", command);
 }

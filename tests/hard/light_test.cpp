@@ -120,7 +120,7 @@ TEST(Light, AsFaintAsFloatsGet)
     const Map map(512, 256, 1e-42f);
     EXPECT_EQ(naive_light<float>(map, V3d(0, 0, 1)), 0);
     row.naive("black: every float product underflows to 0");
-    EXPECT_LE(worst_ulps(filtered(map, 32, 16), 1e-42f), 1);
+    EXPECT_LE(worst_ulps(filtered_anyway(map, 32, 16), 1e-42f), 1);
     row.ours("1e-42, to 1 ulp");
 }
 
@@ -138,7 +138,7 @@ TEST(Light, AsBrightAsFloatsGet)
     row.naive("irradiance overflows float, and so does irradiance / pi");
     EXPECT_EQ(texels_not_finite(filtered(map, 32, 16)), 0);
     for (const float value : { 1e30f, FLT_MAX })
-        EXPECT_LE(worst_ulps(filtered(Map(64, 32, value), 32, 16), value), 1);
+        EXPECT_LE(worst_ulps(filtered_anyway(Map(64, 32, value), 32, 16), value), 1);
     LightmapParams params;
     params.exposure = 1;
     OIIO::ImageBuf dst;

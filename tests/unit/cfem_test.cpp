@@ -20,7 +20,7 @@ TEST(Cfem, ConstantSkyStaysConstantAtEverySize)
     for (const auto& size : sizes)
         for (const auto& result : results)
             for (const float value : { 1.0f, 0.3f }) {
-                const Map cfem = filtered(Map(size[0], size[1], value), result[0], result[1]);
+                const Map cfem = filtered_anyway(Map(size[0], size[1], value), result[0], result[1]);
                 // Half an ulp of float.
                 EXPECT_LT(largest_error(cfem, [&](const V3d&) { return V3d(value); }), 6e-8 * value)
                     << size[0] << "x" << size[1] << " to " << result[0] << "x" << result[1];
@@ -31,7 +31,7 @@ TEST(Cfem, ConstantSkyStaysConstantAtTheEndsOfFloat)
 {
     const float largest = std::numeric_limits<float>::max();
     for (const float value : { 0.0f, 1e-42f, 1e30f, largest }) {
-        const Map cfem = filtered(Map(8, 4, value), 6, 3);
+        const Map cfem = filtered_anyway(Map(8, 4, value), 6, 3);
         for (const float result : cfem.rgb)
             EXPECT_NEAR(result, value, std::max(double(value) * 1.2e-7, 1.5e-45));
     }

@@ -2,9 +2,12 @@
 /// Scenes drawn at random, small enough that hundreds are baked in a moment.
 #pragma once
 
+#include "drawn_surface.h"
 #include "scenes.h"
 
 #include <vmlight/vismap/vismap.h>
+
+#include <OpenImageIO/imagebuf.h>
 
 #include <random>
 #include <string>
@@ -17,6 +20,8 @@ struct DrawnScene
 {
     Mesh mesh;
     std::vector<Mesh> occluders;
+    OIIO::ImageBuf normal_map; ///< not initialized: none
+    NormalMapParams normal_map_params;
     VismapParams params;
 
     explicit DrawnScene(uint32_t seed)
@@ -69,7 +74,7 @@ struct DrawnScene
         params.measure = one_of(5) ? "cosine" : "uniform";
         params.margin = one_of(3);
         if (params.measure == "cosine")
-            params.basis = one_of(3) ? "vector" : one_of(2) ? "sh" : "cells";
+            params.basis = one_of(3) ? "vector" : one_of(2) ? "sh" : one_of(2) ? "mask" : "cells";
         if (one_of(4) == 0 && params.samples > 1)
             params.channels = { "normal", "error" };
         if (one_of(3) == 0)
@@ -77,6 +82,20 @@ struct DrawnScene
         params.ground = one_of(3) == 0;
         if (params.ground && one_of(2))
             params.ground_height = offset.y + scale * number(-3, 1);
+        // What is drawn last leaves the rest of a seed as it is: further effects go here.
+        for (Mesh* one : all_meshes())
+            if (one_of(4) == 0)
+                drawn_surface::cut_out(*one, random);
+        if (one_of(3) == 0)
+            normal_map = drawn_surface::normal_map(normal_map_params, random);
+    }
+
+    std::vector<Mesh*> all_meshes()
+    {
+        std::vector<Mesh*> all { &mesh };
+        for (Mesh& occluder : occluders)
+            all.push_back(&occluder);
+        return all;
     }
 
 private:

@@ -33,7 +33,7 @@ EffectFacts everything()
     bake.margin = 16;
     bake.udim = 1002;
     bake.udim_given = bake.half = true;
-    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true };
+    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true, false, 100, 60 };
     return facts;
 }
 
@@ -123,6 +123,30 @@ TEST(EffectsDecide, ReasonsHaveTheNumbers)
     EXPECT_EQ(find(off, "self-occlusion"), "nothing rises above the tangent plane of any of 1000 triangles");
     EXPECT_EQ(find(off, "normal-map"), "it is flat: every normal stays as it is");
     EXPECT_EQ(find(off, "occluders"), "500 triangles, all below the tangent plane of each of 1000 triangles");
+}
+
+TEST(EffectsDecide, WhatCannotChangeThePictureIsOff)
+{
+    const auto state = [](const char* stage, const EffectFacts& facts, const char* name) {
+        for (const EffectDecision& decision : decided(stage, facts))
+            if (decision.name == name)
+                return (decision.on ? "on: " : "off: ") + decision.reason;
+        return std::string();
+    };
+    EffectFacts facts = everything();
+    EXPECT_EQ(state("lightmap", facts, "visibility"), "on: V is below 1 in 60 of 100 texels");
+    facts.light.is_one_color = true;
+    facts.light.shadowed = 0;
+    EXPECT_EQ(state("lightmap", facts, "filter"), "off: the environment is of one colour, which no filter changes");
+    EXPECT_EQ(state("lightmap", facts, "stack-levels"),
+              "off: the light is of one colour: V times it, wherever texels look");
+    EXPECT_EQ(state("lightmap", facts, "visibility"), "off: V is 1 in all of 100 texels: the light of the open sky");
+    facts.bake.cutouts.mixed = 0;
+    facts.bake.cutouts.opaque = facts.bake.cutouts.triangles;
+    EXPECT_EQ(state("vismap", facts, "cut-outs"), "off: 12 triangles, opaque wherever a texture covers them");
+    facts.bake.cutouts.opaque = 0;
+    facts.bake.cutouts.transparent = facts.bake.cutouts.triangles;
+    EXPECT_EQ(state("vismap", facts, "cut-outs").substr(0, 3), "on:");
 }
 
 TEST(EffectsDecide, SwitchesOverrideOneByOne)

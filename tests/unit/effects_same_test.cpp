@@ -1,44 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What cannot change a picture is left out, and the bytes stay: `auto` against `all`.
 #include "baked_map.h"
-#include "drawn_scene.h"
+#include "drawn_failure.h"
 
-#include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/light_forecast.h>
 #include <vmlight/vismap/baker.h>
 
-#include <cstring>
+#include <gmock/gmock.h>
 
 using namespace vmlight;
 using namespace vmlight::scenes;
 
 namespace {
-
-struct Bake
-{
-    std::vector<float> pixels;
-    VismapReport report;
-    size_t traced_casters = 0;
-};
-
-Bake bake(const DrawnScene& drawn, const char* effects)
-{
-    VismapRecipe recipe;
-    recipe.vismap_params = drawn.params;
-    recipe.occluder.resize(drawn.occluders.size());
-    recipe.effects = effects;
-    const VismapRecipe switched = with_switches(recipe);
-    const auto scene = std::make_shared<BakeScene>();
-    std::string error;
-    OIIO::ImageBuf image;
-    Bake result;
-    EXPECT_TRUE(scene->build(non_owning(drawn.mesh), drawn.occluders, 1, error, scene_choice(switched))) << error;
-    EXPECT_TRUE(make_vismap(image, scene, switched.vismap_params, &result.report, 1, {})) << image.geterror();
-    result.pixels.resize(size_t(image.spec().image_pixels()) * size_t(image.spec().nchannels));
-    EXPECT_TRUE(image.get_pixels(OIIO::ROI::All(), OIIO::TypeFloat, result.pixels.data()));
-    for (const CasterReach& caster : scene->reach())
-        result.traced_casters += caster.is_traced(scene->choice());
-    return result;
-}
 
 VismapParams proving(int side, int samples)
 {
@@ -47,55 +20,40 @@ VismapParams proving(int side, int samples)
     return params;
 }
 
-bool is_same(const DrawnScene& drawn)
-{
-    const Bake a = bake(drawn, "auto"), b = bake(drawn, "all");
-    return a.pixels.size() == b.pixels.size()
-        && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
-
-// Takes away what the failure does not need, and says what is left.
-std::string shrunk(DrawnScene drawn)
-{
-    const auto fails_without = [&](auto&& change) {
-        DrawnScene less = drawn;
-        change(less);
-        if (!is_same(less))
-            drawn = less;
-    };
-    for (size_t i = drawn.occluders.size(); i-- > 0;)
-        fails_without([&](DrawnScene& less) { less.occluders.erase(less.occluders.begin() + long(i)); });
-    fails_without([](DrawnScene& less) { less.params.ground = false; });
-    fails_without([](DrawnScene& less) { less.params.max_distance = std::numeric_limits<double>::infinity(); });
-    fails_without([](DrawnScene& less) { less.params.channels.clear(); });
-    fails_without([](DrawnScene& less) { less.params.basis = "vector"; });
-    fails_without([](DrawnScene& less) { less.params.margin = 0; });
-    for (size_t i = drawn.mesh.triangles.size(); i-- > 1;)
-        fails_without([&](DrawnScene& less) { less.mesh.triangles.erase(less.mesh.triangles.begin() + long(i)); });
-    std::string text = drawn.mesh.name + " of " + std::to_string(drawn.mesh.triangles.size()) + " triangles";
-    for (const Mesh& occluder : drawn.occluders)
-        text += ", " + occluder.name + " (" + std::to_string(occluder.triangles.size()) + " triangles)";
-    return text + (drawn.params.ground ? ", ground" : "") + ", basis " + drawn.params.basis + ", "
-        + std::to_string(drawn.params.samples) + " rays, distance " + std::to_string(drawn.params.max_distance);
-}
-
 } // namespace
 
 TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
 {
-    int64_t open = 0, covered = 0, culled = 0, fewer = 0, grounds = 0;
+    int64_t open = 0, covered = 0, culled = 0, fewer = 0, grounds = 0, mixed = 0, transparent = 0, bumpy = 0, suns = 0,
+            one_color = 0, ones = 0, lookups = 0, all_lookups = 0;
     for (uint32_t seed = 0; seed < 200; ++seed) {
-        const DrawnScene drawn(seed);
-        const Bake a = bake(drawn, "auto"), b = bake(drawn, "all");
-        ASSERT_TRUE(is_same(drawn)) << "seed " << seed << ": " << shrunk(drawn);
+        const Drawn drawn(seed);
+        const LightWork start = LightWork::so_far();
+        const DrawnPicture a(drawn.scene, drawn.light, "auto");
+        const LightWork middle = LightWork::so_far();
+        const DrawnPicture b(drawn.scene, drawn.light, "all");
+        const LightWork end = LightWork::so_far();
+        ASSERT_EQ(a.difference(b), "") << "seed " << seed << ", and so does " << shrunk(drawn, [](const Drawn& less) {
+            return !DrawnPicture(less.scene, less.light, "auto")
+                        .difference(DrawnPicture(less.scene, less.light, "all"))
+                        .empty();
+        });
         EXPECT_EQ(b.report.open, 0);
         EXPECT_LE(a.report.rays, b.report.rays);
-        EXPECT_EQ(b.traced_casters, drawn.occluders.size());
+        EXPECT_EQ(b.traced_casters, drawn.scene.occluders.size());
+        lookups += a.cutout_work.lookups;
+        all_lookups += b.cutout_work.lookups;
         open += a.report.open;
         covered += a.report.covered;
         culled += int64_t(b.traced_casters - a.traced_casters);
         fewer += a.report.rays < b.report.rays;
-        grounds += drawn.params.ground;
+        grounds += drawn.scene.params.ground;
+        mixed += a.cutouts.mixed > 0;
+        transparent += a.cutouts.transparent > 0;
+        bumpy += drawn.scene.normal_map.initialized();
+        suns += a.suns > 0;
+        one_color += middle.filter_passes - start.filter_passes < end.filter_passes - middle.filter_passes;
+        ones += middle.multiplied - start.multiplied < end.multiplied - middle.multiplied;
     }
     // The scenes are of all kinds.
     EXPECT_GT(open, covered / 20);
@@ -103,6 +61,28 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
     EXPECT_GT(culled, 10);
     EXPECT_GT(fewer, 40);
     EXPECT_GT(grounds, 40);
+    EXPECT_GT(mixed, 30);
+    EXPECT_LT(2 * lookups, all_lookups); // micromaps know most
+    EXPECT_GT(transparent, 30);
+    EXPECT_GT(bumpy, 40);
+    EXPECT_GT(suns, 5);
+    EXPECT_GT(one_color, 40);
+    EXPECT_GT(ones, 20);
+}
+
+TEST(EffectsSame, AFailingSceneIsShrunk)
+{
+    for (uint32_t seed = 0; seed < 50; ++seed) {
+        const Drawn drawn(seed);
+        if (!drawn.scene.params.ground || !drawn.light.albedo.initialized())
+            continue;
+        const std::string least = shrunk(drawn, [](const Drawn& less) {
+            return less.scene.params.ground && less.light.albedo.initialized() && less.scene.mesh.triangles.size() > 1;
+        });
+        EXPECT_THAT(least, testing::HasSubstr("of 2 triangles, ground, basis vector, 1 rays, distance inf, margin 0"));
+        EXPECT_THAT(least, testing::HasSubstr("environment 1x1"));
+        EXPECT_THAT(least, testing::HasSubstr("model auto, exposure 0"));
+    }
 }
 
 TEST(EffectsSame, AConvexMeshTracesNoRay)

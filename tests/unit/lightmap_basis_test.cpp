@@ -62,7 +62,7 @@ float visibility(const ImageBuf& vm, int i)
 TEST(LightmapBasis, AConstantEnvironmentIsVisibilityTimesItsLight)
 {
     const V3f light(0.25f, 1, 1000);
-    const std::vector<ImageBuf> stack = filtered_stack(environment([&](V3d) { return light; }));
+    const std::vector<ImageBuf> stack = filtered_stack(almost(environment([&](V3d) { return light; })));
     for (const char* name : kModels)
         for (const ImageBuf& vm : { baked(name, 64), random_texels(name) }) {
             if (name == std::string("sh") && vm.spec().width == 16)
@@ -73,7 +73,9 @@ TEST(LightmapBasis, AConstantEnvironmentIsVisibilityTimesItsLight)
             for (int i = 0; i < int(vm.spec().image_pixels()); ++i)
                 for (int c = 0; c < 3; ++c) {
                     const float expected = visibility(vm, i) * light[c];
-                    const float tolerance = name == std::string("sh") ? 3e-6f * light[c] : 0;
+                    const float tolerance = name == std::string("sh") ? 3e-6f * light[c]
+                        : c == 2                                      ? 2e-7f * expected
+                                                                      : 0;
                     EXPECT_NEAR(pixels(image)[3 * i + c], expected, tolerance) << name << " " << i;
                 }
         }

@@ -18,6 +18,11 @@ TEST(ProgressLine, BeforeTheFirstNewsTheTimeIsNotKnown)
     EXPECT_EQ(progress_line("bake", 0, 3, 100), "bake   0 %  0 texels/s  --:-- left");
 }
 
+TEST(ProgressLine, AStepThatMakesNoTexelsIsNamed)
+{
+    EXPECT_EQ(progress_line("sort cut-outs", 0, 0, 0), "sort cut-outs ...");
+}
+
 TEST(ProgressLine, NeitherAHundredPercentNorNoTimeIsToldTooSoon)
 {
     EXPECT_EQ(progress_line("bake", 0.999, 1000, 1000000), "bake  99 %  999 texels/s  00:02 left");

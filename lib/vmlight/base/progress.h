@@ -9,4 +9,14 @@ namespace vmlight {
 /// false to stop: the stage then fails with the message "interrupted".
 using Progress = std::function<bool(double done)>;
 
+/// Called when a step of the work begins that is not worth a Progress of its own, with its name. May be empty.
+using StepListener = std::function<void(const char* step)>;
+
+/// Say that `step` begins, to who listens.
+inline void begin_step(const StepListener& listener, const char* step)
+{
+    if (listener)
+        listener(step);
+}
+
 } // namespace vmlight

@@ -4,6 +4,7 @@
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/fail_with.h>
 #include <vmlight/cfem/exact.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/image/channels.h>
@@ -49,17 +50,22 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
     if (!rows.open())
         return fail_with(dst, rows.error());
 
+    const std::optional<OneColor> color = find_one_color(env, params.sanitize);
     std::vector<double> rgb;
     const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
     const bool exact = params.filter == "exact";
-    const bool done = exact
-        ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
-        : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress);
+    const bool skip = color && params.skip_one_color;
+    const bool done = skip
+        ? !progress || progress(1)
+        : (exact ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
+                 : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress));
     if (!done)
         return fail_with(dst, rows.error().empty() ? "interrupted" : rows.error());
+    if (color)
+        fill(rgb, params.resolution, *color);
 
     OIIO::ImageSpec spec = describe_cfem(env.spec(), params);
-    record_sanitized(spec, rows.bad_values());
+    record_sanitized(spec, color ? color->repaired : rows.bad_values());
     // An exact sum is below 0 by rounding alone; the ringing of harmonics is kept.
     return set_filtered(dst, spec, rgb, exact, error) || fail_with(dst, error);
 }

@@ -32,6 +32,9 @@ struct CfemParams
     /// Repair bad pixels instead of refusing the image: NaN and infinity become the mean of the valid pixels among
     /// their eight neighbours (0 if there are none), negative values become 0.
     bool sanitize = false;
+    /// Whether an environment of one colour, which no filter changes, is not filtered: the same result for less. Not a
+    /// parameter of the result, and so not in the metadata.
+    bool skip_one_color = true;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -59,7 +62,8 @@ struct CfemParams
 ///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy preserved. Measured error,
 ///                 relative to the map's mean: below 1e-5 on photographed maps, below 5e-5 with a sun of one pixel. Its
 ///                 cost grows with the height of `env` and little with its width: 12 ms for 128x64 from 1024x512, one
-///                 thread. `sh` rings under small bright lights, and can go below 0.
+///                 thread. `sh` rings under small bright lights, and can go below 0. An environment of one colour has
+///                 a CFEM of that colour, to the last bit.
 /// @param nthreads 0 means OIIO's default. The result is the same bits for every value.
 /// @returns false, with the reason in `dst.geterror()` and no pixels in `dst`, if a parameter is out of range, `env`
 ///          has no colour, is marked as a cube map or as flipped or rotated, a pixel is NaN, infinite or negative (the

@@ -2,6 +2,7 @@
 #include <vmlight/cfem/exact.h>
 
 #include <vmlight/base/parallel.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/cfem/kernel.h>
 #include <vmlight/cfem/prefix.h>
 #include <vmlight/math/latlong.h>
@@ -272,6 +273,7 @@ private:
 bool filter_exact(std::vector<double>& rgb, const Size& resolution, const EnvironmentGrid& grid, const ReadRow& read,
                   int nthreads, const Progress& progress, HemisphereWeight weight)
 {
+    ++work_counts().filter_passes;
     return ExactFilter(rgb, resolution, grid, nthreads, weight).run(read, progress);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/radiance.h>
 
+#include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/math/latlong.h>
@@ -36,20 +38,12 @@ std::vector<Share> shares(double from, double to, int count, double length, cons
     return parts;
 }
 
-} // namespace
-
-bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params, std::string& error,
-                   const Progress& progress)
+// The mean of the environment over each pixel of the result. False if a row cannot be read or `progress` stopped it.
+bool reduce(std::vector<double>& sums, EnvironmentRows& rows, const Size& size, const Progress& progress)
 {
-    if (!check_params(params, error))
-        return false;
-    EnvironmentRows rows(env, params.sanitize);
-    if (!rows.open()) {
-        error = rows.error();
-        return false;
-    }
+    ++work_counts().filter_passes;
     const EnvironmentGrid& grid = rows.grid();
-    const int width = params.resolution.width, height = params.resolution.height;
+    const int width = size.width, height = size.height;
     const auto turn = [](double low, double high) { return high - low; };
     const auto zone = [](double low, double high) {
         return 2 * std::sin(0.5 * (low + high)) * std::sin(0.5 * (high - low)); // cos low - cos high
@@ -58,14 +52,12 @@ bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams
     for (int i = 0; i < grid.width; ++i)
         columns[size_t(i)] = shares(grid.column_edge(i), grid.column_edge(i + 1), width, 2 * pi, turn);
 
-    std::vector<double> sums(size_t(3) * width * height), across(size_t(3) * width);
-    std::vector<double> weights(height, 0.0);
+    sums.assign(size_t(3) * width * height, 0.0);
+    std::vector<double> across(size_t(3) * width), weights(height, 0.0);
     std::vector<float> row(size_t(3) * grid.width);
     for (int j = 0; j < grid.height; ++j) {
-        if (!rows.read(j, row.data()) || (progress && !progress(double(j) / grid.height))) {
-            error = rows.error().empty() ? "interrupted" : rows.error();
+        if (!rows.read(j, row.data()) || (progress && !progress(double(j) / grid.height)))
             return false;
-        }
         std::fill(across.begin(), across.end(), 0.0);
         for (int i = 0; i < grid.width; ++i)
             for (const Share& part : columns[size_t(i)])
@@ -81,9 +73,33 @@ bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams
     for (int j = 0; j < height; ++j)
         for (int k = 0; k < 3 * width; ++k)
             sums[size_t(3) * width * j + k] *= width / (2 * pi * weights[size_t(j)]);
+    return true;
+}
+
+} // namespace
+
+bool make_radiance(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& params, std::string& error,
+                   const Progress& progress)
+{
+    if (!check_params(params, error))
+        return false;
+    EnvironmentRows rows(env, params.sanitize);
+    if (!rows.open()) {
+        error = rows.error();
+        return false;
+    }
+    const std::optional<OneColor> color = find_one_color(env, params.sanitize);
+    std::vector<double> means;
+    const bool skip = color && params.skip_one_color;
+    if (skip ? progress && !progress(1) : !reduce(means, rows, params.resolution, progress)) {
+        error = rows.error().empty() ? "interrupted" : rows.error();
+        return false;
+    }
+    if (color)
+        fill(means, params.resolution, *color);
     OIIO::ImageSpec spec = describe_cfem_level(env.spec(), params, kStackLevels);
-    record_sanitized(spec, rows.bad_values());
-    return set_filtered(dst, spec, sums, true, error);
+    record_sanitized(spec, color ? color->repaired : rows.bad_values());
+    return set_filtered(dst, spec, means, true, error);
 }
 
 const OIIO::ImageBuf* find_radiance(OIIO::cspan<OIIO::ImageBuf> light)

@@ -2,6 +2,7 @@
 #include <vmlight/cfem/spherical_harmonics.h>
 
 #include <vmlight/base/parallel.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/latlong.h>
 
@@ -67,6 +68,7 @@ size_t place(int l, int m)
 bool project_harmonics(std::vector<double>& coefficients, int order, const EnvironmentGrid& grid, const ReadRow& read,
                        int nthreads, const Progress& progress)
 {
+    ++work_counts().filter_passes;
     const int width = grid.width;
     // Int over a pixel of cos m phi is a difference of sin m phi / m at its edges.
     std::vector<double> cosine(size_t(order) * (width + 1)), sine(size_t(order) * (width + 1));

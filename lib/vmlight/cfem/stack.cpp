@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/exact.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
@@ -68,6 +69,8 @@ bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const 
     levels[0].specmod() = describe_cfem_level(env.spec(), params, 0);
     record_sanitized(levels[0].specmod(), sanitized);
 
+    const std::optional<OneColor> color = find_one_color(env, params.sanitize);
+    const bool skip = color && params.skip_one_color;
     const auto filter = [&](auto&& work) {
         EnvironmentRows rows(env, params.sanitize);
         const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
@@ -76,27 +79,34 @@ bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const 
         error = rows.error().empty() ? "interrupted" : rows.error();
         return false;
     };
-    const auto keep = [&](int level, const std::vector<double>& rgb) {
+    const auto keep = [&](int level, std::vector<double>& rgb) {
+        if (color)
+            fill(rgb, params.resolution, *color);
         OIIO::ImageSpec spec = describe_cfem_level(env.spec(), params, level);
         record_sanitized(spec, sanitized);
         return set_filtered(levels[size_t(level)], spec, rgb, true, error);
     };
     std::vector<double> rgb, coefficients;
-    if (!filter([&](const EnvironmentGrid& grid, const ReadRow& read) {
+    if (!skip && !filter([&](const EnvironmentGrid& grid, const ReadRow& read) {
             return filter_exact(rgb, params.resolution, grid, read, nthreads, share(progress, 0.5, 0.7),
                                 HemisphereWeight::uniform);
-        })
-        || !keep(1, rgb) || !filter([&](const EnvironmentGrid& grid, const ReadRow& read) {
-               return project_harmonics(coefficients, kOrder, grid, read, nthreads, share(progress, 0.7, 1));
-           }))
+        }))
+        return false;
+    if (!keep(1, rgb))
+        return false;
+    if (!skip && !filter([&](const EnvironmentGrid& grid, const ReadRow& read) {
+            return project_harmonics(coefficients, kOrder, grid, read, nthreads, share(progress, 0.7, 1));
+        }))
         return false;
     for (int level = 2; level < kStackLevels; ++level) {
-        const double s = power_lobe_exponent(stack_lobe(level));
-        std::vector<double> scaled = coefficients;
-        for (int l = 0; l < kOrder; ++l)
-            for (int i = 3 * l * l; i < 3 * (l + 1) * (l + 1); ++i)
-                scaled[size_t(i)] *= power_lobe_eigenvalue(l, s);
-        evaluate_harmonics(rgb, params.resolution, scaled, kOrder, nthreads);
+        if (!skip) {
+            const double s = power_lobe_exponent(stack_lobe(level));
+            std::vector<double> scaled = coefficients;
+            for (int l = 0; l < kOrder; ++l)
+                for (int i = 3 * l * l; i < 3 * (l + 1) * (l + 1); ++i)
+                    scaled[size_t(i)] *= power_lobe_eigenvalue(l, s);
+            evaluate_harmonics(rgb, params.resolution, scaled, kOrder, nthreads);
+        }
         if (!keep(level, rgb))
             return false;
     }

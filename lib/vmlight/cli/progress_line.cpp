@@ -45,6 +45,8 @@ std::string time_text(double seconds)
 
 std::string progress_line(const std::string& step, double done, double seconds, int64_t texels)
 {
+    if (texels == 0 && done == 0)
+        return step + " ...";
     const double rate = seconds > 0 ? done * double(texels) / seconds : 0;
     const std::string time = done >= 1 ? time_text(seconds) : time_text(seconds / done - seconds) + " left";
     return format("{} {:3.0f} %  {}texels/s  {}", step, std::floor(100 * done), rate_text(rate), time);

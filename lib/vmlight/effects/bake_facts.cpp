@@ -16,6 +16,9 @@ BakeFacts bake_facts(const BakeScene& scene, const VismapBaker& baker, int64_t c
     facts.covered = covered;
     facts.texels = int64_t(baker.width()) * baker.height();
     facts.occluders = scene.reach();
+    facts.tests = open.tests;
+    for (const CasterReach& caster : facts.occluders)
+        facts.tests += caster.tests;
     facts.cutouts = scene.occluder().cutouts();
     facts.has_ground = params.ground;
     facts.lowest = scene.lowest();

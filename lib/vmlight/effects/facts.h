@@ -22,10 +22,13 @@ struct BakeFacts
     bool self = true; ///< whether the mesh is in the ray-tracing scene
     int64_t covered = 0, texels = 0; ///< texels that the mesh covers, of the map
 
+    int64_t tests = 0; ///< what deciding took: boxes, triangles and vertices compared with a horizon
+
     std::vector<CasterReach> occluders;
     CutoutCounts cutouts;
 
     bool has_normal_map = false, has_flat_normal_map = false;
+    bool has_material_normals = false; ///< it is that of the materials
 
     bool has_ground = false;
     double ground_height = 0, lowest = 0; ///< of the plane; of the mesh
@@ -43,10 +46,12 @@ struct LightFacts
     std::string color_note;
     double rotation_degrees = 0; ///< angle of the rotation as a whole
     bool has_albedo = false;
-    double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels
+    double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels; crossed: not read
     int levels = 0; ///< images of the light that the model reads
     std::string model;
     bool has_environment = false; ///< rather than filtered light
+    bool is_one_color = false; ///< the light, whatever it is filtered by
+    int64_t lit = 0, shadowed = 0; ///< texels with V above 0; of them, with V below 1
 };
 
 struct EffectFacts

@@ -107,9 +107,11 @@ void decide_cutouts(std::vector<EffectDecision>& dst, const Effect& effect, cons
     const CutoutCounts& cutouts = facts.bake.cutouts;
     const double unknown = double(cutouts.unknown) / double(std::max<int64_t>(1, cutouts.cells));
     dst.push_back(
-        decision(effect, cutouts.triangles > 0,
-                 cutouts.triangles == 0
-                     ? std::string("no material has an opacity below 1")
+        decision(effect, cutouts.transparent + cutouts.mixed > 0,
+                 cutouts.triangles == 0 ? std::string("no material has an opacity below 1")
+                     : cutouts.opaque == cutouts.triangles
+                     ? format("{}, opaque wherever a texture covers them",
+                              count_text(cutouts.triangles, "triangle", "triangles"))
                      : format("{}: {} opaque, {} transparent, {} in part, where {} of the cells ask the texture",
                               count_text(cutouts.triangles, "triangle", "triangles"), cutouts.opaque,
                               cutouts.transparent, cutouts.mixed, percent_text(unknown)),
@@ -123,12 +125,14 @@ void decide_normal_map(std::vector<EffectDecision>& dst, const Effect& effect, c
     const BakeFacts& bake = facts.bake;
     dst.push_back(decision(effect, bake.has_normal_map && !bake.has_flat_normal_map,
                            !bake.has_normal_map ? "none is given"
+                               : bake.has_flat_normal_map && bake.has_material_normals
+                               ? "no material names one that is not flat: every normal stays as it is"
                                : bake.has_flat_normal_map
                                ? "it is flat: every normal stays as it is"
                                : "normals of texels are mapped; rays into the surface are not traced",
                            0.02));
     if (!bake.has_normal_map)
-        dst.back().impossible = "no --normal-map is given";
+        dst.back().impossible = "no --normal-map is given, and no --material-normals";
 }
 
 void decide_distance(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
@@ -206,29 +210,45 @@ void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const
     const bool is_one = light.albedo_low == 1 && light.albedo_high == 1;
     const bool called = light.has_albedo && !is_one;
     dst.push_back(decision(effect, called,
-                           !light.has_albedo ? std::string("none is given")
-                               : is_one      ? std::string("it is 1 everywhere")
+                           !light.has_albedo                          ? std::string("none is given")
+                               : light.albedo_high < light.albedo_low ? std::string("one is given, and not read")
+                               : is_one                               ? std::string("it is 1 everywhere")
                                         : format("values from {:.3g} to {:.3g}", light.albedo_low, light.albedo_high),
                            0.1));
     if (!light.has_albedo)
         dst.back().impossible = "no --albedo is given";
 }
 
+void decide_visibility(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const std::string lit = count_text(light.lit, "texel", "texels");
+    dst.push_back(decision(effect, light.shadowed > 0,
+                           light.shadowed > 0 ? format("V is below 1 in {} of {}", light.shadowed, lit)
+                                              : format("V is 1 in all of {}: the light of the open sky", lit)));
+}
+
 void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
-    dst.push_back(decision(effect, light.has_environment,
-                           light.has_environment ? "an environment is given" : "the light is filtered already", 0.5));
+    dst.push_back(decision(effect, light.has_environment && !light.is_one_color,
+                           !light.has_environment   ? "the light is filtered already"
+                               : light.is_one_color ? "the environment is of one colour, which no filter changes"
+                                                    : "an environment is given",
+                           0.5));
+    if (!light.has_environment)
+        dst.back().impossible = "the light is filtered already";
 }
 
 void decide_levels(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
-    dst.push_back(decision(effect, light.levels > 1,
-                           light.levels > 1
-                               ? format("the model {} reads {} images of the light", light.model, light.levels)
-                               : format("the model {} reads one image of the light", light.model),
-                           0.2));
+    dst.push_back(
+        decision(effect, light.levels > 1 && !light.is_one_color,
+                 light.is_one_color     ? std::string("the light is of one colour: V times it, wherever texels look")
+                     : light.levels > 1 ? format("the model {} reads {} images of the light", light.model, light.levels)
+                                        : format("the model {} reads one image of the light", light.model),
+                 0.2));
 }
 
 // Name, phrase, stage, can be off, decide.
@@ -243,6 +263,7 @@ constexpr Effect kEffects[] = {
     { "margin", "texels around UV islands are filled", "vismap", true, decide_margin },
     { "half", "16 bits per channel", "vismap", false, decide_half },
     { "color-conversion", "inputs are brought to one colour space", "lightmap", false, decide_color },
+    { "visibility", "part of the sky is hidden", "lightmap", false, decide_visibility },
     { "filter", "the environment is filtered by the cosine", "lightmap", false, decide_filter },
     { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
     { "rotation", "the light is turned", "lightmap", true, decide_rotation },

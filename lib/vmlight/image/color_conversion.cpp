@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/image/color_space.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -32,6 +33,7 @@ bool config_conversion(ColorConversion& dst, ColorConfig& config, const std::str
     if (!processor->isNoOp())
         dst = [processor](float* rgb, int count) {
             const OIIO::stride_t channel = sizeof(float), pixel = 3 * channel;
+            work_counts().pixels_converted += count;
             processor->apply(rgb, count, 1, 3, channel, pixel, pixel * count);
         };
     return true;
@@ -80,6 +82,7 @@ SourceSpace source_named(const ColorConfig& config, const std::string& name)
 ColorConversion matrix_conversion(const LinearSpace& from, const LinearSpace& to)
 {
     return [m = matrix_between(from, to)](float* rgb, int count) {
+        work_counts().pixels_converted += count;
         for (float* end = rgb + 3 * size_t(count); rgb != end; rgb += 3) {
             const double r = rgb[0], g = rgb[1], b = rgb[2];
             for (size_t c = 0; c < 3; ++c)

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/params.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/image/color_conversion.h>
 #include <vmlight/image/color_labels.h>
 #include <vmlight/image/color_space.h>
@@ -107,6 +108,7 @@ bool find_with_config(ColorTransform& transform, const ColorLabels& labels, cons
 
 void srgb_to_linear(float* rgb, int count)
 {
+    work_counts().pixels_converted += count;
     std::transform(rgb, rgb + 3 * size_t(count), rgb, [](float x) { return OIIO::sRGB_to_linear(x); });
 }
 

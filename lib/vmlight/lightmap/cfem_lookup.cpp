@@ -87,9 +87,8 @@ void build_frame(CfemLookup& map)
 
 } // namespace
 
-bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& error)
+bool check_cfem(const OIIO::ImageSpec& spec, std::string& error)
 {
-    const OIIO::ImageSpec& spec = cfem.spec();
     const std::string stage = spec.get_string_attribute("vmlight:stage");
     if (!stage.empty() && stage != kCfemStage) {
         error = format("not a cosine-filtered environment: its vmlight:stage is \"{}\", not \"{}\"", stage, kCfemStage);
@@ -118,6 +117,15 @@ bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& erro
                        spec.height);
         return false;
     }
+    return true;
+}
+
+bool prepare_cfem(CfemLookup& dst, const OIIO::ImageBuf& cfem, std::string& error)
+{
+    const OIIO::ImageSpec& spec = cfem.spec();
+    std::array<int, 3> index;
+    if (!check_cfem(spec, error) || !find_color_channels(spec, index, error))
+        return false;
     dst = {};
     dst.width = spec.width;
     dst.height = spec.height;

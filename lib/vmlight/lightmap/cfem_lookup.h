@@ -34,6 +34,9 @@ struct CfemLookup
     int mean_texel() const { return (height + 2) * pitch; }
 };
 
+/// Check all but the pixels of a CFEM. False, with the reason in `error`, as prepare_cfem().
+bool check_cfem(const OIIO::ImageSpec& spec, std::string& error);
+
 /// Prepare `cfem`.
 ///
 /// @param cfem     a lat-long map of R, G, B, or of one channel, of any size from 1x1 to 2^28 texels, frame included.

@@ -101,6 +101,7 @@ bool AlbedoReader::open(const ImageBuf& image, ROI roi, int nthreads, std::strin
         return false;
     }
     m_image = m_original = &image;
+    m_map = roi;
     const ROI own = image.roi_full(), stored = image.roi();
     m_dx = own.xbegin - roi.xbegin;
     m_dy = own.ybegin - roi.ybegin;
@@ -166,6 +167,23 @@ void AlbedoReader::multiply(ROI roi, float* rgb, std::vector<float>& scratch, Ba
         return;
     for (size_t i = 0; i < values; ++i)
         rgb[i] *= scratch[i];
+}
+
+bool AlbedoReader::is_one() const
+{
+    std::vector<float> scratch;
+    BadValues ignored;
+    std::string error;
+    const auto is_one_in = [&](int first, int last, int y) {
+        const ROI own = m_image->roi(), part(first + m_dx, last + m_dx, y + m_dy, y + m_dy + 1, own.zbegin, own.zend);
+        return read(part, scratch, ignored, error)
+            && std::all_of(scratch.begin(), scratch.begin() + 3 * (last - first), [](float v) { return v == 1; });
+    };
+    // One pixel tells of most.
+    bool is_one = is_one_in(m_map.xbegin, m_map.xbegin + 1, m_map.ybegin);
+    for (int y = m_map.ybegin; y < m_map.yend && is_one; ++y)
+        is_one = is_one_in(m_map.xbegin, m_map.xend, y);
+    return is_one;
 }
 
 std::string AlbedoReader::fault_text(const BadValues& faults) const

@@ -61,6 +61,9 @@ public:
     /// set if the albedo cannot be read.
     void multiply(OIIO::ROI roi, float* rgb, std::vector<float>& scratch, BadValues& faults, std::string& error) const;
 
+    /// Whether every pixel is 1, so that it multiplies nothing. Reads pixels until one is not.
+    bool is_one() const;
+
     std::string fault_text(const BadValues& faults) const;
 
 private:
@@ -70,6 +73,7 @@ private:
     const OIIO::ImageBuf* m_image = nullptr; // the original, or the resized copy
     OIIO::ImageBuf m_resized;
     std::array<int, 3> m_index {};
+    OIIO::ROI m_map; // pixels of the map
     int m_dx = 0, m_dy = 0; // from the map's pixel coordinates to those of m_image
 };
 

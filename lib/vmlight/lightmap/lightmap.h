@@ -34,6 +34,9 @@ struct LightmapParams
     std::vector<double> env_rotate;
     /// Stops, -64 to 64: the result is multiplied by 2^exposure.
     double exposure = 0;
+    /// Whether what cannot change a bit is left out: lookups in light of one colour, a product with an albedo of 1. The
+    /// same result for less. Not a parameter of the result, and so not in the metadata.
+    bool skip_identities = true;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -59,7 +62,8 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 /// @param dst      set to a float image of R, G, B of the size of `vismap`, in the units of `cfem`: albedo x estimate
 ///                 of (1/pi) Int L(R w) vis(w) max(0, n.w) dw, the radiance that leaves a Lambertian surface. 0 where V
 ///                 <= 0. Where B gives no direction (no component reaches 1e-6 V), C is the mean of the CFEM over the
-///                 sphere. `vmlight:model` is the model that was used. Memory of `dst` that fits is reused. May be one
+///                 sphere. Light of one colour is looked up nowhere: by every model it gives V times that colour.
+///                 `vmlight:model` is the model that was used. Memory of `dst` that fits is reused. May be one
 ///                 of the inputs
 /// @param vismap   channels `visibility`, `direction.x`, `direction.y`, `direction.z`, found by name, in any order; for
 ///                 the model `ao` also `normal.x`, `normal.y`, `normal.z`; for `sh`, `mask` and `cells` those of the

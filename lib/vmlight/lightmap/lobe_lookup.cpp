@@ -26,43 +26,54 @@ void set_knot(LobeLookup& dst, int knot, int64_t place, const float* texel)
         std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * (knot * texels + place))]);
 }
 
-std::string level_fault(const LobeLookup& dst, const OIIO::ImageBuf& image, int level, CfemLookup& map)
+std::string level_fault(const OIIO::ImageSpec& first, const OIIO::ImageSpec& spec, int level)
 {
-    const OIIO::ImageSpec& spec = image.spec();
     const float lobe = spec.get_float_attribute("vmlight:lobe", -1);
     std::string error;
     if (!(std::abs(lobe - stack_lobe(level)) < kLobeTolerance))
         return format("vmlight:lobe is {:g} instead of {:.4f}", lobe, stack_lobe(level));
-    if (level > 0 && (spec.width != dst.width || spec.height != dst.height))
-        return format("{}x{} pixels, but level 0 has {}x{}", spec.width, spec.height, dst.width, dst.height);
-    return prepare_cfem(map, image, error) ? "" : error;
+    if (spec.width != first.width || spec.height != first.height)
+        return format("{}x{} pixels, but level 0 has {}x{}", spec.width, spec.height, first.width, first.height);
+    return check_cfem(spec, error) ? "" : error;
 }
 
 } // namespace
 
-bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::string& error)
+bool check_lobes(OIIO::cspan<OIIO::ImageBuf> levels, std::string& error)
 {
-    dst = {};
+    error.clear();
     if (levels.size() != kStackLevels) {
         error = format("a stack of {} levels instead of {}; make it again with makecfem --stack", levels.size(),
                        kStackLevels);
         return false;
     }
     const OIIO::ImageSpec& spec = levels[0].spec();
-    dst.width = spec.width;
-    dst.height = spec.height;
-    dst.pitch = spec.width + 2;
-    const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
+    const int64_t texels = (int64_t(spec.width) + 2) * (int64_t(spec.height) + 2);
     if (texels * kLobeFloats * (kLobeKnots - 1) > kMostFloats) {
         error = format("a stack of {} levels of {}x{} pixels is too large; the limit is 39 million pixels per level",
                        kStackLevels, spec.width, spec.height);
         return false;
     }
+    for (int level = 0; level < kStackLevels && error.empty(); ++level)
+        if (const std::string fault = level_fault(spec, levels[level].spec(), level); !fault.empty())
+            error = format("level {} of the stack: {}", level, fault);
+    return error.empty();
+}
+
+bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::string& error)
+{
+    dst = {};
+    if (!check_lobes(levels, error))
+        return false;
+    const OIIO::ImageSpec& spec = levels[0].spec();
+    dst.width = spec.width;
+    dst.height = spec.height;
+    dst.pitch = spec.width + 2;
+    const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
     dst.texels.resize(kLobeFloats * size_t(texels) * (kLobeKnots - 1) + 2);
     for (int level = 0; level < kStackLevels; ++level) {
         CfemLookup map;
-        error = level_fault(dst, levels[level], level, map);
-        if (!error.empty()) {
+        if (!prepare_cfem(map, levels[level], error)) {
             error = format("level {} of the stack: {}", level, error);
             return false;
         }

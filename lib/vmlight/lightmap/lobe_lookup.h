@@ -55,6 +55,9 @@ struct LobeLookup
     float brightest[4] = { 0, 0, 0, 0 };
 };
 
+/// Check all but the pixels of the levels of a stack. False, with the reason in `error`, as prepare_lobes().
+bool check_lobes(OIIO::cspan<OIIO::ImageBuf> levels, std::string& error);
+
 /// Prepare the levels of a stack.
 ///
 /// @param levels   as make_cfem_stack() makes them, without the last image

@@ -2,9 +2,14 @@
 #include <vmlight/lightmap/shader.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/lightmap/cfem_lookup.h>
+#include <vmlight/lightmap/lobe_lookup.h>
+#include <vmlight/lightmap/one_color_light.h>
 #include <vmlight/math/rotation.h>
 #include <vmlight/version.h>
 
@@ -68,6 +73,15 @@ OIIO::cspan<OIIO::ImageBuf> images_for(const ShadingModel& model, OIIO::cspan<OI
                        model.name);
     }
     return {};
+}
+
+// Set `error` as ModelEntry::prepare() would, if it is not for the pixels.
+void check_light(ModelLight kind, OIIO::cspan<OIIO::ImageBuf> images, std::string& error)
+{
+    if (kind == ModelLight::lobes)
+        check_lobes(images, error);
+    else
+        check_cfem(images[0].spec(), error);
 }
 
 // Values that are not finite, |V| out of range, and packed numbers that are no longer whole.
@@ -142,17 +156,33 @@ bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapPa
     input.setup.gain = float(m_gain);
     for (int i = 0; i < 9; ++i)
         input.setup.rotation[i] = float(rotation[i / 3][i % 3]);
-    m_shader = error.empty() ? model.entry->prepare(input, error) : nullptr;
+    m_shader = nullptr;
+    const auto color = error.empty() ? find_one_color(input.light) : std::nullopt;
+    m_looks_up = !color || !params.skip_identities;
+    if (error.empty() && m_looks_up)
+        m_shader = model.entry->prepare(input, error);
+    else if (error.empty())
+        check_light(model.light, input.light, error);
+    if (color && error.empty())
+        m_shader = one_color_shader(*color, model, input.setup.gain, std::move(m_shader));
     if (!m_shader)
         error = named(light[0], error);
     return m_shader != nullptr;
+}
+
+void LightmapShader::use_albedo(std::shared_ptr<const AlbedoReader> albedo, bool skip_one)
+{
+    m_albedo = skip_one && albedo->is_one() ? nullptr : std::move(albedo);
 }
 
 void LightmapShader::shade(OIIO::ROI roi, TexelLayout layout, const float* vismap, float* rgb,
                            std::vector<float>& scratch, ShadeFaults& faults) const
 {
     ShadeFaults found;
-    bool sound = m_shader->shade(layout, vismap, size_t(roi.width()) * roi.height(), rgb);
+    const size_t texels = size_t(roi.width()) * roi.height();
+    if (m_looks_up)
+        work_counts().texels_looked_up += int64_t(texels);
+    bool sound = m_shader->shade(layout, vismap, texels, rgb);
     if (!sound)
         find_vismap_faults(roi, layout, m_model, vismap, found);
     if (m_suns && !m_suns->suns.empty()) {
@@ -160,6 +190,7 @@ void LightmapShader::shade(OIIO::ROI roi, TexelLayout layout, const float* visma
         sound = false;
     }
     if (m_albedo) {
+        work_counts().texels_multiplied += int64_t(texels);
         m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);
         sound = false;
     }

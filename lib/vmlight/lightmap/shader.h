@@ -53,8 +53,9 @@ public:
     /// refuses light whose suns were split off without them.
     void use_suns(std::shared_ptr<const SunLight> suns) { m_suns = std::move(suns); }
 
-    /// Multiply by `albedo`, opened for the pixels of the visibility map.
-    void use_albedo(std::shared_ptr<const AlbedoReader> albedo) { m_albedo = std::move(albedo); }
+    /// Multiply by `albedo`, opened for the pixels of the visibility map. With `skip_one` it is looked at first: an
+    /// albedo of 1, which changes nothing, is let go.
+    void use_albedo(std::shared_ptr<const AlbedoReader> albedo, bool skip_one);
 
     /// Shade the pixels of `roi`. Any thread, with a `scratch` of its own.
     ///
@@ -71,6 +72,7 @@ public:
 private:
     ShadingModel m_model;
     std::unique_ptr<ModelShader> m_shader;
+    bool m_looks_up = true; // rather than that the light has one colour
     double m_gain = 1;
     std::shared_ptr<const SunLight> m_suns;
     std::shared_ptr<const AlbedoReader> m_albedo;

@@ -2,6 +2,7 @@
 #include <vmlight/mesh/tangents.h>
 
 #include <vmlight/base/unique_index.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/vertex_key.h>
 
 #include <algorithm>
@@ -184,6 +185,7 @@ private:
 
 std::vector<std::array<CornerTangent, 3>> make_tangents(const Mesh& mesh)
 {
+    ++work_counts().tangents_made;
     return TangentMesh(mesh).tangents();
 }
 

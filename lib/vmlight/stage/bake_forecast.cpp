@@ -2,26 +2,22 @@
 #include <vmlight/stage/bake_forecast.h>
 
 #include <vmlight/base/format.h>
-#include <vmlight/base/parallel.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/effects/bake_facts.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/vismap/forecast.h>
 
-#include <OpenImageIO/sysutil.h>
-
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace vmlight {
 namespace {
 
 // Rays per texel where two scenes are compared: V to about .02.
 constexpr int kCompared = 64;
-// CPU seconds per texel and channel: to fill the margin on one thread, and to compress the file on all. Measured on
-// maps of 1024 and 2048, half covered.
-constexpr double kMarginSeconds = 10e-9, kWriteSeconds = 100e-9;
+// CPU seconds per texel and channel to fill the margin on one thread. Measured on maps of 1024 and 2048, half covered.
+constexpr double kMarginSeconds = 10e-9;
 
 VismapParams without_pilot(VismapParams params)
 {
@@ -92,8 +88,9 @@ bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const Norma
             return false;
         facts.bake.cutouts = other->occluder().cutouts();
     }
-    facts.bake.has_normal_map = !recipe.normal_map.empty();
-    facts.bake.has_flat_normal_map = !switched.normal_map.empty() && !normal_map;
+    facts.bake.has_normal_map = recipe.has_normal_map();
+    facts.bake.has_flat_normal_map = switched.has_normal_map() && !normal_map;
+    facts.bake.has_material_normals = recipe.material_normals;
     facts.bake.reach = recipe.vismap_params.max_distance;
     facts.bake.margin = recipe.vismap_params.margin;
     facts.bake.udim_given = recipe.udim_given;
@@ -102,6 +99,7 @@ bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const Norma
         return false;
     dst.covered = map.covered;
     dst.bake_seconds = map.seconds;
+    dst.tests = facts.bake.tests;
     if (options.explain || options.dry_run) {
         options.report("effects:");
         for (const std::string& line : decision_lines(dst.decisions))
@@ -128,18 +126,24 @@ void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, c
     const double margin = recipe.vismap_params.margin != 0 ? values * kMarginSeconds : 0;
     const double bake = recipe.time_budget > 0 && forecast.bake_seconds > recipe.time_budget ? recipe.time_budget
                                                                                              : forecast.bake_seconds;
-    const double write = values * kWriteSeconds / worker_count(options.threads);
-    // What is held now; the map, and what the file's writer holds of it.
-    const double bytes = double(OIIO::Sysutil::memory_used(true)) + values * sizeof(float) * 1.5;
-    // On a machine with time to spare a process has used its processor since it was started.
-    const double start = std::max(0.0, double(std::clock()) / CLOCKS_PER_SEC - taken.processor);
+    const double write = write_seconds(spec, options.threads);
+    // The map, and what the file's writer holds of it.
+    const double bytes = expected_bytes(spec, 1.5);
+    const double start = start_seconds(taken);
     options.report(format("expected: {:.2f} s: start {:.2f} s, read and build {:.2f} s, bake {:.2f} s, margin and file "
                           "{:.2f} s; {:.0f} MB of memory",
                           start + taken.read + bake + margin + write, start, taken.read, bake, margin + write,
                           bytes / 1e6));
 }
 
-void report_taken(const VismapReport& report, const MakeOptions& options)
+BakeWork BakeWork::so_far(const BakeScene& scene)
+{
+    const CutoutWork cutouts = scene.occluder().cutout_work();
+    return { cutouts.hits, cutouts.lookups, work_counts().directions_below_ground, work_counts().margin_texels };
+}
+
+void report_taken(const BakeForecast& forecast, const VismapReport& report, const BakeWork& before,
+                  const BakeScene& scene, const MakeOptions& options)
 {
     const double covered = double(std::max<int64_t>(1, report.covered));
     options.report(
@@ -147,6 +151,16 @@ void report_taken(const VismapReport& report, const MakeOptions& options)
                "{:.2f} s, build {:.2f} s, margin {:.2f} s",
                double(report.rays) * 1e-6, double(report.rays) / covered, 100 * double(report.open) / covered,
                report.bake_seconds, report.build_seconds, report.margin_seconds));
+    const BakeWork now = BakeWork::so_far(scene);
+    options.report(
+        format("  deciding: {:.3f} M boxes and vertices compared with horizons", double(forecast.tests) * 1e-6));
+    if (const int64_t hits = now.hits - before.hits; hits > 0)
+        options.report(format("  cut-outs: {:.2f} M hits asked, {:.1f} % of them the texture", double(hits) * 1e-6,
+                              100 * double(now.lookups - before.lookups) / double(hits)));
+    if (const int64_t blocked = now.below_ground - before.below_ground; blocked > 0)
+        options.report(format("  ground: {:.2f} M directions blocked without a ray", double(blocked) * 1e-6));
+    if (const int64_t filled = now.margin - before.margin; filled > 0)
+        options.report(format("  margin: {:.3f} M texels filled", double(filled) * 1e-6));
 }
 
 } // namespace vmlight

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/effects/effect.h>
+#include <vmlight/stage/forecast_costs.h>
 #include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/trace/bake_scene.h>
@@ -23,6 +24,7 @@ struct BakeForecast
     std::vector<EffectDecision> decisions;
     int64_t covered = 0;
     double bake_seconds = 0; ///< 0 unless a dry run
+    int64_t tests = 0; ///< BakeFacts::tests
 };
 
 /// Decide on the effects of `recipe` as given, whose scene and normal map with its switches applied are `scene` and
@@ -33,17 +35,21 @@ struct BakeForecast
 bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const NormalMapPointer& normal_map,
                    const VismapRecipe& recipe, const SceneOf& scene_of, const MakeOptions& options, std::string& error);
 
-/// Seconds since the forecast began: until the scene was built, and of the processor by all threads.
-struct TimeTaken
-{
-    double read = 0, processor = 0;
-};
-
 /// Report the expected time and memory of a bake, from the start of the process to its end.
 void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, const TimeTaken& taken,
                      const MakeOptions& options);
 
-/// Report what the bake really took.
-void report_taken(const VismapReport& report, const MakeOptions& options);
+/// Work of the bakes of a scene so far.
+struct BakeWork
+{
+    int64_t hits = 0, lookups = 0; ///< CutoutWork
+    int64_t below_ground = 0, margin = 0;
+
+    static BakeWork so_far(const BakeScene& scene);
+};
+
+/// Report what the bake really took, since `before`, effect by effect.
+void report_taken(const BakeForecast& forecast, const VismapReport& report, const BakeWork& before,
+                  const BakeScene& scene, const MakeOptions& options);
 
 } // namespace vmlight

@@ -25,8 +25,10 @@ VismapRecipe with_switches(const VismapRecipe& recipe)
     }
     if (switches.of("cut-outs") == Switch::off)
         switched.cutout_params.cutouts = "off";
-    if (switches.of("normal-map") == Switch::off)
+    if (switches.of("normal-map") == Switch::off) {
         switched.normal_map.clear();
+        switched.material_normals = false;
+    }
     if (switches.of("max-distance") == Switch::off)
         params.max_distance = defaults.max_distance;
     if (switches.of("margin") == Switch::off)
@@ -42,6 +44,8 @@ SceneChoice scene_choice(const VismapRecipe& recipe)
     choice.self = switches.of("self-occlusion") != Switch::off;
     choice.occluders = switches.of("occluders") != Switch::off;
     choice.cull = switches.of("occluders") != Switch::on;
+    if (switches.of("cut-outs") == Switch::on)
+        choice.cutouts = CutoutMode::every_hit;
     if (!recipe.occluder.empty()) // without, maps of any distance share the scene
         choice.reach = recipe.vismap_params.max_distance;
     return choice;

@@ -5,6 +5,7 @@
 #include <vmlight/base/text_format.h>
 #include <vmlight/base/tile_size.h>
 #include <vmlight/base/work_counts.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
@@ -138,9 +139,10 @@ private:
         if (splits())
             options.report(suns_line());
         options.report("colour: " + note + m_output.note());
-        options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s", range.first == kStackLevels ? "reduce" : "filter",
+        options.report(format("{}: {}x{} to {}{}x{} in {:.3f} s{}", range.first == kStackLevels ? "reduce" : "filter",
                               width, height, dst.size() > 1 ? format("{} of ", dst.size()) : "", m_spec.width,
-                              m_spec.height, timer()));
+                              m_spec.height, timer(),
+                              find_one_color(dst) ? ": of one colour, which stays as it is" : ""));
         if (const int repaired = dst[0].spec().get_int_attribute("vmlight:sanitized"))
             options.report_warning(format("{} of the environment {} repaired",
                                           count_text(repaired, "bad value", "bad values"),
@@ -251,7 +253,8 @@ PixelSourcePointer open_source(const CfemRecipe& given, std::string& error, cons
         error = with_location(recipe, "colorconfig", chain, error);
         return nullptr;
     }
-    const std::string key = recipe_key(recipe) + config + environment->key();
+    const char* forced = recipe.cfem_params.skip_one_color ? "" : "every filter\n"; // the same pixels, for more work
+    const std::string key = recipe_key(recipe) + forced + config + environment->key();
     const bool shared = sharing == Sharing::process;
     if (PixelSourcePointer known = shared ? find_source(key) : nullptr)
         return known;

@@ -2,7 +2,9 @@
 #include <vmlight/stage/light_effects.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/cfem/one_color.h>
 #include <vmlight/effects/effect.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/bake_switches.h>
 
@@ -21,6 +23,85 @@ double degrees_of(const Rotation& r)
     return std::atan2(std::sqrt(x * x + y * y + z * z), r[0][0] + r[1][1] + r[2][2] - 1) * 180 / M_PI;
 }
 
+void measure_visibility(LightFacts& dst, const OIIO::ImageBuf& vismap)
+{
+    OIIO::ROI row = vismap.roi();
+    row.chbegin = vismap.spec().channelindex(kVismapChannels[0]);
+    row.chend = row.chbegin + 1;
+    std::vector<float> values(size_t(row.width()));
+    for (int y = vismap.ybegin(); y < vismap.yend(); ++y) {
+        row.ybegin = y;
+        row.yend = y + 1;
+        if (!vismap.get_pixels(row, OIIO::TypeFloat, values.data()))
+            return; // whoever lights it reports it
+        for (const float value : values) {
+            dst.lit += value > 0;
+            dst.shadowed += value > 0 && value < 1;
+        }
+    }
+}
+
+bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRecipe& recipe,
+                const LightmapParams& params, std::string& error)
+{
+    Rotation rotation;
+    ShadingModel model;
+    const bool has_stack = inputs.cfem.size() > 1
+        || (!inputs.cfem.empty() && inputs.cfem[0].spec().get_float_attribute("vmlight:lobe") == 1);
+    if (!lightmap_rotation(rotation, params, error)
+        || !choose_model(model, params, inputs.vismap.spec(), has_stack, error))
+        return false;
+    dst.rotation_degrees = degrees_of(rotation);
+    dst.model = model.name;
+    dst.levels = int(inputs.cfem.size());
+    dst.has_environment = recipe.cfem.empty();
+    dst.is_one_color = find_one_color(inputs.cfem).has_value();
+    dst.color_note = inputs.color;
+    dst.converts_color = !inputs.color.empty();
+    dst.has_albedo = !recipe.albedo.empty();
+    if (inputs.albedo.initialized()) {
+        const auto range = OIIO::ImageBufAlgo::computePixelStats(inputs.albedo);
+        dst.albedo_low = *std::min_element(range.min.begin(), range.min.end());
+        dst.albedo_high = *std::max_element(range.max.begin(), range.max.end());
+    } else {
+        dst.albedo_low = 1;
+    }
+    measure_visibility(dst, inputs.vismap);
+    return true;
+}
+
+struct Difference
+{
+    double rms = 0, mean = 0; ///< of the light with all that was asked for
+};
+
+// How far the light is from what it would be without the switches.
+bool compare(Difference& dst, const LightmapInputs& inputs, const SwitchedLight& light, const MakeOptions& options,
+             std::string& error)
+{
+    MakeOptions quiet;
+    quiet.chain = options.chain;
+    quiet.threads = options.threads;
+    LightmapRecipe whole = light.asked;
+    whole.effects = "auto";
+    LightmapInputs all = inputs; // what is the same is not read again
+    OIIO::ImageBuf lit[2];
+    if (!read_lightmap_inputs(all, whole, quiet, error) || !make_lightmap(lit[0], inputs, light.params, quiet, error)
+        || !make_lightmap(lit[1], all, light.asked_params, quiet, error))
+        return false;
+    double square = 0, sum = 0;
+    int64_t count = 0;
+    const auto *a = static_cast<const float*>(lit[0].localpixels()),
+               *b = static_cast<const float*>(lit[1].localpixels());
+    for (size_t i = 0; i < 3 * size_t(lit[0].spec().image_pixels()); ++i) {
+        square += std::pow(double(a[i]) - double(b[i]), 2);
+        sum += double(b[i]);
+        count += a[i] != 0 || b[i] != 0; // no texel, or a black one
+    }
+    dst = { std::sqrt(square / double(std::max<int64_t>(1, count))), sum / double(std::max<int64_t>(1, count)) };
+    return true;
+}
+
 } // namespace
 
 LightmapRecipe with_switches(const LightmapRecipe& recipe)
@@ -37,44 +118,37 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
         params.quaternion = defaults.quaternion;
         params.env_rotate = defaults.env_rotate;
     }
+    switched.cfem_params.skip_one_color = switches.of("filter") != Switch::on;
+    switched.lightmap_params.skip_identities
+        = switches.of("stack-levels") != Switch::on && switches.of("albedo") != Switch::on;
     return switched;
 }
 
-bool explain_light(const LightmapInputs& inputs, const LightmapRecipe& recipe, const LightmapParams& params,
-                   const MakeOptions& options, std::string& error)
+bool explain_light(const LightmapInputs& inputs, const SwitchedLight& light, const MakeOptions& options,
+                   std::string& error)
 {
-    const EffectSwitches switches = switches_of(recipe.effects, LightmapRecipe::kStage);
+    const EffectSwitches switches = switches_of(light.asked.effects, LightmapRecipe::kStage);
     EffectFacts facts;
-    LightFacts& light = facts.light;
-    Rotation rotation;
-    ShadingModel model;
-    const bool has_stack = inputs.cfem.size() > 1
-        || (!inputs.cfem.empty() && inputs.cfem[0].spec().get_float_attribute("vmlight:lobe") == 1);
-    if (!lightmap_rotation(rotation, params, error)
-        || !choose_model(model, params, inputs.vismap.spec(), has_stack, error))
-        return false;
-    light.rotation_degrees = degrees_of(rotation);
-    light.model = model.name;
-    light.levels = int(inputs.cfem.size());
-    light.has_environment = recipe.cfem.empty();
-    light.color_note = inputs.color;
-    light.converts_color = !inputs.color.empty();
-    light.has_albedo = !recipe.albedo.empty();
-    if (inputs.albedo.initialized()) {
-        const auto range = OIIO::ImageBufAlgo::computePixelStats(inputs.albedo);
-        light.albedo_low = *std::min_element(range.min.begin(), range.min.end());
-        light.albedo_high = *std::max_element(range.max.begin(), range.max.end());
-    }
     std::vector<EffectDecision> decisions;
-    if (!decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
+    if (!find_facts(facts.light, inputs, light.asked, light.asked_params, error)
+        || !decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
         return false;
-    if (options.explain) {
+    if (options.explain || options.dry_run) {
         options.report("effects:");
         for (const std::string& line : decision_lines(decisions))
             options.report(line);
     }
-    if (const std::string missing = left_out(decisions); !missing.empty() && !options.repeated_inputs)
-        options.report_warning(format("effects: the picture has {}, left out", missing));
+    const std::string missing = left_out(decisions);
+    if (missing.empty() || options.repeated_inputs)
+        return true;
+    Difference off;
+    if (!compare(off, inputs, light, options, error))
+        return false;
+    if (off.rms == 0) // such as an albedo of 1, which is not read where it is switched off
+        return true;
+    options.report_warning(format("effects: the picture has {}, left out: light is off by about {:.2g} (RMS), and its "
+                                  "mean is {:.2g}",
+                                  missing, off.rms, off.mean));
     return true;
 }
 

@@ -181,7 +181,7 @@ private:
             + (m_suns ? sizeof(float) * m_suns->visibility.size() + m_images.suns->bytes() : 0);
         const AlbedoReader* albedo = m_images.albedo ? m_images.albedo->reader(error) : nullptr;
         if (albedo)
-            m_shader.use_albedo({ m_images.albedo, albedo });
+            m_shader.use_albedo({ m_images.albedo, albedo }, m_recipe.lightmap_params.skip_identities);
         return error.empty();
     }
 

@@ -41,6 +41,13 @@ struct MakeOptions
     {
         return progress ? progress(name, width * height) : Progress {};
     }
+    /// Shows the name of each step that has no progress of its own.
+    StepListener steps() const
+    {
+        if (!progress)
+            return {};
+        return [listen = progress](const char* name) { listen(name, 0)(0); };
+    }
     /// say() or warn(), if set.
     void report(const std::string& line) const
     {

@@ -3,15 +3,29 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/image/image_file.h>
+#include <vmlight/stage/material_normals.h>
 
 #include <utility>
 
 namespace vmlight {
 
 bool read_normal_map(NormalMapPointer& dst, const VismapRecipe& recipe, std::shared_ptr<const Mesh> mesh, int nthreads,
-                     std::vector<std::string>& notes, std::vector<std::string>& warnings, std::string& error)
+                     std::vector<std::string>& notes, std::vector<std::string>& warnings, std::string& error,
+                     std::vector<FileStamp>* files)
 {
     dst = nullptr;
+    if (recipe.material_normals) {
+        auto map = std::make_shared<NormalMap>();
+        if (!read_material_normals(*map, recipe, *mesh, nthreads, notes, warnings, files, error)) {
+            error = format("\"{}\": {}", recipe.mesh, error);
+            return false;
+        }
+        if (map->is_flat())
+            return true;
+        map->attach(std::move(mesh));
+        dst = std::move(map);
+        return true;
+    }
     const std::string& path = recipe.normal_map;
     if (path.empty())
         return true;

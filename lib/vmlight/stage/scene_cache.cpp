@@ -77,9 +77,10 @@ constexpr double kSmallPart = 64;
 
 // Read one of the recipe's files, and note all that it opens in `files`.
 bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& recipe, const SceneStamps& stamps,
-               size_t index, std::string& at, std::string& error)
+               size_t index, const StepListener& at_step, std::string& at, std::string& error)
 {
     at = key_of(index);
+    begin_step(at_step, "read");
     const std::string& mesh_path = path_of(recipe, index);
     ++work_counts().meshes_read;
     if (!read_mesh(dst, mesh_path, recipe.mesh_params, error,
@@ -100,6 +101,9 @@ bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& rec
         ++work_counts().meshes_read;
         return read_mesh(again, mesh_path, params, ignored);
     };
+    if (std::any_of(dst.materials.begin(), dst.materials.end(),
+                    [](const Material& material) { return material.alpha_mode != AlphaMode::opaque; }))
+        begin_step(at_step, "read cut-outs");
     return read_cutouts(dst, { recipe.mesh_params.uv_set, recipe.unwrap && index == 0, read_again }, &files, error);
 }
 
@@ -122,15 +126,17 @@ bool unwrap(BakeScene& dst, Mesh& mesh, const VismapRecipe& recipe, int nthreads
 }
 
 bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
-                 double& seconds, std::string& at, std::string& error)
+                 const StepListener& at_step, double& seconds, std::string& at, std::string& error)
 {
     auto mesh = std::make_shared<Mesh>();
     std::vector<Mesh> occluders(recipe.occluder.size());
     auto scene = std::make_shared<BakeScene>();
     for (size_t i = 0; i < stamps.files.size(); ++i)
-        if (!read_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at, error))
+        if (!read_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at_step, at, error))
             return false;
     at = recipe.unwrap ? "unwrap" : key_of(0);
+    if (recipe.unwrap)
+        begin_step(at_step, "unwrap");
     if (recipe.unwrap && !unwrap(*scene, *mesh, recipe, nthreads, error))
         return false;
     at = key_of(0);
@@ -139,7 +145,7 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
         return false;
     }
     const Stopwatch timer;
-    if (!scene->build(std::move(mesh), occluders, nthreads, error, scene_choice(recipe)))
+    if (!scene->build(std::move(mesh), occluders, nthreads, error, scene_choice(recipe), at_step))
         return false;
     ++work_counts().scenes_built;
     seconds = timer();
@@ -149,26 +155,27 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
 
 // The rest of the mesh is one more occluder. The others are read again: `whole` has not kept them.
 bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<const Mesh> part, Mesh rest,
-                      const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, std::string& at,
-                      std::string& error)
+                      const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, const StepListener& at_step,
+                      std::string& at, std::string& error)
 {
     std::vector<Mesh> occluders(1 + recipe.occluder.size());
     std::vector<FileStamp> again;
     occluders[0] = std::move(rest);
     for (size_t i = 1; i < stamps.files.size(); ++i)
-        if (!read_file(occluders[i], again, recipe, stamps, i, at, error))
+        if (!read_file(occluders[i], again, recipe, stamps, i, at_step, at, error))
             return false;
     at = key_of(0);
     dst.files = whole.files;
     ++work_counts().scenes_built;
-    if (!dst.build(std::move(part), occluders, nthreads, error, scene_choice(recipe)))
+    if (!dst.build(std::move(part), occluders, nthreads, error, scene_choice(recipe), at_step))
         return false;
     dst.set_lowest(whole.lowest());
     return true;
 }
 
 bool build_part(BakeScenePointer& dst, const BakeScenePointer& whole, const VismapRecipe& recipe,
-                const SceneStamps& stamps, int nthreads, double& seconds, std::string& at, std::string& error)
+                const SceneStamps& stamps, int nthreads, const StepListener& at_step, double& seconds, std::string& at,
+                std::string& error)
 {
     const Stopwatch timer;
     std::vector<bool> chosen;
@@ -191,7 +198,8 @@ bool build_part(BakeScenePointer& dst, const BakeScenePointer& whole, const Vism
     const bool is_small = SceneFrame::around(*part).scale >= kSmallPart * whole->frame().scale;
     if (is_small) {
         part->warnings = whole->mesh().warnings;
-        if (!build_small_part(*scene, *whole, std::move(part), std::move(rest), recipe, stamps, nthreads, at, error))
+        if (!build_small_part(*scene, *whole, std::move(part), std::move(rest), recipe, stamps, nthreads, at_step, at,
+                              error))
             return false;
     } else if (!scene->build_part(whole, std::move(part), rest, error)) {
         return false;
@@ -243,7 +251,8 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
     }
     // What is traced of them.
     const SceneChoice choice = scene_choice(recipe);
-    stamps.key += format("traced={}{}{} {}\n", choice.self, choice.occluders, choice.cull, choice.reach);
+    stamps.key += format("traced={}{}{}{} {}\n", choice.self, choice.occluders, choice.cull,
+                         choice.cutouts == CutoutMode::every_hit, choice.reach);
     for (size_t i = 0; i < stamps.files.size(); ++i) {
         at = key_of(i);
         if (!stamp_file(stamps.files[i], path_of(recipe, i), error))
@@ -255,14 +264,16 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
 }
 
 bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
-                 double* built, std::string& at, std::string& error)
+                 double* built, std::string& at, std::string& error, const StepListener& at_step)
 {
     double seconds = 0;
-    const Build whole
-        = [&](BakeScenePointer& scene) { return build_whole(scene, recipe, stamps, nthreads, seconds, at, error); };
+    const Build whole = [&](BakeScenePointer& scene) {
+        return build_whole(scene, recipe, stamps, nthreads, at_step, seconds, at, error);
+    };
     const Build part = [&](BakeScenePointer& scene) {
         BakeScenePointer all;
-        return share(all, stamps.key, whole) && build_part(scene, all, recipe, stamps, nthreads, seconds, at, error);
+        return share(all, stamps.key, whole)
+            && build_part(scene, all, recipe, stamps, nthreads, at_step, seconds, at, error);
     };
     if (!(recipe.selection.is_all() ? share(dst, stamps.key, whole)
                                     : share(dst, stamps.key + selection_key(recipe.selection), part)))

@@ -32,10 +32,11 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
 ///
 /// @param stamps   of the files when the caller decided to read them
 /// @param built    nullptr, or set to the seconds spent building, without reading files; 0 if the scene was shared
+/// @param at_step  hears of steps by their names
 /// @returns false if a file has changed since, or cannot be used, the selection chooses nothing, or memory runs out:
 /// `at` and `error` as for
 ///          stamp_scene(). The next call tries again.
 bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
-                 double* built, std::string& at, std::string& error);
+                 double* built, std::string& at, std::string& error, const StepListener& at_step = {});
 
 } // namespace vmlight

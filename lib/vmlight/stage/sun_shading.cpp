@@ -93,7 +93,7 @@ bool SunShading::prepare(const MakeOptions& options, std::string& error)
 {
     BakeScenePointer scene;
     std::string at;
-    if (!share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error)) {
+    if (!share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error, options.steps())) {
         error = with_location(m_recipe, at, options.chain, error);
         return false;
     }

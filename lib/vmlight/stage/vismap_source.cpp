@@ -43,6 +43,10 @@ void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
         spec.attribute(metadata_name("normal_map"), OIIO::Filesystem::filename(recipe.normal_map));
         append_params(spec, recipe.normal_map_params);
     }
+    if (recipe.material_normals) {
+        spec.attribute(metadata_name("material_normals"), value_text(recipe.material_normals, Flag {}));
+        append_params(spec, recipe.normal_map_params);
+    }
     if (const std::string off = switched_off(recipe.effects, VismapRecipe::kStage); !off.empty())
         spec.attribute(metadata_name("effects"), off);
     MeshSelection selection = recipe.selection;
@@ -96,7 +100,7 @@ public:
         VismapReport report;
         double build_seconds = 0;
         std::string at;
-        if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error)) {
+        if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error, options.steps())) {
             error = with_location(m_recipe, at, options.chain, error);
             return false;
         }
@@ -105,7 +109,8 @@ public:
         NormalMapPointer normal_map;
         std::vector<std::string> notes, warnings;
         if (!read_normal_map(normal_map, m_recipe, mesh_of(scene), options.threads, notes, warnings, error)) {
-            error = with_location(m_recipe, "normal_map", options.chain, error);
+            error = with_location(m_recipe, m_recipe.material_normals ? "material_normals" : "normal_map",
+                                  options.chain, error);
             return false;
         }
         for (const std::string& note : notes)
@@ -116,10 +121,12 @@ public:
         if ((options.explain || m_given.effects != "auto")
             && !forecast_effects(forecast, scene, normal_map, options, error))
             return false;
+        const BakeWork before = BakeWork::so_far(*scene);
         dst.clear();
         OIIO::ImageBuf& map = dst.emplace_back();
         if (!make_vismap(map, scene, m_recipe.vismap_params, &report, options.threads,
-                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget, normal_map)) {
+                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget, normal_map,
+                         options.steps())) {
             error = map.geterror();
             return false;
         }
@@ -134,7 +141,7 @@ public:
         report_bake(options, report, map.spec(), m_recipe, scene->mesh());
         report_cutouts(options, cutouts);
         if (options.explain)
-            report_taken(report, options);
+            report_taken(forecast, report, before, *scene, options);
         return true;
     }
 
@@ -146,7 +153,7 @@ public:
         TimeTaken taken;
         BakeScenePointer scene;
         std::string at;
-        if (!share_scene(scene, m_recipe, m_stamps, options.threads, nullptr, at, error)) {
+        if (!share_scene(scene, m_recipe, m_stamps, options.threads, nullptr, at, error, options.steps())) {
             error = with_location(m_recipe, at, options.chain, error);
             return false;
         }
@@ -164,7 +171,10 @@ public:
         return true;
     }
 
-    bool failed() const override { return m_prepare.failed() || (m_bytes && !are_unchanged(m_scene->files)); }
+    bool failed() const override
+    {
+        return m_prepare.failed() || (m_bytes && !(are_unchanged(m_scene->files) && are_unchanged(m_textures)));
+    }
     // A shared scene is divided by the number of sharers, so that together they count it once.
     size_t bytes() const override
     {
@@ -194,7 +204,7 @@ private:
         NormalMapPointer normal_map;
         std::vector<std::string> ignored;
         if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
-            || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error)
+            || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error, &m_textures)
             || !m_baker.prepare(m_scene, m_recipe.vismap_params, error, 0, {}, 0, normal_map))
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
@@ -212,6 +222,7 @@ private:
     const SceneStamps m_stamps;
     RunOnce m_prepare;
     BakeScenePointer m_scene;
+    std::vector<FileStamp> m_textures; // that materials name as normal maps
     VismapBaker m_baker;
     std::unique_ptr<VismapTiles> m_tiles;
     std::atomic<size_t> m_bytes { 0 }; // set last: nonzero means that everything else is ready

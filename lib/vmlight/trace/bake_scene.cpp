@@ -80,7 +80,7 @@ void BakeScene::measure()
 }
 
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,
-                      std::string& error, const SceneChoice& choice)
+                      std::string& error, const SceneChoice& choice, const StepListener& at_step)
 {
     error = bake_fault(*mesh);
     if (!error.empty())
@@ -97,7 +97,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
             return false;
     m_mesh = std::move(mesh);
     m_choice = choice;
-    if (!trace(occluders, nthreads, error))
+    if (!trace(occluders, nthreads, error, at_step))
         return false;
     for (const Mesh& caster : occluders)
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
@@ -115,22 +115,21 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
 }
 
 // Give Embree what the rays of the mesh can meet.
-bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error)
+bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error, const StepListener& at_step)
 {
-    std::vector<const Mesh*> casters;
-    if (m_choice.self)
-        casters.push_back(m_mesh.get());
+    std::vector<const Mesh*> casters { m_choice.self ? m_mesh.get() : nullptr };
     SceneBox box = scene_box(*m_mesh, m_frame);
+    if (!occluders.empty())
+        begin_step(at_step, "find what occluders reach");
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
-        if (m_reach.back().is_traced(m_choice))
-            casters.push_back(&occluder);
+        casters.push_back(m_reach.back().is_traced(m_choice) ? &occluder : nullptr);
     }
     m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
     const auto occluder = std::make_shared<Occluder>();
     m_occluder = occluder;
-    return occluder->build(casters, m_frame, nthreads, error);
+    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step);
 }
 
 bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/base/file_stamp.h>
+#include <vmlight/base/progress.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/caster_reach.h>
 #include <vmlight/trace/occluder.h>
@@ -24,8 +25,9 @@ public:
     /// @returns false, with the reason in `error`, if the mesh has no triangles or no uvs, a mesh fails check_mesh() or
     ///          is too far away to be traced, or memory runs out
     /// @param choice   what of them is traced. With the default, occluders that no ray can meet are left out
+    /// @param at_step  hears of steps by their names
     bool build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads, std::string& error,
-               const SceneChoice& choice = {});
+               const SceneChoice& choice = {}, const StepListener& at_step = {});
 
     /// A scene that bakes `part` of the mesh of `whole`, which is kept alive: all of `whole` occludes, in the same
     /// frame, so that the part's texels get the same bits as those of the whole mesh.
@@ -69,7 +71,7 @@ public:
 
 private:
     void measure();
-    bool trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error);
+    bool trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error, const StepListener& at_step);
 
     std::shared_ptr<const Mesh> m_mesh;
     std::shared_ptr<const BakeScene> m_whole; // of which this is a part, or nullptr

@@ -26,9 +26,11 @@ bool hides_all(const Horizon& horizon, const Mesh& occluder, const SceneFrame& f
     return true;
 }
 
-bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& box, const SceneFrame& frame)
+bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& box, const SceneFrame& frame,
+                      int64_t& tests)
 {
     int64_t left = kVertices;
+    bool is_below = true;
     for (const auto& triangle : mesh.triangles) {
         const V3d normal = surface_normal(mesh, triangle);
         if (!(normal.length2() > 0.5)) // no area: no texel
@@ -37,10 +39,13 @@ bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& bo
         for (size_t k = 0; k < 3; ++k)
             corners[k] = V3d(frame.to_scene(mesh.positions[triangle[k]]));
         const Horizon horizon(corners, normal);
-        if (!horizon.hides(box) && !hides_all(horizon, occluder, frame, left))
-            return false;
+        ++tests;
+        is_below = horizon.hides(box) || hides_all(horizon, occluder, frame, left);
+        if (!is_below)
+            break;
     }
-    return true;
+    tests += kVertices - left;
+    return is_below;
 }
 
 } // namespace
@@ -65,7 +70,7 @@ CasterReach find_reach(const Mesh& mesh, const Mesh& occluder, const SceneFrame&
     // Ray origins are off the surface, and boxes and lengths are floats.
     if (gap > choice.reach * frame.scale * (1 + 1e-5) + 4 * kRayOffset)
         found.verdict = CasterReach::too_far;
-    else if (is_below_horizon(mesh, occluder, box, frame))
+    else if (is_below_horizon(mesh, occluder, box, frame, found.tests))
         found.verdict = CasterReach::below_horizon;
     return found;
 }

@@ -19,6 +19,8 @@ struct SceneChoice
     bool self = true, occluders = true;
     /// Leave out occluders that no ray can meet: the same visibility without them. False builds them nevertheless.
     bool cull = true;
+    /// How triangles are asked that are transparent in part: the same visibility either way.
+    CutoutMode cutouts = CutoutMode::micromaps;
     /// Length of rays, in mesh units.
     double reach = std::numeric_limits<double>::infinity();
 
@@ -44,6 +46,8 @@ struct CasterReach
     Verdict verdict = reaches;
     /// Between its bounding box and that of the mesh, in mesh units.
     double gap = 0;
+    /// Boxes and vertices that a horizon was compared with.
+    int64_t tests = 0;
 
     /// Whether it is in the scene.
     bool is_traced(const SceneChoice& choice) const { return choice.occluders && (verdict == reaches || !choice.cull); }

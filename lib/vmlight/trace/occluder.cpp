@@ -61,14 +61,21 @@ Occluder::Occluder() = default;
 Occluder::~Occluder() = default;
 
 bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
-                     CutoutMode mode)
+                     CutoutMode mode, const StepListener& at_step)
 {
+    std::vector<const Mesh*> traced;
     for (size_t i = 0; i < meshes.size(); ++i) {
+        if (!meshes[i])
+            continue;
+        traced.push_back(meshes[i]);
+        if (meshes[i]->opacity)
+            begin_step(at_step, "sort cut-outs");
         m_cutouts.push_back(Cutouts::make(*meshes[i], uint32_t(i), nthreads, mode));
         if (m_cutouts.back())
             m_counts.add(m_cutouts.back()->counts());
     }
-    m_scene = embree::Scene::build(meshes, frame, nthreads, error, m_cutouts);
+    begin_step(at_step, "build");
+    m_scene = embree::Scene::build(traced, frame, nthreads, error, m_cutouts);
     return m_scene != nullptr;
 }
 

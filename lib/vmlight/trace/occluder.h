@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Imath/ImathVec.h>
+#include <vmlight/base/progress.h>
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/cutouts.h>
@@ -51,13 +52,14 @@ public:
     Occluder(const Occluder&) = delete;
     Occluder& operator=(const Occluder&) = delete;
 
-    /// Build the scene from the triangles of all `meshes`. False, with the reason in `error`, if Embree fails (out of
+    /// Build the scene from the triangles of all `meshes`; nullptr is one that is left out, and keeps its number, on
+    /// which chance depends where opacity is in between. False, with the reason in `error`, if Embree fails (out of
     /// memory). Traversal is robust: rays do not leak between triangles that share vertices.
     ///
     /// What Mesh::opacity says of a mesh is honoured: rays pass where it is transparent, and as often as it says where
     /// it is in between.
     bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
-               CutoutMode mode = CutoutMode::micromaps);
+               CutoutMode mode = CutoutMode::micromaps, const StepListener& at_step = {});
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`, which must be off
     /// the surface: see SurfacePoint. Not checked: that build() succeeded.

@@ -68,6 +68,7 @@ uint32_t TriangleTree::build(std::vector<V3f>& middles, std::vector<uint32_t>& o
 
 bool TriangleTree::is_above(uint32_t triangle, const Horizon& horizon, const SceneBox& box, double reach) const
 {
+    ++m_tests;
     SceneBox own;
     bool hidden = true;
     for (int k = 0; k < 3; ++k) {
@@ -90,6 +91,7 @@ uint32_t TriangleTree::find_above(const Horizon& horizon, const SceneBox& box, d
     while (depth > 0) {
         const uint32_t index = stack[--depth];
         const Node& node = m_nodes[index];
+        ++m_tests;
         if (horizon.hides(node.box) || node.box.distance2(box) > far2)
             continue;
         if (node.triangles == 0) {

@@ -24,6 +24,9 @@ public:
     /// Whether this one, which find_above() found for another horizon, is such a triangle.
     bool is_above(uint32_t triangle, const Horizon& horizon, const SceneBox& box, double reach) const;
 
+    /// Boxes and triangles that a horizon was compared with so far, by one thread at a time.
+    int64_t tests() const { return m_tests; }
+
 private:
     struct Node
     {
@@ -44,6 +47,7 @@ private:
     const std::vector<TracedTriangles>& m_meshes;
     std::vector<Triangle> m_triangles;
     std::vector<Node> m_nodes;
+    mutable int64_t m_tests = 0;
 };
 
 } // namespace vmlight

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uv/margin.h>
 
+#include <vmlight/base/work_counts.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -107,6 +109,7 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, con
                     next.push_back(n);
                 }
             });
+        work_counts().margin_texels += int64_t(next.size());
         for (const Texel& t : next)
             average_neighbours(pixels, channels, filled, coverage, t, plan);
         // Only now: the result must not depend on the order within a ring.

@@ -28,9 +28,11 @@ namespace vmlight {
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
 
 /// make_vismap() from a scene that other maps may share. With a `time_budget`, in seconds, the bake traces as many rays
-/// per texel as it has time for on this machine, at least one; the report has their number.
+/// per texel as it has time for on this machine, at least one; the report has their number. `at_step` hears of the
+/// steps before and after those of `progress`.
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress, double time_budget = 0, NormalMapPointer normal_map = nullptr);
+                 int nthreads, const Progress& progress, double time_budget = 0, NormalMapPointer normal_map = nullptr,
+                 const StepListener& at_step = {});
 
 /// Counts of a bake, or of some tiles of it.
 struct BakeCounts

@@ -102,17 +102,45 @@ bool NormalMap::decode(const ImageBuf& image, const NormalMapParams& params, Siz
     m_width = size.width;
     const auto* first = static_cast<const V3f*>(directions.localpixels());
     m_normals.assign(first, first + directions.spec().image_pixels());
-    m_is_flat = !m_is_object_space && std::all_of(m_normals.begin(), m_normals.end(), [](const V3f& n) {
-        return std::abs(n.x) <= kFlat && std::abs(n.y) <= kFlat && n.z > 0;
-    });
-    if (m_is_flat)
-        m_normals = {};
+    settle();
     const auto below = std::count_if(m_normals.begin(), m_normals.end(), [](const V3f& n) { return n.z < 0; });
     if (!m_is_object_space && double(below) > kWarned * double(m_normals.size()))
         warnings.push_back(format("{:.1f} % of its normals point into the surface; if it is in object space, set "
                                   "normal_map_space to object",
                                   100 * double(below) / double(m_normals.size())));
     return true;
+}
+
+void NormalMap::settle()
+{
+    m_is_flat = !m_is_object_space && std::all_of(m_normals.begin(), m_normals.end(), [](const V3f& n) {
+        return std::abs(n.x) <= kFlat && std::abs(n.y) <= kFlat && n.z > 0;
+    });
+    if (m_is_flat)
+        m_normals = {};
+}
+
+void NormalMap::scale(float lean)
+{
+    for (V3f& n : m_normals) {
+        n.x *= lean;
+        n.y *= lean;
+    }
+    settle();
+}
+
+void NormalMap::reset(Size size)
+{
+    m_is_flat = m_is_object_space = false;
+    m_width = size.width;
+    m_normals.assign(size_t(size.width) * size_t(size.height), V3f(0, 0, 1));
+}
+
+void NormalMap::take(const NormalMap& part, const std::vector<uint32_t>& chosen, uint32_t choice)
+{
+    for (size_t i = 0; i < part.m_normals.size(); ++i)
+        if (chosen[i] == choice)
+            m_normals[i] = part.m_normals[i];
 }
 
 void NormalMap::attach(std::shared_ptr<const Mesh> mesh)

@@ -10,6 +10,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,15 @@ public:
     /// Whether it leaves every normal as it is: a tangent map whose pixels are all within one step of 8 bits of
     /// straight up, in which programs differ.
     bool is_flat() const { return m_is_flat; }
+
+    /// Multiply x and y of a tangent map, as glTF's `scale` does.
+    void scale(float lean);
+    /// Become the tangent map of a mesh whose materials have maps of their own: straight up, but for the texels that
+    /// take() is called for. After the last, settle().
+    void reset(Size size);
+    /// Take those texels of `part`, of the same size, for which `chosen`, row by row, is `choice`.
+    void take(const NormalMap& part, const std::vector<uint32_t>& chosen, uint32_t choice);
+    void settle();
 
     /// Make the tangents of `mesh`, if the map needs them. Call before map_normal().
     void attach(std::shared_ptr<const Mesh> mesh);

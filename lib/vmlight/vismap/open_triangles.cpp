@@ -57,7 +57,8 @@ struct Facet
 
 // Of triangles evenly over the mesh, the share above which no vertex rises, of vertices evenly over the scene: about
 // what a search would prove, and mostly more.
-double promise(const BakeScene& scene, const std::vector<TracedTriangles>& traced, size_t all, double reach)
+double promise(const BakeScene& scene, const std::vector<TracedTriangles>& traced, size_t all, double reach,
+               int64_t& tests)
 {
     std::vector<V3f> vertices;
     const size_t vertex_step = std::max<size_t>(1, all / kVertices);
@@ -75,6 +76,7 @@ double promise(const BakeScene& scene, const std::vector<TracedTriangles>& trace
             continue;
         const Horizon horizon = facet.horizon();
         const auto rises = [&](const V3f& p) {
+            ++tests;
             SceneBox point;
             point.add(p);
             return !horizon.hides(V3d(p)) && point.distance2(facet.box) <= reach * reach;
@@ -115,7 +117,8 @@ void OpenTriangles::find(const BakeScene& scene, double reach, double rays)
         all += part.count;
     m_open.clear();
     m_report = {};
-    const double share = promise(scene, traced, all, reach), triangles = double(all + mesh.triangles.size());
+    const double share = promise(scene, traced, all, reach, m_report.tests);
+    const double triangles = double(all + mesh.triangles.size());
     m_report.searched = share > 0 && (triangles <= kFew || share * rays >= kRaysPerTriangle * triangles);
     if (m_report.searched) {
         const TriangleTree tree(traced);
@@ -137,6 +140,7 @@ void OpenTriangles::find(const BakeScene& scene, double reach, double rays)
             open_area += own;
         }
         m_report.open_share = area > 0 ? open_area / area : 0;
+        m_report.tests += tree.tests();
         if (m_report.open == 0)
             m_open.clear();
     }

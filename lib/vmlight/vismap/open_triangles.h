@@ -18,6 +18,7 @@ struct OpenReport
     int64_t open = 0; ///< of them, proven
     double open_share = 0; ///< of the area in UV
     bool searched = false; ///< whether every triangle was looked at; the counts are 0 otherwise
+    int64_t tests = 0; ///< boxes, triangles and vertices that a horizon was compared with
     double seconds = 0;
 };
 

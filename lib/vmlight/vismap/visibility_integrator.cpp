@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/visibility_integrator.h>
 
+#include <vmlight/base/work_counts.h>
 #include <vmlight/math/longest_direction.h>
 
 #include <algorithm>
@@ -17,6 +18,14 @@ namespace {
 
 // Of the length of a float normal.
 constexpr double kRounding = 1e-6;
+
+int64_t count_rays(const RayFan& fan)
+{
+    int64_t rays = 0;
+    for (const uint8_t lanes : fan.lanes)
+        rays += __builtin_popcount(lanes);
+    return rays;
+}
 
 } // namespace
 
@@ -36,6 +45,11 @@ double lane_scatter(const std::vector<uint8_t>& traced, const std::vector<uint8_
         lanes += all[lane] > 0;
     }
     return lanes > 1 ? std::sqrt(squares * lanes / (lanes - 1)) / rays : 0;
+}
+
+VisibilityIntegrator::~VisibilityIntegrator()
+{
+    work_counts().directions_below_ground += m_below_ground;
 }
 
 template <class Test> void VisibilityIntegrator::take_out(const Test& is_out)
@@ -115,8 +129,10 @@ DirectionSums VisibilityIntegrator::trace(Visibility& dst, const SurfacePoint& p
 void VisibilityIntegrator::trace_over_ground(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
                                              bool open, bool is_mapped)
 {
+    const int64_t before = count_rays(m_fan);
     m_ground.clear_blocked(m_fan, point);
     const DirectionSums above = sum_directions(m_fan, point.normal);
+    m_below_ground += before - above.rays;
     // Exact where every direction of the hemisphere counts; of the rest, rays say how much other things block.
     const bool exact = !is_mapped && all.rays == m_pattern.count() && m_params.measure == "cosine"
         && m_ground.hides_lower_half(point);

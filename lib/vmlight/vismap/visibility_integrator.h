@@ -50,6 +50,8 @@ public:
         , m_basis(make_accumulator(params))
     {
     }
+    /// Adds what the ground blocked to WorkCounts.
+    ~VisibilityIntegrator();
 
     /// Integrate visibility over the hemisphere of `point`, the centre of texel (x, y), whose ray origin
     /// adjust_ray_origins() has set. A function of scene, params and texel alone. Directions below the geometric
@@ -86,6 +88,7 @@ private:
     std::unique_ptr<BasisAccumulator> m_basis;
     std::vector<uint8_t> m_traced, m_traced_above; // lane bits before the rays are traced; and above the ground
     int64_t m_rays = 0;
+    int64_t m_below_ground = 0; // directions that the ground blocked, for which no ray was traced
 };
 
 } // namespace vmlight

@@ -42,7 +42,8 @@ bool make_vismap(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mesh>&
 }
 
 bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const VismapParams& params, VismapReport* report,
-                 int nthreads, const Progress& progress, double time_budget, NormalMapPointer normal_map)
+                 int nthreads, const Progress& progress, double time_budget, NormalMapPointer normal_map,
+                 const StepListener& at_step)
 {
     VismapReport counts;
     Stopwatch timer;
@@ -50,6 +51,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (check_params(params, error))
         error = memory_shortage(describe_vismap("", params));
     VismapBaker baker;
+    begin_step(at_step, "prove");
     if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, std::move(normal_map)))
         return fail_with(dst, error);
     const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
@@ -71,6 +73,8 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
     if (!baker.bake_all(pixels, coverage, baked, nthreads, progress))
         return fail_with(dst, "interrupted");
     counts.bake_seconds = timer.lap();
+    if (params.margin != 0)
+        begin_step(at_step, "margin");
     fill_margin(pixels, spec.nchannels, coverage, params.margin, baker.margin_channels());
     counts.margin_seconds = timer.lap();
 

@@ -87,11 +87,16 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
         return with_location(recipe, "unwrap", chain,
                              format("{}the atlas is tile {}, and tile {} is empty", chain.empty() ? "unwrap: " : "",
                                     kFirstUdim, recipe.vismap_params.udim));
-    if (recipe.unwrap && !recipe.normal_map.empty())
-        return with_location(recipe, "normal_map", chain,
+    const std::string key = recipe.material_normals ? "material_normals" : "normal_map";
+    if (recipe.unwrap && recipe.has_normal_map())
+        return with_location(recipe, key, chain,
                              format("{}with unwrap the mesh gets other UVs than those of the normal map; write the "
                                     "unwrapped mesh by --write-mesh, and bake that with a normal map made for it",
-                                    chain.empty() ? "normal_map: " : ""));
+                                    chain.empty() ? key + ": " : ""));
+    if (recipe.material_normals && !recipe.normal_map.empty())
+        return with_location(
+            recipe, key, chain,
+            format("{}a normal map is given too: set only one of them", chain.empty() ? "material_normals: " : ""));
     return effects_fault(recipe, chain);
 }
 

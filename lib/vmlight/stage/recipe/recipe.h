@@ -63,7 +63,11 @@ struct VismapRecipe
     MeshSelection selection;
     /// An image in the UVs that are baked, "" for none.
     std::string normal_map;
+    /// Instead: those that the materials of `mesh` name.
+    bool material_normals = false;
     NormalMapParams normal_map_params;
+
+    bool has_normal_map() const { return !normal_map.empty() || material_normals; }
     VismapParams vismap_params;
     /// Of the mesh and its occluders.
     CutoutParams cutout_params;
@@ -82,6 +86,8 @@ struct VismapRecipe
         field("unwrap", unwrap, Flag {},
               "Replace the mesh's UVs, if any, by an atlas made for this resolution and margin");
         field("normal_map", normal_map, Path {}, "Normal map of the mesh, in the UVs that are baked");
+        field("material_normals", material_normals, Flag {},
+              "Use the normal maps that the mesh's materials name: glTF's normalTexture, MTL's norm");
         normal_map_params.visit(field);
         vismap_params.visit(field);
         visit_effects(field, effects);

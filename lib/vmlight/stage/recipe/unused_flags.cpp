@@ -21,8 +21,10 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "only Alembic files have frames";
     if (key == "fps" && recipe.mesh_params.frame == MeshParams::kFirstSample)
         return "no frame is given";
-    if ((key == "normal_map_space" || key == "normal_map_green") && recipe.normal_map.empty())
+    if ((key == "normal_map_space" || key == "normal_map_green") && !recipe.has_normal_map())
         return "no normal map is given";
+    if (key == "normal_map_space" && recipe.material_normals)
+        return "normal maps of materials are in tangent space";
     if (key == "normal_map_green" && recipe.normal_map_params.normal_map_space == "object")
         return "a normal map in object space has no up and down";
     if (key == "resolution" && recipe.vismap_params.width && recipe.vismap_params.height)

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effects.h"
+
+#include "lights.h"
+#include "timing.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/sun_light.h>
+#include <vmlight/stage/bake_forecast.h>
+#include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/normal_map_file.h>
+#include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/sun_visibility.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight::cost {
+namespace {
+
+constexpr int kLightWidth = 128;
+constexpr const char* kEffectModel = "lobe";
+
+bool stage_failed(const OIIO::ImageBuf& image, std::string& error)
+{
+    error = image.geterror();
+    return false;
+}
+
+// A map, and the light on it under each environment.
+struct EffectPicture
+{
+    OIIO::ImageBuf map;
+    std::vector<OIIO::ImageBuf> lit;
+    Timing bake;
+};
+
+class EffectBench
+{
+public:
+    EffectBench(const Inputs& inputs, const CostParams& params, const MakeOptions& options, const Progress& progress)
+        : m_inputs(inputs)
+        , m_options(options)
+        , m_progress(progress)
+        , m_lights(inputs, params, options)
+    {
+        m_quiet.threads = options.threads;
+    }
+
+    bool bake(EffectPicture& dst, const VismapRecipe& recipe, std::string& error)
+    {
+        const VismapRecipe switched = with_switches(recipe);
+        BakeScenePointer scene;
+        NormalMapPointer normal_map;
+        if (!scene_of(scene, recipe, error) || !read_normals(normal_map, switched, scene, error))
+            return false;
+        const auto make = [&] {
+            return make_vismap(dst.map, scene, switched.vismap_params, nullptr, m_options.threads, m_progress, 0,
+                               normal_map);
+        };
+        if (!measure_time(dst.bake, make))
+            return stage_failed(dst.map, error);
+        dst.lit.resize(m_inputs.environments.size());
+        for (size_t i = 0; i < dst.lit.size(); ++i) {
+            const FilteredLight* light = find_light(i, false, error);
+            if (!light || !shade(dst.lit[i], dst.map, *light, nullptr, error))
+                return false;
+        }
+        return true;
+    }
+
+    bool decide(std::vector<EffectDecision>& dst, const VismapRecipe& recipe, std::string& error)
+    {
+        BakeForecast forecast;
+        NormalMapPointer normal_map;
+        if (!read_normals(normal_map, recipe, m_inputs.scene, error))
+            return false;
+        const SceneOf scenes = [this](BakeScenePointer& scene, const VismapRecipe& other, std::string& reason) {
+            return scene_of(scene, other, reason);
+        };
+        if (!forecast_bake(forecast, m_inputs.scene, normal_map, recipe, scenes, m_quiet, error))
+            return false;
+        dst = forecast.decisions;
+        return true;
+    }
+
+    // Suns, split off and traced, against suns that stay in the environment. Nothing is added if there are none.
+    bool add_suns(std::vector<EffectCost>& dst, const EffectPicture& plain, const VismapRecipe& recipe,
+                  std::string& error)
+    {
+        EffectCost cost { "suns", "", 0, 0, 0, 0 };
+        size_t found = 0;
+        SunTracer tracer;
+        for (size_t i = 0; i < plain.lit.size(); ++i) {
+            const FilteredLight *split = find_light(i, true, error), *whole = find_light(i, false, error);
+            if (!split || !whole)
+                return false;
+            if (split->suns.empty())
+                continue;
+            NormalMapPointer normal_map;
+            if (found == 0
+                && (!read_normals(normal_map, recipe, m_inputs.scene, error)
+                    || !tracer.prepare(m_inputs.scene, recipe.vismap_params, error, m_options.threads, m_progress,
+                                       normal_map)))
+                return false;
+            found += split->suns.size();
+            OIIO::ImageBuf lit, without;
+            SunLight suns { split->suns, plain.map.roi(), {} };
+            std::vector<Disc> discs;
+            for (const Sun& sun : suns.suns)
+                discs.push_back(sun.disc);
+            Timing with_suns, without_suns;
+            if (!measure_time(with_suns,
+                              [&] {
+                                  return tracer.trace(suns.visibility, discs, m_options.threads, m_progress)
+                                      && shade(lit, plain.map, *split, &suns, error);
+                              })
+                || !measure_time(without_suns, [&] { return shade(without, plain.map, *whole, nullptr, error); })) {
+                error = error.empty() ? "interrupted" : error;
+                return false;
+            }
+            cost.seconds += with_suns.seconds / double(plain.lit.size());
+            cost.without += without_suns.seconds / double(plain.lit.size());
+            cost.light += difference(without, lit, plain.map) / double(plain.lit.size());
+        }
+        cost.reason
+            = format("{} in the environments; seconds are of one rotation", count_text(int64_t(found), "sun", "suns"));
+        if (found > 0)
+            dst.push_back(cost);
+        return true;
+    }
+
+    // Relative to the mean of `truth`.
+    double difference(const OIIO::ImageBuf& other, const OIIO::ImageBuf& truth, const OIIO::ImageBuf& map) const
+    {
+        const int coverage = map.spec().channelindex("coverage"), channels = map.nchannels();
+        const auto *a = static_cast<const float*>(other.localpixels()),
+                   *b = static_cast<const float*>(truth.localpixels()),
+                   *texel = static_cast<const float*>(map.localpixels());
+        double square = 0, sum = 0, count = 0;
+        for (size_t i = 0; i < size_t(truth.spec().image_pixels()); ++i) {
+            if (texel[i * size_t(channels) + size_t(coverage)] == 0)
+                continue;
+            for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
+                square += std::pow(double(a[c]) - double(b[c]), 2);
+                sum += double(b[c]);
+                ++count;
+            }
+        }
+        return sum > 0 ? std::sqrt(square / count) / (sum / count) : 0;
+    }
+
+private:
+    bool scene_of(BakeScenePointer& dst, const VismapRecipe& recipe, std::string& error) const
+    {
+        SceneStamps stamps;
+        std::string at;
+        const VismapRecipe switched = with_switches(recipe);
+        return stamp_scene(stamps, switched, at, error)
+            && share_scene(dst, switched, stamps, m_options.threads, nullptr, at, error);
+    }
+
+    bool read_normals(NormalMapPointer& dst, const VismapRecipe& recipe, const BakeScenePointer& scene,
+                      std::string& error) const
+    {
+        std::vector<std::string> ignored;
+        return read_normal_map(dst, recipe, { scene, &scene->mesh() }, m_options.threads, ignored, ignored, error);
+    }
+
+    const FilteredLight* find_light(size_t environment, bool suns, std::string& error)
+    {
+        return m_lights.find(environment, ModelLight::lobes, kLightWidth, suns, m_progress, error);
+    }
+
+    bool shade(OIIO::ImageBuf& dst, const OIIO::ImageBuf& map, const FilteredLight& light, const SunLight* suns,
+               std::string& error) const
+    {
+        LightmapParams params;
+        params.model = kEffectModel;
+        return make_lightmap(dst, map, light.images, suns, params, nullptr, m_options.threads, m_progress)
+            || stage_failed(dst, error);
+    }
+
+    const Inputs& m_inputs;
+    const MakeOptions& m_options;
+    MakeOptions m_quiet;
+    const Progress& m_progress;
+    FilteredLights m_lights;
+};
+
+double visibility_difference(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
+{
+    const int channels = a.nchannels(), coverage = a.spec().channelindex("coverage");
+    const auto *p = static_cast<const float*>(a.localpixels()), *q = static_cast<const float*>(b.localpixels());
+    double square = 0, count = 0;
+    for (size_t i = 0; i < size_t(a.spec().image_pixels()); ++i, p += channels, q += channels)
+        if (p[coverage] != 0) {
+            square += std::pow(double(p[0]) - double(q[0]), 2);
+            ++count;
+        }
+    return count > 0 ? std::sqrt(square / count) : 0;
+}
+
+} // namespace
+
+double effects_weight(size_t environments)
+{
+    return 500 + 100 * double(environments);
+}
+
+bool measure_effects(std::vector<EffectCost>& dst, const Inputs& inputs, const VismapRecipe& mesh,
+                     const CostParams& params, const MakeOptions& options, const Progress& progress, std::string& error)
+{
+    VismapRecipe recipe = mesh;
+    recipe.vismap_params = reference_map(params);
+    recipe.vismap_params.seed = params.seed;
+    recipe.vismap_params.margin = 0;
+    recipe.vismap_params.channels = { "coverage" };
+    EffectBench bench(inputs, params, options, progress);
+    EffectPicture with;
+    std::vector<EffectDecision> decisions;
+    dst.clear();
+    if (!bench.decide(decisions, recipe, error) || !bench.bake(with, recipe, error))
+        return false;
+    for (const Effect& effect : all_effects()) {
+        std::string reason;
+        for (const EffectDecision& decision : decisions)
+            if (decision.name == effect.name && decision.called_for && effect.can_be_off)
+                reason += (reason.empty() ? "" : "; ") + decision.reason;
+        if (reason.empty())
+            continue;
+        EffectPicture without;
+        recipe.effects = std::string("-") + effect.name;
+        if (!bench.bake(without, recipe, error))
+            return false;
+        EffectCost cost { effect.name,
+                          reason,
+                          with.bake.seconds,
+                          without.bake.seconds,
+                          visibility_difference(with.map, without.map),
+                          0 };
+        for (size_t i = 0; i < with.lit.size(); ++i)
+            cost.light += bench.difference(without.lit[i], with.lit[i], with.map) / double(with.lit.size());
+        dst.push_back(cost);
+    }
+    recipe.effects = "auto";
+    return bench.add_suns(dst, with, recipe, error);
+}
+
+} // namespace vmlight::cost
