@@ -77,6 +77,7 @@ public:
     MarginChannels margin_channels() const;
     int tiles_across() const;
     int tiles_down() const;
+    const UvRaster& raster() const;
     const UvReport& uv_report() const;
     /// Fill in the counts of islands, which uv_report() leaves out.
     void count_islands(UvReport& report) const;
@@ -103,7 +104,11 @@ public:
     ///
     /// @param texels   the tile's first texel, of channels() floats; rows are `pitch` floats apart. Texels that no
     ///                 triangle covers are not written: there is no margin yet
-    BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered) const;
+    /// @param only     nullptr, or the texels to bake: the others are neither traced nor written, nor counted as dark
+    /// or
+    ///                 open
+    BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered,
+                         const TileBits* only = nullptr) const;
 
     /// Bake every tile into the whole map. False if `progress` stopped it.
     bool bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads,

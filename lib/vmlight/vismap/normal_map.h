@@ -36,6 +36,8 @@ public:
     /// Whether it leaves every normal as it is: a tangent map whose pixels are all within one step of 8 bits of
     /// straight up, in which programs differ.
     bool is_flat() const { return m_is_flat; }
+    /// Whether its normals stay as they are when the surface turns.
+    bool is_object_space() const { return m_is_object_space; }
 
     /// Make the tangents of `mesh`, if the map needs them. Call before map_normal().
     void attach(std::shared_ptr<const Mesh> mesh);
