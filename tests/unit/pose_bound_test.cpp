@@ -31,7 +31,7 @@ TEST(PoseBound, HoldsForNinetyNineOfAHundredTexels)
         const char* what;
         Mesh base, pose;
     };
-    const VismapParams few = pose_params(160, 128), many = pose_params(160, 4096);
+    const VismapParams few = pose_params(96, 128), many = pose_params(96, 1024);
     for (const Case& c : { Case { "flag", flag(0), flag(0.15) }, Case { "door", door(0), door(25) },
                            Case { "skin", skin(0), skin(0.004) }, Case { "skin", skin(0), skin(0.03) } }) {
         const PoseChange change = change_between(c.base, c.pose, few);

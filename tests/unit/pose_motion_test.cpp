@@ -27,7 +27,7 @@ double distance(const Rotation& a, const Rotation& b)
 TEST(PoseMotion, AMovedMeshIsOneBody)
 {
     for (const double scale : { 1e-4, 1.0, 1e5 })
-        for (const V3d shift : { V3d(0), V3d(3, -2, 1), V3d(-300, 20, 50) }) {
+        for (const V3d& shift : { V3d(0), V3d(3, -2, 1), V3d(-300, 20, 50) }) {
             const Rotation turn = rotation_from_angles(20, 50, -110);
             const Mesh mesh = placed(skin(0), scale);
             const BakeScenePointer base = scene_of(mesh), pose = scene_of(moved(mesh, turn, shift * scale));

@@ -2,6 +2,7 @@
 /// How much of what a texel sees differs between two poses, from the same rays in both.
 #pragma once
 
+#include <vmlight/math/rotation.h>
 #include <vmlight/math/sampling.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/ground_plane.h>
