@@ -137,15 +137,32 @@ TEST(PoseSequence, WhatMostlyChangesIsTheNextBase)
 {
     const VismapParams params = pose_params(96, 32);
     PoseSequence sequence(kError);
-    const auto roof = [](double y) { return quad(V3d(-6, y, -6), V3d(6, y, -6), V3d(6, y, 6), V3d(-6, y, 6)); };
-    bake_pose(sequence, scene_of(door(0), { roof(9) }), params, "high");
-    const auto low = bake_pose(sequence, scene_of(door(0), { roof(2) }), params, "low");
-    EXPECT_EQ(low->pose.base, "");
-    EXPECT_EQ(low->pose.why, "most of it changes");
-    EXPECT_TRUE(low->has_bytes_of(*bake_alone(scene_of(door(0), { roof(2) }), params)));
-    const auto again = bake_pose(sequence, scene_of(door(0), { roof(2) }), params, "again");
-    EXPECT_EQ(again->pose.base, "low");
+    bake_pose(sequence, scene_of(skin(0)), params, "shallow");
+    const auto deep = bake_pose(sequence, scene_of(skin(0.2)), params, "deep");
+    EXPECT_EQ(deep->pose.base, "");
+    EXPECT_EQ(deep->pose.why, "most of it changes");
+    EXPECT_TRUE(deep->has_bytes_of(*bake_alone(scene_of(skin(0.2)), params)));
+    const auto again = bake_pose(sequence, scene_of(skin(0.2)), params, "again");
+    EXPECT_EQ(again->pose.base, "deep");
     EXPECT_EQ(again->report.rays, 0);
+}
+
+TEST(PoseSequence, OfTexelsThatStandStillOnlyRaysAreTracedThatMayMeetWhatMoves)
+{
+    for (const char* basis : { "vector", "sh", "cells" })
+        for (const bool ground : { false, true }) {
+            VismapParams params = pose_params(160, 64);
+            params.basis = basis;
+            params.ground = ground;
+            params.ground_height = -0.5;
+            params.max_distance = ground ? 9 : std::numeric_limits<double>::infinity();
+            PoseSequence sequence(0);
+            bake_pose(sequence, scene_of(door(0)), params, "a");
+            const auto pose = bake_pose(sequence, scene_of(door(40)), params, "b");
+            const auto whole = bake_alone(scene_of(door(40)), params);
+            EXPECT_TRUE(pose->has_bytes_of(*whole)) << basis << ground;
+            EXPECT_LE(pose->report.rays * 5, whole->report.rays) << basis << ground;
+        }
 }
 
 TEST(PoseSequence, AnotherMeshIsBakedWholeAndSaysWhy)

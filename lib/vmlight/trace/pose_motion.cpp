@@ -79,7 +79,7 @@ PoseMotion::PoseMotion(const BakeScene& base, const BakeScene& pose)
     m_tolerance = std::max(kSamePlace, 4 * (base.rounding() + pose.rounding()));
     m_body.assign(m_before.count(), kSoft);
     m_soft = int64_t(m_body.size());
-    take({ Rotation(), (base.frame().centre - pose.frame().centre) * base.frame().scale });
+    m_stands_still = take({ Rotation(), (base.frame().centre - pose.frame().centre) * base.frame().scale }) > 0;
     while (m_soft > 0 && m_motions.size() < kMotions) {
         std::vector<uint32_t> left;
         for (size_t i = 0; i < m_body.size(); ++i)

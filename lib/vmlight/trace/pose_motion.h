@@ -56,6 +56,8 @@ public:
     /// How a triangle of the baked mesh turns: with its body, or else on its own.
     Rotation turn(uint32_t triangle) const;
 
+    /// Whether the first body stands still.
+    bool stands_still() const { return m_stands_still; }
     /// Whether everything is one body.
     bool is_whole() const { return m_motions.size() == 1 && m_soft == 0; }
     /// Triangles that belong to no body.
@@ -78,6 +80,7 @@ private:
     std::vector<RigidMotion> m_motions;
     std::vector<uint32_t> m_body;
     int64_t m_soft = 0;
+    bool m_stands_still = false;
 };
 
 } // namespace vmlight

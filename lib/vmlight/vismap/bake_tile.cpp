@@ -3,6 +3,7 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/uv/tile_progress.h>
+#include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/baker_setup.h>
 
 #include <algorithm>
@@ -30,9 +31,10 @@ void VismapBaker::cover_tile(int tile, Scratch& scratch, TileBits& covered) cons
 }
 
 BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered,
-                                  const TileBits* only) const
+                                  const BakeHints* given) const
 {
     const TileCover& cover = scratch.cover;
+    const BakeHints hints = given ? *given : BakeHints();
     cover_tile(tile, scratch, covered);
     BakeCounts counts;
     counts.covered = cover.covered;
@@ -54,11 +56,12 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         const int block = i / 8, left = block % 8 * 8, y = block / 8 * 8 + i % 8;
         std::array<SurfacePoint, kPacketSize> points;
         std::array<int, kPacketSize> columns;
+        std::array<uint32_t, kPacketSize> triangles;
         std::array<bool, kPacketSize> open;
         int count = 0, traced = 0;
         for (int x = left; x < left + 8; ++x) {
             const size_t texel = size_t(y) * kTileSize + x;
-            if (cover.triangle[texel] == TileCover::kNone || (only && !((*only)[size_t(y)] >> x & 1)))
+            if (cover.triangle[texel] == TileCover::kNone || (hints.only && !((*hints.only)[size_t(y)] >> x & 1)))
                 continue;
             SurfacePoint& point = points[size_t(count)];
             point = scratch.surface.at(cover.triangle[texel], cover.weight1[texel], cover.weight2[texel]);
@@ -67,6 +70,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
                                            tile_x + x, tile_y + y);
             open[size_t(count)] = m_setup->open.is_open(cover.triangle[texel]);
             traced += !open[size_t(count)];
+            triangles[size_t(count)] = cover.triangle[texel];
             columns[size_t(count++)] = x;
         }
         if (traced > 0)
@@ -75,8 +79,9 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         for (int k = 0; k < count; ++k) {
             const int x = columns[size_t(k)];
             float* out = texels + size_t(y) * pitch + size_t(x) * channel_count;
+            const RayMemory memory = memory_of(hints, points[size_t(k)], triangles[size_t(k)], tile_x + x, tile_y + y);
             const Visibility seen = scratch.integrator.integrate(points[size_t(k)], tile_x + x, tile_y + y,
-                                                                 open[size_t(k)], out + basis_at);
+                                                                 open[size_t(k)], out + basis_at, memory);
             counts.dark += seen.visibility < 0.01;
             out[0] = float(seen.visibility);
             for (int c = 0; c < 3; ++c)
@@ -99,8 +104,8 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
     return counts;
 }
 
-bool VismapBaker::bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads,
-                           const Progress& progress) const
+bool VismapBaker::bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads, const Progress& progress,
+                           const BakeHints* hints) const
 {
     struct Worker
     {
@@ -119,7 +124,7 @@ bool VismapBaker::bake_all(float* texels, Coverage& covered, BakeCounts& counts,
         const int x = int(tile % tiles_across()) * kTileSize, y = int(tile / tiles_across()) * kTileSize;
         TileBits bits;
         float* first = texels + size_t(y) * pitch + size_t(x) * channels();
-        const BakeCounts baked = bake_tile(int(tile), *worker.scratch, first, pitch, bits);
+        const BakeCounts baked = bake_tile(int(tile), *worker.scratch, first, pitch, bits, hints);
         done.add(baked.covered);
         worker.counts.add(baked);
         for (int row = 0; row < std::min(kTileSize, height() - y); ++row)

@@ -43,6 +43,8 @@ struct BakeCounts
 /// The covered texels of a tile: bit x of word y.
 using TileBits = std::array<uint64_t, kTileSize>;
 
+struct BakeHints;
+
 class VismapBaker
 {
 public:
@@ -108,11 +110,11 @@ public:
     /// or
     ///                 open
     BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered,
-                         const TileBits* only = nullptr) const;
+                         const BakeHints* hints = nullptr) const;
 
     /// Bake every tile into the whole map. False if `progress` stopped it.
-    bool bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads,
-                  const Progress& progress = {}) const;
+    bool bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads, const Progress& progress = {},
+                  const BakeHints* hints = nullptr) const;
 
 private:
     int before_basis() const;

@@ -106,7 +106,7 @@ private:
     {
         Worker(const PosePair& poses, const SamplePattern& pattern)
             : cover(std::make_unique<TileCover>())
-            , probe(std::make_unique<PoseProbe>(poses.base, poses.pose, poses.baker.params(), pattern))
+            , probe(std::make_unique<PoseProbe>(poses.base, poses.pose, poses.baker.params(), pattern, poses.hints))
         {
         }
         std::unique_ptr<TileCover> cover;
@@ -179,7 +179,12 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
         }) || !probing.probe(fine, nullptr, [&](int x, int y) { return !is_cold(x, y); })))
         return false;
     m_kept.assign(size_t(probing.tiles()), {});
-    std::vector<std::array<int64_t, 3>> counts(m_kept.size()); // kept, covered, traced
+    struct Counts
+    {
+        int64_t kept = 0, covered = 0, tracing = 0, unknown = 0;
+    };
+    std::vector<Counts> counts(m_kept.size());
+    const bool has_known = poses.hints && poses.hints->known;
     const auto decide_tile = [&](int tile, const TileCover& cover, const auto&) {
         const int tile_x = tile % probing.raster().tiles_across() * kTileSize;
         const int tile_y = tile / probing.raster().tiles_across() * kTileSize;
@@ -187,24 +192,29 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
             const uint32_t triangle = cover.triangle[texel];
             if (triangle == TileCover::kNone)
                 continue;
-            counts[size_t(tile)][2] += !poses.baker.open().is_open(triangle);
+            const bool traces = !poses.baker.open().is_open(triangle);
+            counts[size_t(tile)].tracing += traces;
+            const bool unknown = traces && !(has_known && (*poses.hints->still)[triangle]);
+            counts[size_t(tile)].unknown += unknown;
             if (!may_keep(triangle))
                 continue;
             const int x = tile_x + int(texel % kTileSize), y = tile_y + int(texel / kTileSize);
             if (by_proof ? same[triangle] : is_cold(x, y) || !fine.exceeds(x, y, probing.part(triangle), limit)) {
                 keep(m_kept[size_t(tile)], texel);
-                ++counts[size_t(tile)][0];
+                ++counts[size_t(tile)].kept;
+                counts[size_t(tile)].unknown -= unknown;
             }
         }
-        counts[size_t(tile)][1] = cover.covered;
+        counts[size_t(tile)].covered = cover.covered;
     };
     if (!probing.each_tile(decide_tile))
         return false;
-    m_count = m_covered = m_traced = 0;
-    for (const auto& [kept, covered, traced] : counts) {
-        m_count += kept;
-        m_covered += covered;
-        m_traced += traced - kept;
+    m_count = m_covered = m_tracing = m_unknown = 0;
+    for (const Counts& tile : counts) {
+        m_count += tile.kept;
+        m_covered += tile.covered;
+        m_tracing += tile.tracing;
+        m_unknown += tile.unknown;
     }
     m_change = probing.sum_up(error);
     return true;

@@ -30,6 +30,7 @@ struct PosePair
     const PosedMap &base, &pose;
     const PoseMotion& motion; ///< without fault
     const VismapBaker& baker; ///< of the pose, prepared
+    const BakeHints* hints = nullptr; ///< or what is known of the rays of the base
 };
 
 class PosePlan
@@ -51,13 +52,15 @@ public:
     const TileBits& kept(int tile) const { return m_kept[size_t(tile)]; }
     int64_t kept() const { return m_count; }
     int64_t covered() const { return m_covered; }
-    /// Texels that are neither kept nor of a triangle that traces no ray.
-    int64_t traced() const { return m_traced; }
+    /// Texels whose triangles trace rays; and of them those of which nothing is known: neither kept, nor of triangles
+    /// that stand still.
+    int64_t tracing() const { return m_tracing; }
+    int64_t unknown() const { return m_unknown; }
     const PoseChange& change() const { return m_change; }
 
 private:
     std::vector<TileBits> m_kept;
-    int64_t m_count = 0, m_covered = 0, m_traced = 0;
+    int64_t m_count = 0, m_covered = 0, m_tracing = 0, m_unknown = 0;
     PoseChange m_change;
 };
 

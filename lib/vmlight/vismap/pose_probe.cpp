@@ -42,9 +42,10 @@ int64_t PoseProbe::Side::trace(const SurfacePoint& point)
 }
 
 PoseProbe::PoseProbe(const PosedMap& base, const PosedMap& pose, const VismapParams& params,
-                     const SamplePattern& pattern)
+                     const SamplePattern& pattern, const BakeHints* hints)
     : m_params(params)
     , m_pattern(pattern)
+    , m_hints(hints)
     , m_base(base, params, pattern)
     , m_pose(pose, params, pattern)
 {
@@ -59,11 +60,38 @@ SurfacePoint PoseProbe::point_of(Side& side, uint32_t triangle, float weight1, f
     return point;
 }
 
+double PoseProbe::change_of_known(const SurfacePoint& point, const uint8_t* known, Point32 texel)
+{
+    RayFan& fan = m_pose.fan;
+    const bool is_mapped = point.normal != point.mesh_normal; // as VisibilityIntegrator has it
+    m_pattern.directions(fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, texel);
+    const int64_t all = std::max<int64_t>(1, count_rays(fan));
+    m_pose.ground.clear_blocked(fan, point);
+    MovedBoxes::Near near;
+    m_hints->moved->find_near(near, point, m_pose.length);
+    for (int packet = 0; packet < fan.packets; ++packet)
+        fan.lanes[size_t(packet)] &= MovedBoxes::may_meet(near, fan, packet, point.origin, m_pose.length);
+    const std::vector<uint8_t> asked = fan.lanes;
+    const int64_t rays = count_rays(fan);
+    m_rays += rays;
+    if (rays > 0)
+        m_pose.map.scene->occluder().clear_blocked(fan, point.origin, m_pose.length, point.is_near);
+    int64_t changed = 0;
+    for (size_t packet = 0; packet < asked.size(); ++packet)
+        changed += int64_t(std::bitset<8>((fan.lanes[packet] ^ known[packet]) & asked[packet]).count());
+    return double(changed) / double(all);
+}
+
 double PoseProbe::change(uint32_t triangle, float weight1, float weight2, int x, int y, const Rotation& turn)
 {
-    const SurfacePoint before = point_of(m_base, triangle, weight1, weight2, x, y);
     const SurfacePoint after = point_of(m_pose, triangle, weight1, weight2, x, y);
     const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
+    if (m_hints) {
+        const RayMemory memory = memory_of(*m_hints, after, triangle, x, y);
+        if (memory.known)
+            return change_of_known(after, memory.known, texel);
+    }
+    const SurfacePoint before = point_of(m_base, triangle, weight1, weight2, x, y);
     TangentFrame frame(before.normal);
     m_pattern.directions(m_base.fan, frame, before.geometric_normal, texel);
     frame.tangent = V3f(rotate(turn, V3d(frame.tangent)));

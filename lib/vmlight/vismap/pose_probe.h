@@ -7,6 +7,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/ground_plane.h>
 #include <vmlight/trace/surface.h>
+#include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -26,7 +27,9 @@ class PoseProbe
 {
 public:
     /// All must outlive this.
-    PoseProbe(const PosedMap& base, const PosedMap& pose, const VismapParams& params, const SamplePattern& pattern);
+    /// @param hints    nullptr, or what is known of the rays of the base
+    PoseProbe(const PosedMap& base, const PosedMap& pose, const VismapParams& params, const SamplePattern& pattern,
+              const BakeHints* hints = nullptr);
 
     /// The share of the texel's rays that are blocked in one pose and not in the other, if the texel turns by `turn`
     /// and its rays with it, plus how far its normal turns otherwise, in radians. By what is known of so many rays, V
@@ -49,10 +52,13 @@ private:
         Surface surface;
         RayFan fan;
     };
+    // The same, of a texel that stands still and whose rays in the base are known.
+    double change_of_known(const SurfacePoint& point, const uint8_t* known, Point32 texel);
     SurfacePoint point_of(Side& side, uint32_t triangle, float weight1, float weight2, int x, int y) const;
 
     const VismapParams& m_params;
     const SamplePattern& m_pattern;
+    const BakeHints* m_hints;
     Side m_base, m_pose;
     int64_t m_rays = 0;
 };

@@ -111,4 +111,19 @@ std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParam
     return same;
 }
 
+std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& params)
+{
+    const Mesh &before = motion.base().mesh(), &after = motion.pose().mesh();
+    std::vector<uint8_t> still(before.triangles.size(), 0);
+    if (!motion.stands_still() || !keeps_ground(motion.motions().front(), motion, params))
+        return still;
+    for (uint32_t t = 0; t < still.size(); ++t) {
+        bool same = motion.body(t) == 0;
+        for (size_t k = 0; k < 3 && same; ++k) // exactly: directions of rays are made of them
+            same = before.normals[before.triangles[t][k]] == after.normals[after.triangles[t][k]];
+        still[t] = same;
+    }
+    return still;
+}
+
 } // namespace vmlight

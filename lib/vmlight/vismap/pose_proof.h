@@ -17,4 +17,8 @@ namespace vmlight {
 /// @param search   whether to look for what rises above each; otherwise only a scene that is one body is proven
 std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParams& params, bool search, int nthreads);
 
+/// For each triangle of the baked mesh, 1 where it stands still with all that its rays are made of: position, normals,
+/// the ground. Where rays of its texels meet nothing that moves, they meet what they met.
+std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& params);
+
 } // namespace vmlight

@@ -5,7 +5,10 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/mesh/same_triangles.h>
+#include <vmlight/trace/moved_boxes.h>
 #include <vmlight/uv/tile_progress.h>
+#include <vmlight/vismap/bake_hints.h>
+#include <vmlight/vismap/pose_proof.h>
 #include <vmlight/vismap/turned_texels.h>
 
 #include <algorithm>
@@ -17,9 +20,11 @@
 namespace vmlight {
 namespace {
 
-// Of the texels that trace rays. A pose that keeps less is baked whole: those after it are more like it than like the
-// base.
-constexpr double kLeastKept = 0.5;
+// Of the texels that trace rays, those of which nothing is known. A pose that has more is baked whole: those after it
+// are more like it than like the base.
+constexpr double kMostUnknown = 0.5;
+// Bytes of the rays of a base that are kept.
+constexpr double kMostKnown = 1 << 29;
 
 // Triangles without area cover no texel. Which have one must not change: others would own their texels.
 std::string area_fault(const Mesh& base, const Mesh& pose)
@@ -35,14 +40,15 @@ std::string area_fault(const Mesh& base, const Mesh& pose)
 class Texels
 {
 public:
-    Texels(const OIIO::ImageBuf& base, const PoseMotion& motion, const VismapBaker& baker, const PosePlan& plan)
+    Texels(const OIIO::ImageBuf& base, const PosePair& poses, const PosePlan& plan)
         : m_from(static_cast<const float*>(base.localpixels()))
-        , m_motion(motion)
-        , m_baker(baker)
+        , m_motion(poses.motion)
+        , m_baker(poses.baker)
+        , m_hints(*poses.hints)
         , m_plan(plan)
     {
-        for (const RigidMotion& body : motion.motions())
-            m_turns.emplace_back(baker.params(), body.turn);
+        for (const RigidMotion& body : m_motion.motions())
+            m_turns.emplace_back(m_baker.params(), body.turn);
     }
 
     struct Worker
@@ -61,7 +67,9 @@ public:
         TileBits others, covered;
         for (size_t row = 0; row < others.size(); ++row)
             others[row] = ~kept[row];
-        worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, pixels + first, pitch, covered, &others));
+        BakeHints hints = m_hints;
+        hints.only = &others;
+        worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, pixels + first, pitch, covered, &hints));
         for (int row = 0; row < std::min(kTileSize, m_baker.height() - y); ++row)
             coverage.set_word(x, y + row, covered[size_t(row)]);
         if (std::all_of(kept.begin(), kept.end(), [](uint64_t bits) { return bits == 0; }))
@@ -88,9 +96,34 @@ private:
     const float* m_from;
     const PoseMotion& m_motion;
     const VismapBaker& m_baker;
+    const BakeHints& m_hints;
     const PosePlan& m_plan;
     std::vector<TexelTurn> m_turns; // of the bodies
 };
+
+// False if stopped.
+bool bake_changed(const OIIO::ImageBuf& base, const PosePair& poses, const PosePlan& plan, const MapJob& job,
+                  float* pixels, Coverage& coverage, BakeCounts& counts)
+{
+    const VismapBaker& baker = poses.baker;
+    const Texels texels(base, poses, plan);
+    std::vector<Texels::Worker> workers(static_cast<size_t>(worker_count(job.nthreads)));
+    for (Texels::Worker& worker : workers)
+        worker.scratch = baker.scratch();
+    TileProgress done(baker.raster(), job.nthreads, job.progress);
+    const auto work = [&](int64_t tile, int index) {
+        Texels::Worker& worker = workers[size_t(index)];
+        const int64_t covered = worker.counts.covered;
+        texels.bake_tile(int(tile), pixels, coverage, worker);
+        done.add(worker.counts.covered - covered);
+    };
+    if (done.stopped()
+        || !parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), job.nthreads, work, done.listener()))
+        return false;
+    for (const Texels::Worker& worker : workers)
+        counts.add(worker.counts);
+    return true;
+}
 
 PosePlan::MayKeep may_keep(const PosePair& poses)
 {
@@ -112,18 +145,29 @@ PosePlan::MayKeep may_keep(const PosePair& poses)
 
 bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
 {
-    VismapReport made;
-    if (!make_vismap(dst, job.scene, job.params, &made, job.nthreads, job.progress, job.time_budget, job.normal_map))
+    const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
+        return bake_base(baker, job, pixels, coverage, counts);
+    };
+    if (!make_map(dst, job, bake, report))
         return false;
     m_base = { job.scene, job.normal_map };
     m_base_name = name;
     m_map = dst;
-    m_samples = made.samples;
-    m_last.kept = 0;
-    m_last.covered = made.covered;
-    if (report)
-        *report = made;
     return true;
+}
+
+bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage,
+                             BakeCounts& counts)
+{
+    m_samples = baker.params().samples;
+    m_rays = {};
+    if (double(baker.width()) * baker.height() * m_samples / kPacketSize <= kMostKnown)
+        m_rays = RayBits(baker.width(), baker.height(), m_samples);
+    BakeHints hints;
+    hints.record = m_rays.empty() ? nullptr : &m_rays;
+    const bool done = baker.bake_all(pixels, coverage, counts, job.nthreads, job.progress, &hints);
+    m_last.covered = counts.covered;
+    return done;
 }
 
 bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
@@ -149,7 +193,15 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     const PosedMap pose { job.scene, job.normal_map };
     const double error = next.params.sun_directions.empty() ? m_error : 0; // a sun may be in few rays
     const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
-        const PosePair poses { m_base, pose, *motion, baker };
+        const MovedBoxes moved(*motion);
+        const std::vector<uint8_t> still = find_still(*motion, next.params);
+        BakeHints hints;
+        if (!m_rays.empty() && !m_base.normal_map && !pose.normal_map) { // tangents are of neighbours too
+            hints.known = &m_rays;
+            hints.moved = &moved;
+            hints.still = &still;
+        }
+        const PosePair poses { m_base, pose, *motion, baker, &hints };
         PosePlan plan;
         if (!plan.decide(poses, error, may_keep(poses), job.nthreads, job.progress))
             return false;
@@ -158,28 +210,12 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         m_last.kept = plan.kept();
         m_last.covered = plan.covered();
         counts.rays += plan.change().rays;
-        if (plan.kept() == 0 || double(plan.kept()) < kLeastKept * double(plan.kept() + plan.traced())) {
+        if (double(plan.unknown()) > kMostUnknown * double(plan.tracing())) {
             m_last.kept = 0;
-            m_last.why = plan.traced() == 0 ? "no texel traces a ray" : "most of it changes";
-            return baker.bake_all(pixels, coverage, counts, job.nthreads, job.progress);
+            m_last.why = "most of it changes";
+            return bake_base(baker, next, pixels, coverage, counts);
         }
-        const Texels texels(m_map, *motion, baker, plan);
-        std::vector<Texels::Worker> workers(size_t(worker_count(job.nthreads)));
-        for (Texels::Worker& worker : workers)
-            worker.scratch = baker.scratch();
-        TileProgress done(baker.raster(), job.nthreads, job.progress);
-        const auto work = [&](int64_t tile, int index) {
-            Texels::Worker& worker = workers[size_t(index)];
-            const int64_t covered = worker.counts.covered;
-            texels.bake_tile(int(tile), pixels, coverage, worker);
-            done.add(worker.counts.covered - covered);
-        };
-        if (done.stopped()
-            || !parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), job.nthreads, work, done.listener()))
-            return false;
-        for (const Texels::Worker& worker : workers)
-            counts.add(worker.counts);
-        return true;
+        return bake_changed(m_map, poses, plan, job, pixels, coverage, counts);
     };
     if (!make_map(dst, next, bake, report))
         return false;
@@ -193,6 +229,8 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         return true;
     }
     m_last.base = m_base_name;
+    if (m_last.kept == 0)
+        return true;
     spec.attribute("vmlight:pose_base", m_base_name);
     spec.attribute("vmlight:pose_error", format("{:.6g}", error));
     return true;

@@ -5,6 +5,7 @@
 #include <vmlight/vismap/make_map.h>
 #include <vmlight/vismap/pose_plan.h>
 #include <vmlight/vismap/pose_probe.h>
+#include <vmlight/vismap/ray_bits.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -57,11 +58,13 @@ public:
 
 private:
     bool bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report);
+    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts);
 
     double m_error;
     PosedMap m_base;
     std::string m_base_name;
     OIIO::ImageBuf m_map; // of the base
+    RayBits m_rays; // of its texels; empty if they would take too much memory
     int m_samples = 0; // that it was baked with
     PoseReport m_last;
 };
