@@ -31,7 +31,7 @@ TEST(PoseBound, HoldsForNinetyNineOfAHundredTexels)
         const char* what;
         Mesh base, pose;
     };
-    const VismapParams few = pose_params(96, 128), many = pose_params(96, 1024);
+    const VismapParams few = pose_params(80, 128), many = pose_params(80, 1024);
     for (const Case& c : { Case { "flag", flag(0), flag(0.15) }, Case { "door", door(0), door(25) },
                            Case { "skin", skin(0), skin(0.004) }, Case { "skin", skin(0), skin(0.03) } }) {
         const PoseChange change = change_between(c.base, c.pose, few);
@@ -39,8 +39,8 @@ TEST(PoseBound, HoldsForNinetyNineOfAHundredTexels)
         // The truth has noise of its own, where texels turn.
         EXPECT_LE(share_beyond(*before, *after, change.bound + 0.005), 0.01) << c.what << " " << change.bound;
         EXPECT_LE(change.bound, change.most) << c.what;
-        EXPECT_GT(change.probes, 100) << c.what;
-        EXPECT_EQ(change.rays > 0, true) << c.what;
+        EXPECT_GT(change.probes, 60) << c.what;
+        EXPECT_GT(change.rays, 0) << c.what;
     }
 }
 

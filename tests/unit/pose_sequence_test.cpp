@@ -200,7 +200,7 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
 {
     double beyond = 0, covered = 0, kept = 0, more = 0, rays = 0, plain = 0;
     int proven = 0;
-    for (uint32_t seed = 0; seed < 60; ++seed) {
+    for (uint32_t seed = 0; seed < 24; ++seed) {
         DrawnScene drawn(seed);
         VismapParams params = pose_params(72, 96);
         params.max_distance = drawn.params.max_distance;
@@ -248,6 +248,6 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
     EXPECT_LE(beyond, 0.01 * covered);
     EXPECT_EQ(more, 0); // what is proven has the same rays
     EXPECT_GT(kept, 0.1 * covered);
-    EXPECT_GT(proven, 5);
+    EXPECT_GT(proven, 2);
     RecordProperty("rays", std::to_string(rays / plain));
 }

@@ -191,7 +191,9 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         return bake_whole(dst, next, name, report);
 
     const PosedMap pose { job.scene, job.normal_map };
-    const double error = next.params.sun_directions.empty() ? m_error : 0; // a sun may be in few rays
+    // A map does not know of less than a ray. A sun may be in few rays.
+    const double error
+        = m_error > 0 && next.params.sun_directions.empty() ? std::max(m_error, 1.0 / double(m_samples)) : 0;
     const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
         const MovedBoxes moved(*motion);
         const std::vector<uint8_t> still = find_still(*motion, next.params);
