@@ -2,10 +2,10 @@
 /// What it saves to bake the poses of a mesh together: a flag that waves beside a house on a lawn, and a mesh whose
 /// upper part nods, as a Markdown table.
 ///
-///     poses_bench [MESH [RESOLUTION [SAMPLES [FRAMES]]]]
+///     poses_bench [MESH [RESOLUTION [SAMPLES [FRAMES [JUDGED]]]]]
 ///
 /// Seconds of the scenes and maps of all frames, on all threads, files left out: each frame whole, and as a sequence at
-/// several errors. RMS of V against 1024 rays a texel, over two frames.
+/// several errors. RMS of V against 1024 rays a texel, over JUDGED frames (2).
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/math/rotation.h>
@@ -116,10 +116,12 @@ double rms(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
     return std::sqrt(squares / std::max(1.0, texels));
 }
 
-void measure(const char* name, const Pose& pose, const VismapParams& params, int frames)
+void measure(const char* name, const Pose& pose, const VismapParams& params, int frames, int judged_frames)
 {
     std::vector<OIIO::ImageBuf> truth;
-    std::vector<int> judged { frames / 4, frames / 2 };
+    std::vector<int> judged;
+    for (int i = 1; i <= judged_frames; ++i)
+        judged.push_back(i * frames / (judged_frames + 2));
     for (const int frame : judged) {
         VismapParams exact = params;
         exact.samples = 1024;
@@ -168,16 +170,16 @@ int main(int argc, char** argv)
     params.resolution = { number(2, 1024), number(2, 1024) };
     params.samples = number(3, 128);
     params.channels = { "coverage" };
-    const int frames = std::max(8, number(4, 24));
+    const int frames = std::max(2, number(4, 24)), judged = std::max(0, number(5, 2));
     std::printf("| mesh | error | M rays | s | times as fast | kept | RMS of V | of it scenes, s "
                 "|\n|---|---|---|---|---|---|---|---|\n");
-    measure("flag", flag, params, frames);
-    if (argc > 1) {
+    measure("flag", flag, params, frames, judged);
+    if (argc > 1 && argv[1][0]) {
         Mesh mesh;
         std::string error;
         if (!read_mesh(mesh, argv[1], {}, error))
             fail(error);
         measure(
-            "nodding", [&](double time) { return nodding(mesh, time); }, params, frames);
+            "nodding", [&](double time) { return nodding(mesh, time); }, params, frames, judged);
     }
 }

@@ -46,6 +46,41 @@ void group(std::vector<SceneBox>& dst, SceneBox* begin, SceneBox* end, size_t gr
     group(dst, middle, end, groups / 2);
 }
 
+// One over the directions of a packet.
+struct PacketInverse
+{
+    PacketInverse(const RayFan& fan, int packet)
+    {
+        const std::array<const float*, 3> direction { fan.x + packet * kPacketSize, fan.y + packet * kPacketSize,
+                                                      fan.z + packet * kPacketSize };
+        for (size_t axis = 0; axis < 3; ++axis)
+            for (size_t lane = 0; lane < kPacketSize; ++lane) {
+                const float d = direction[axis][lane];
+                at[axis][lane] = 1 / (std::abs(d) > 1e-12f ? d : 1e-12f);
+            }
+    }
+    std::array<std::array<float, kPacketSize>, 3> at;
+};
+
+// Which rays of the packet enter the box: bit k for ray k.
+uint8_t enter(const SceneBox& box, const PacketInverse& inverse, const V3f& origin, float length)
+{
+    std::array<float, kPacketSize> enters {}, leaves;
+    leaves.fill(length);
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = box.low[axis] - origin[axis], high = box.high[axis] - origin[axis];
+        for (size_t lane = 0; lane < kPacketSize; ++lane) {
+            const float a = low * inverse.at[size_t(axis)][lane], b = high * inverse.at[size_t(axis)][lane];
+            enters[lane] = std::max(enters[lane], std::min(a, b));
+            leaves[lane] = std::min(leaves[lane], std::max(a, b));
+        }
+    }
+    uint8_t bits = 0;
+    for (size_t lane = 0; lane < kPacketSize; ++lane)
+        bits |= uint8_t((enters[lane] <= leaves[lane]) << lane);
+    return bits;
+}
+
 } // namespace
 
 MovedBoxes::MovedBoxes(const PoseMotion& motion)
@@ -77,7 +112,7 @@ MovedBoxes::MovedBoxes(const PoseMotion& motion)
 
 void MovedBoxes::find_near(Near& dst, const SurfacePoint& point, float length) const
 {
-    dst.count = 0;
+    dst = {};
     const V3f& n = point.geometric_normal;
     SceneBox origin;
     origin.add(point.origin);
@@ -86,8 +121,10 @@ void MovedBoxes::find_near(Near& dst, const SurfacePoint& point, float length) c
         for (int axis = 0; axis < 3; ++axis)
             top += n[axis] * ((n[axis] > 0 ? box.high[axis] : box.low[axis]) - point.origin[axis]);
         // Rays start above the surface; the box has a margin.
-        if (!(top <= 0) && !(box.distance2(origin) > double(length) * double(length)))
+        if (!(top <= 0) && !(box.distance2(origin) > double(length) * double(length))) {
             dst.boxes[dst.count++] = box;
+            dst.all.add(box);
+        }
     }
 }
 
@@ -95,34 +132,13 @@ uint8_t MovedBoxes::may_meet(const Near& near, const RayFan& fan, int packet, co
 {
     if (near.count == 0)
         return 0;
-    std::array<std::array<float, kPacketSize>, 3> inverse;
-    const std::array<const float*, 3> direction { fan.x + packet * kPacketSize, fan.y + packet * kPacketSize,
-                                                  fan.z + packet * kPacketSize };
-    for (size_t axis = 0; axis < 3; ++axis)
-        for (size_t lane = 0; lane < kPacketSize; ++lane) {
-            const float d = direction[axis][lane];
-            inverse[axis][lane] = 1 / (std::abs(d) > 1e-12f ? d : std::copysign(1e-12f, d));
-        }
-    std::array<uint8_t, kPacketSize> meets {};
-    for (size_t i = 0; i < near.count; ++i) {
-        const SceneBox& box = near.boxes[i];
-        std::array<float, kPacketSize> enters {}, leaves;
-        leaves.fill(length);
-        for (int axis = 0; axis < 3; ++axis) {
-            const float low = box.low[axis] - origin[axis], high = box.high[axis] - origin[axis];
-            for (size_t lane = 0; lane < kPacketSize; ++lane) {
-                const float a = low * inverse[size_t(axis)][lane], b = high * inverse[size_t(axis)][lane];
-                enters[lane] = std::max(enters[lane], std::min(a, b));
-                leaves[lane] = std::min(leaves[lane], std::max(a, b));
-            }
-        }
-        for (size_t lane = 0; lane < kPacketSize; ++lane)
-            meets[lane] = uint8_t(meets[lane] | uint8_t(enters[lane] <= leaves[lane]));
-    }
-    uint8_t bits = 0;
-    for (size_t lane = 0; lane < kPacketSize; ++lane)
-        bits |= uint8_t(meets[lane] << lane);
-    return bits;
+    const PacketInverse inverse(fan, packet);
+    // Rays of a packet are neighbours: most of them miss everything.
+    const uint8_t candidates = enter(near.all, inverse, origin, length);
+    uint8_t meets = 0;
+    for (size_t i = 0; i < near.count && meets != candidates; ++i)
+        meets |= uint8_t(candidates & enter(near.boxes[i], inverse, origin, length));
+    return meets;
 }
 
 } // namespace vmlight

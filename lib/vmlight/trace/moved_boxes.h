@@ -31,6 +31,7 @@ public:
     {
         std::array<SceneBox, kMost> boxes;
         size_t count = 0;
+        SceneBox all;
     };
     void find_near(Near& dst, const SurfacePoint& point, float length) const;
 
