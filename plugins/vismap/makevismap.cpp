@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/output_file.h>
 #include <vmlight/cli/main.h>
+#include <vmlight/cli/pose_list.h>
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/mesh/export/write_mesh.h>
 #include <vmlight/stage/mesh_list.h>
+#include <vmlight/stage/pose_report.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/pose_sequence.h>
 
 using namespace vmlight;
 
@@ -20,8 +23,11 @@ int main(int argc, const char** argv)
                     "  makevismap hero.glb --material Body --material Face -o hero_vismap.exr\n"
                     "  makevismap hero.glb -o 'hero_<MATERIAL>.exr'\n"
                     "  makevismap scan.ply --unwrap --write-mesh scan_uv.glb -o scan_vismap.exr\n"
+                    "  makevismap 'walk.####.obj' --frames 1-24 -o 'walk_vismap.####.exr'\n"
+                    "  makevismap hero.obj --pose hero_bent.obj -o hero_vismap.exr\n"
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
+    PoseList poses(stage, recipe);
     UdimRun tiles(stage, recipe);
     stage.group("Effects:");
     bool explain = false, dry_run = false;
@@ -55,11 +61,12 @@ int main(int argc, const char** argv)
     stage.option("write_mesh", "PATH", "Also write the mesh as baked, with the UVs of the map, to this .glb or .obj",
                  write_path);
     const auto unsavable = [&] {
-        return recipe.time_budget > 0 ? "--time-budget cannot be saved in a recipe: it depends on the machine"
-            : !write_path.empty()     ? "--write-mesh cannot be saved in a recipe"
-            : dry_run                 ? "--dry-run cannot be saved in a recipe"
-            : explain                 ? "--explain cannot be saved in a recipe"
-                                      : tiles.unsavable();
+        return recipe.time_budget > 0    ? "--time-budget cannot be saved in a recipe: it depends on the machine"
+            : !write_path.empty()        ? "--write-mesh cannot be saved in a recipe"
+            : dry_run                    ? "--dry-run cannot be saved in a recipe"
+            : explain                    ? "--explain cannot be saved in a recipe"
+            : !poses.unsavable().empty() ? poses.unsavable()
+                                         : tiles.unsavable();
     };
     stage.recipe(
         "Inputs:", recipe, [&](const auto& operands) { recipe.mesh = operands[0]; }, unsavable);
@@ -78,22 +85,51 @@ int main(int argc, const char** argv)
             : std::string();
     });
 
+    stage.check([&] {
+        return !write_path.empty() && poses.count() > 1
+            ? "--write-mesh writes one mesh: not with several frames or poses"
+            : "";
+    });
+
     std::string written; // one mesh for all tiles, unless each has its own
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
         MakeOptions options = given;
         options.explain = explain;
         options.dry_run = dry_run;
         options.half = stage.pixel_format() == "half";
+        options.pose_count = int64_t(1 + poses.compared(tile).size());
+        PoseSequence sequence(poses.error());
+        if (poses.is_sequence()) {
+            options.poses = &sequence;
+            options.pose_count = int64_t(poses.count());
+        }
         if (dry_run)
             return forecast_vismap(tile, options, error);
         const std::string path = udim_path(write_path, tile.vismap_params.udim);
         if (!path.empty() && !(error = output_file_fault(path)).empty())
             return false;
-        OIIO::ImageBuf vismap;
-        if (!make_image(vismap, tile, options))
-            error = vismap.geterror();
-        if (!error.empty() || !stage.write(vismap, output, error) || path == written)
-            return error.empty();
+        if (const auto others = poses.compared(tile);
+            !others.empty() && !report_pose_changes(tile, others, poses.error(), options, error))
+            return false;
+        for (size_t i = 0; i < poses.count(); ++i) {
+            MakeOptions own = options;
+            if (poses.is_sequence()) {
+                own.pose = poses.name(i);
+                own.explain = explain && i == 0;
+                own.repeated_inputs = own.repeated_inputs || i > 0;
+                prefix_messages(own, own.pose + ": ");
+            }
+            OIIO::ImageBuf vismap;
+            if (!make_image(vismap, poses.at(tile, i), own))
+                error = vismap.geterror();
+            if (!error.empty() || !stage.write(vismap, poses.path(output, i), error)) {
+                if (poses.is_sequence())
+                    error = own.pose + ": " + error;
+                return false;
+            }
+        }
+        if (path == written)
+            return true;
         written = path;
         return write_mesh((*options.scene)->mesh(), path, error);
     };

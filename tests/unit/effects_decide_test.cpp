@@ -33,6 +33,8 @@ EffectFacts everything()
     bake.margin = 16;
     bake.udim = 1002;
     bake.udim_given = bake.half = true;
+    bake.poses = 24;
+    bake.pose_error = 0.01;
     facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true, false, 100, 60 };
     return facts;
 }

@@ -23,7 +23,8 @@ bool is_vismap_recipe(const std::string& name)
     return recipe_stage(name) == VismapRecipe::kStage;
 }
 
-// Start all messages of `options` with `name`.
+} // namespace
+
 void prefix_messages(MakeOptions& options, const std::string& name)
 {
     options.say = [name, say = options.say](const std::string& line) { say(name + line); };
@@ -32,8 +33,6 @@ void prefix_messages(MakeOptions& options, const std::string& name)
         return progress(name + step, texels);
     };
 }
-
-} // namespace
 
 template <class Recipe>
 UdimRun<Recipe>::UdimRun(StageMain& stage, Recipe& recipe)

@@ -14,6 +14,9 @@
 
 namespace vmlight {
 
+/// Start all messages of `options` with `name`.
+void prefix_messages(MakeOptions& options, const std::string& name);
+
 /// The tiles come from --udims, --udim (or the recipe's `udim`), or else <UDIM> in -o, which selects all tiles that
 /// exist: for a vismap those that its mesh covers; otherwise those with a file of the first input that contains <UDIM>,
 /// or that the mesh covers if that input is a vismap recipe.

@@ -37,6 +37,10 @@ struct BakeFacts
     int margin = 0;
     int udim = 1001;
     bool udim_given = false, half = false;
+
+    int64_t poses = 1; ///< of the mesh, in all
+    /// By how much V of a texel that keeps what it has in another pose may be off; less than 0: no texel does.
+    double pose_error = -1;
 };
 
 /// Of a lightmap.

@@ -150,6 +150,21 @@ void decide_distance(std::vector<EffectDecision>& dst, const Effect& effect, con
         dst.back().impossible = "no --max-distance is given";
 }
 
+void decide_poses(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const BakeFacts& bake = facts.bake;
+    const std::string poses = count_text(bake.poses, "pose", "poses");
+    dst.push_back(decision(
+        effect, bake.poses > 1,
+        bake.poses == 1           ? "one pose is given"
+            : bake.pose_error < 0 ? format("{}, compared before the bake", poses)
+            : bake.pose_error > 0
+            ? format("{}; texels are traced again where V may change by more than {:.3g}", poses, bake.pose_error)
+            : format("{}; texels are traced again where V may change", poses)));
+    if (bake.poses == 1)
+        dst.back().impossible = "one pose is given: give --frames or --pose";
+}
+
 void decide_udim(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const BakeFacts& bake = facts.bake;
@@ -259,6 +274,7 @@ constexpr Effect kEffects[] = {
     { "cut-outs", "light passes where materials are transparent", "vismap", true, decide_cutouts },
     { "normal-map", "texels have normals of their own", "vismap", true, decide_normal_map },
     { "max-distance", "what is far away blocks no ray", "vismap", true, decide_distance },
+    { "poses", "the mesh deforms", "vismap", false, decide_poses },
     { "udim", "a tile of UV space other than the first", "vismap", false, decide_udim },
     { "margin", "texels around UV islands are filled", "vismap", true, decide_margin },
     { "half", "16 bits per channel", "vismap", false, decide_half },

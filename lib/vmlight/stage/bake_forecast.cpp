@@ -7,6 +7,7 @@
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/vismap/forecast.h>
+#include <vmlight/vismap/pose_sequence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,8 @@ bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const Norma
     facts.bake.margin = recipe.vismap_params.margin;
     facts.bake.udim_given = recipe.udim_given;
     facts.bake.half = options.half;
+    facts.bake.poses = options.pose_count;
+    facts.bake.pose_error = options.poses ? options.poses->error() : -1;
     if (!decide_effects(dst.decisions, VismapRecipe::kStage, facts, switches, error))
         return false;
     dst.covered = map.covered;

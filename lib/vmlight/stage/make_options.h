@@ -12,6 +12,7 @@
 namespace vmlight {
 
 class BakeScene;
+class PoseSequence;
 
 /// How to make a stage: threads, and where progress and messages go.
 struct MakeOptions
@@ -31,6 +32,11 @@ struct MakeOptions
     bool half = false;
     /// nullptr, or keeps the mesh and the ray-tracing scene of the last vismap for the next call to share.
     std::shared_ptr<const BakeScene>* scene = nullptr;
+    /// nullptr, or the poses of a mesh so far, for the map of the next to keep texels of; the name of the one to make;
+    /// and how many there are of the mesh in all.
+    PoseSequence* poses = nullptr;
+    std::string pose;
+    int64_t pose_count = 1;
     /// The same inputs were made for another UDIM tile before: do not repeat what holds for all tiles.
     bool repeated_inputs = false;
     /// The same for another part of the mesh.

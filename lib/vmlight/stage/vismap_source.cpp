@@ -10,11 +10,12 @@
 #include <vmlight/stage/cutouts.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/pose_report.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
 #include <vmlight/stage/source_cache.h>
-#include <vmlight/uv/udim.h>
 #include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/pose_sequence.h>
 #include <vmlight/vismap/tiles.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -124,9 +125,18 @@ public:
         const BakeWork before = BakeWork::so_far(*scene);
         dst.clear();
         OIIO::ImageBuf& map = dst.emplace_back();
-        if (!make_vismap(map, scene, m_recipe.vismap_params, &report, options.threads,
-                         options.step("bake", m_spec.width, m_spec.height), m_recipe.time_budget, normal_map,
-                         options.steps())) {
+        const MapJob job { scene,
+                           m_recipe.vismap_params,
+                           options.threads,
+                           options.step("bake", m_spec.width, m_spec.height),
+                           m_recipe.time_budget,
+                           normal_map,
+                           options.steps() };
+        PoseSequence* const poses
+            = switches_of(m_given.effects, VismapRecipe::kStage).of("poses") == Switch::on ? nullptr : options.poses;
+        if (!(poses ? poses->bake(map, job, options.pose, &report)
+                    : make_vismap(map, scene, job.params, &report, job.nthreads, job.progress, job.time_budget,
+                                  normal_map, job.at_step))) {
             error = map.geterror();
             return false;
         }
@@ -140,6 +150,8 @@ public:
                 options.report(remark);
         report_bake(options, report, map.spec(), m_recipe, scene->mesh());
         report_cutouts(options, cutouts);
+        if (poses)
+            report_pose(poses->last(), options);
         if (options.explain)
             report_taken(forecast, report, before, *scene, options);
         return true;
@@ -228,32 +240,6 @@ private:
     std::atomic<size_t> m_bytes { 0 }; // set last: nonzero means that everything else is ready
 };
 
-// What the recipe bakes of its mesh. Shares the scene of the whole mesh.
-bool share_mesh(std::shared_ptr<const Mesh>& dst, const VismapRecipe& recipe, const MakeOptions& options,
-                std::string& error)
-{
-    error = recipe_fault(recipe, options.chain);
-    VismapRecipe whole = recipe;
-    whole.selection = {};
-    SceneStamps stamps;
-    BakeScenePointer scene;
-    std::vector<bool> chosen;
-    std::string at;
-    if (!error.empty())
-        return false;
-    if (!stamp_scene(stamps, whole, at, error)
-        || !share_scene(scene, whole, stamps, options.threads, nullptr, at, error)
-        || !choose_triangles(chosen, scene->mesh(), recipe.selection, at, error)) {
-        error = with_location(recipe, at, options.chain, error);
-        return false;
-    }
-    if (options.scene)
-        *options.scene = scene;
-    dst = recipe.selection.is_all() ? std::shared_ptr<const Mesh>(scene, &scene->mesh())
-                                    : std::make_shared<const Mesh>(mesh_part(scene->mesh(), chosen));
-    return true;
-}
-
 } // namespace
 
 PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain, Sharing sharing)
@@ -287,33 +273,6 @@ bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std
     const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
     const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
     return vismap && vismap->report_plan(options, error);
-}
-
-bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
-{
-    const VismapRecipe recipe = resolve_udim(given);
-    std::shared_ptr<const Mesh> mesh;
-    if (!share_mesh(mesh, recipe, options, error))
-        return false;
-    dst = mesh_udims(*mesh);
-    if (dst.empty())
-        error = with_location(recipe, "mesh", options.chain,
-                              format("\"{}\": its texture coordinates are outside all UDIM tiles", recipe.mesh));
-    return !dst.empty();
-}
-
-bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& given, const MakeOptions& options,
-                      std::string& error)
-{
-    const VismapRecipe recipe = resolve_udim(given);
-    std::shared_ptr<const Mesh> mesh;
-    if (!share_mesh(mesh, recipe, options, error))
-        return false;
-    dst = baked_materials(*mesh);
-    if (dst.empty())
-        error = with_location(recipe, "mesh", options.chain,
-                              format("\"{}\": no materials, so that <MATERIAL> in -o stands for nothing", recipe.mesh));
-    return !dst.empty();
 }
 
 } // namespace vmlight

@@ -4,6 +4,7 @@
 #include <vmlight/base/unique_index.h>
 
 #include <numeric>
+#include <vector>
 
 namespace vmlight {
 namespace {
@@ -36,15 +37,34 @@ struct Island
     bool covers = false;
 };
 
+// The points of UV space that vertices have, each once. Sets the point of each vertex, and returns their number.
+size_t number_points(std::vector<uint32_t>& point_of_vertex, const Mesh& mesh)
+{
+    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
+    for (const Imath::V2f& uv : mesh.uvs)
+        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
+    return points.keys().size();
+}
+
 } // namespace
+
+std::vector<uint32_t> islands_of_triangles(const Mesh& mesh)
+{
+    std::vector<uint32_t> point_of_vertex, islands;
+    DisjointSets sets(number_points(point_of_vertex, mesh));
+    for (const auto& triangle : mesh.triangles)
+        for (int k = 1; k < 3; ++k)
+            sets.join(point_of_vertex[triangle[0]], point_of_vertex[triangle[size_t(k)]]);
+    for (const auto& triangle : mesh.triangles)
+        islands.push_back(sets.find(point_of_vertex[triangle[0]]));
+    return islands;
+}
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
     std::vector<uint32_t> point_of_vertex;
-    for (const Imath::V2f& uv : mesh.uvs)
-        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
-    DisjointSets sets(points.keys().size());
+    const size_t points = number_points(point_of_vertex, mesh);
+    DisjointSets sets(points);
     std::vector<uint32_t> in_tile;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!raster.is_in_tile(t))
@@ -53,7 +73,7 @@ void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
         for (int k = 1; k < 3; ++k)
             sets.join(point_of_vertex[mesh.triangles[t][0]], point_of_vertex[mesh.triangles[t][k]]);
     }
-    std::vector<Island> islands(points.keys().size());
+    std::vector<Island> islands(points);
     for (uint32_t t : in_tile) {
         Island& island = islands[sets.find(point_of_vertex[mesh.triangles[t][0]])];
         ++island.triangles;

@@ -45,6 +45,8 @@ struct BakeCounts
 /// The covered texels of a tile: bit x of word y.
 using TileBits = std::array<uint64_t, kTileSize>;
 
+struct BakeHints;
+
 class VismapBaker
 {
 public:
@@ -79,6 +81,7 @@ public:
     MarginChannels margin_channels() const;
     int tiles_across() const;
     int tiles_down() const;
+    const UvRaster& raster() const;
     const UvReport& uv_report() const;
     /// Fill in the counts of islands, which uv_report() leaves out.
     void count_islands(UvReport& report) const;
@@ -105,11 +108,15 @@ public:
     ///
     /// @param texels   the tile's first texel, of channels() floats; rows are `pitch` floats apart. Texels that no
     ///                 triangle covers are not written: there is no margin yet
-    BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered) const;
+    /// @param only     nullptr, or the texels to bake: the others are neither traced nor written, nor counted as dark
+    /// or
+    ///                 open
+    BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered,
+                         const BakeHints* hints = nullptr) const;
 
     /// Bake every tile into the whole map. False if `progress` stopped it.
-    bool bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads,
-                  const Progress& progress = {}) const;
+    bool bake_all(float* texels, Coverage& covered, BakeCounts& counts, int nthreads, const Progress& progress = {},
+                  const BakeHints* hints = nullptr) const;
 
 private:
     int before_basis() const;

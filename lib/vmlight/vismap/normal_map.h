@@ -37,6 +37,8 @@ public:
     /// Whether it leaves every normal as it is: a tangent map whose pixels are all within one step of 8 bits of
     /// straight up, in which programs differ.
     bool is_flat() const { return m_is_flat; }
+    /// Whether its normals stay as they are when the surface turns.
+    bool is_object_space() const { return m_is_object_space; }
 
     /// Multiply x and y of a tangent map, as glTF's `scale` does.
     void scale(float lean);

@@ -2,7 +2,7 @@
 #include <vmlight/vismap/open_triangles.h>
 
 #include <vmlight/base/stopwatch.h>
-#include <vmlight/trace/horizon.h>
+#include <vmlight/trace/facet.h>
 #include <vmlight/trace/triangle_tree.h>
 
 #include <algorithm>
@@ -34,26 +34,6 @@ double uv_area(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
     const auto &a = mesh.uvs[triangle[0]], &b = mesh.uvs[triangle[1]], &c = mesh.uvs[triangle[2]];
     return std::abs(double(b.x - a.x) * double(c.y - a.y) - double(c.x - a.x) * double(b.y - a.y)) / 2;
 }
-
-// A triangle of the baked mesh, as it is traced.
-struct Facet
-{
-    Facet(const BakeScene& scene, uint32_t triangle)
-        : normal(surface_normal(scene.mesh(), scene.mesh().triangles[triangle]))
-    {
-        for (size_t k = 0; k < 3; ++k) {
-            const V3f corner = scene.frame().to_scene(scene.mesh().positions[scene.mesh().triangles[triangle][k]]);
-            corners[k] = V3d(corner);
-            box.add(corner);
-        }
-    }
-    bool has_area() const { return normal.length2() > 0.5; }
-    Horizon horizon() const { return { corners, normal }; }
-
-    V3d normal;
-    std::array<V3d, 3> corners;
-    SceneBox box;
-};
 
 // Of triangles evenly over the mesh, the share above which no vertex rises, of vertices evenly over the scene: about
 // what a search would prove, and mostly more.

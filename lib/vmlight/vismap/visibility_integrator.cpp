@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <numeric>
 
@@ -62,8 +63,10 @@ template <class Test> void VisibilityIntegrator::take_out(const Test& is_out)
         }
 }
 
-Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, bool open, float* basis)
+Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, bool open, float* basis,
+                                           const RayMemory& memory)
 {
+    m_memory = memory;
     const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
     const bool is_mapped = point.normal != point.mesh_normal;
     m_pattern.directions(m_fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, texel);
@@ -112,13 +115,37 @@ Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, boo
     return result;
 }
 
+void VisibilityIntegrator::trace_unknown(const SurfacePoint& point)
+{
+    MovedBoxes::Near near;
+    m_memory.moved->find_near(near, point, m_length);
+    m_kept.resize(m_fan.lanes.size());
+    int64_t unknown = 0;
+    for (int packet = 0; packet < m_fan.packets; ++packet) {
+        uint8_t& lanes = m_fan.lanes[size_t(packet)];
+        const uint8_t may = lanes & MovedBoxes::may_meet(near, m_fan, packet, point.origin, m_length);
+        m_kept[size_t(packet)] = uint8_t(lanes & ~may & m_memory.known[packet]);
+        lanes = may;
+        unknown += int64_t(std::bitset<kPacketSize>(may).count());
+    }
+    if (unknown > 0)
+        m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
+    for (size_t packet = 0; packet < m_kept.size(); ++packet)
+        m_fan.lanes[packet] |= m_kept[packet];
+    m_rays += unknown;
+}
+
 DirectionSums VisibilityIntegrator::trace(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
                                           const DirectionSums& above, bool open)
 {
-    if (!open && above.rays > 0) {
+    if (!open && above.rays > 0 && m_memory.known) {
+        trace_unknown(point);
+    } else if (!open && above.rays > 0) {
         m_rays += above.rays;
         m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
     }
+    if (m_memory.record)
+        std::copy(m_fan.lanes.begin(), m_fan.lanes.end(), m_memory.record);
     const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
     dst.visibility = double(seen.rays) / double(all.rays);
     dst.direction = mean_direction(seen, all, point.normal);

@@ -7,6 +7,7 @@
 #include <vmlight/trace/occluder.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/ray_bits.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
@@ -61,7 +62,9 @@ public:
     /// @param open     no triangle can block a ray of the point: none is traced, and the result has the same bits. The
     ///                 ground still blocks, and the ray origin may be as it was
     /// @param basis    nullptr, or set to one number for each of basis_channels()
-    Visibility integrate(SurfacePoint point, int x, int y, bool open, float* basis = nullptr);
+    /// @param memory   what is known of the rays; it changes no bit of the result
+    Visibility integrate(SurfacePoint point, int x, int y, bool open, float* basis = nullptr,
+                         const RayMemory& memory = {});
 
     /// Rays traced so far.
     int64_t rays() const { return m_rays; }
@@ -69,6 +72,8 @@ public:
 private:
     // Rays of the fan for which is_out(direction) is true.
     template <class Test> void take_out(const Test& is_out);
+    // Trace the rays of the fan of which it is not known that they meet what they met.
+    void trace_unknown(const SurfacePoint& point);
     // Trace the fan, of which `above` is left, and set V, B and their error. Returns what is seen.
     DirectionSums trace(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
                         const DirectionSums& above, bool open);
@@ -87,6 +92,8 @@ private:
     RayFan m_fan;
     std::unique_ptr<BasisAccumulator> m_basis;
     std::vector<uint8_t> m_traced, m_traced_above; // lane bits before the rays are traced; and above the ground
+    RayMemory m_memory; // of the texel
+    std::vector<uint8_t> m_kept; // lane bits of rays that are known to be open
     int64_t m_rays = 0;
     int64_t m_below_ground = 0; // directions that the ground blocked, for which no ray was traced
 };

@@ -7,6 +7,9 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/uv/margin.h>
 #include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/make_map.h>
+
+#include <utility>
 
 namespace vmlight {
 namespace {
@@ -45,6 +48,16 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
                  int nthreads, const Progress& progress, double time_budget, NormalMapPointer normal_map,
                  const StepListener& at_step)
 {
+    const BakeTexels all = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
+        return baker.bake_all(pixels, coverage, counts, nthreads, progress);
+    };
+    return make_map(dst, { scene, params, nthreads, progress, time_budget, std::move(normal_map), at_step }, all,
+                    report);
+}
+
+bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report)
+{
+    const auto& [scene, params, nthreads, progress, time_budget, normal_map, at_step] = job;
     VismapReport counts;
     Stopwatch timer;
     std::string error;
@@ -52,7 +65,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
         error = memory_shortage(describe_vismap("", params));
     VismapBaker baker;
     begin_step(at_step, "prove");
-    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, std::move(normal_map)))
+    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, normal_map))
         return fail_with(dst, error);
     const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
     dst.reset(spec, OIIO::InitializePixels::Yes);
@@ -70,7 +83,7 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
 
     Coverage coverage(spec.width, spec.height);
     BakeCounts baked;
-    if (!baker.bake_all(pixels, coverage, baked, nthreads, progress))
+    if (!bake(baker, pixels, coverage, baked))
         return fail_with(dst, "interrupted");
     counts.bake_seconds = timer.lap();
     if (params.margin != 0)

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/pose_report.h>
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/mesh/same_triangles.h>
+#include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/normal_map_file.h>
+#include <vmlight/stage/recipe/udim.h>
+#include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/pose_plan.h>
+#include <vmlight/vismap/pose_proof.h>
+
+#include <algorithm>
+
+namespace vmlight {
+namespace {
+
+double percent_of(int64_t part, int64_t whole)
+{
+    return 100 * double(part) / double(std::max<int64_t>(1, whole));
+}
+
+std::string change_text(const PoseChange& change, double allowed)
+{
+    return format(
+        "V changes by at most {:.2g} in 99 % of the texels, and by {:.2g} at most; in {:.1f} % by more than {:.3g} "
+        "({} looked at)",
+        change.bound, change.most, 100 * change.above, allowed, count_text(change.probes, "texel", "texels"));
+}
+
+bool read_pose(PosedMap& dst, const VismapRecipe& given, const MakeOptions& options, std::string& error)
+{
+    const VismapRecipe recipe = with_switches(resolve_udim(given));
+    SceneStamps stamps;
+    std::string at;
+    std::vector<std::string> ignored;
+    return stamp_scene(stamps, recipe, at, error)
+        && share_scene(dst.scene, recipe, stamps, options.threads, nullptr, at, error)
+        && read_normal_map(dst.normal_map, recipe, { dst.scene, &dst.scene->mesh() }, options.threads, ignored, ignored,
+                           error);
+}
+
+// What is looked at: all texels, with as many rays as are asked for.
+VismapParams looking(VismapParams params)
+{
+    params.skip_open = false;
+    params.target_error = 0;
+    params.channels.clear();
+    return params;
+}
+
+bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allowed, const MakeOptions& options,
+                   std::string& error)
+{
+    PosedMap pose;
+    if (!read_pose(pose, recipe, options, error))
+        return false;
+    error = triangles_fault(base.scene->mesh(), pose.scene->mesh());
+    if (!error.empty())
+        return false;
+    const PoseMotion motion(*base.scene, *pose.scene);
+    if (!motion.fault().empty()) {
+        error = format("\"{}\": {}", recipe.mesh, motion.fault());
+        return false;
+    }
+    const VismapParams params = looking(with_switches(recipe).vismap_params);
+    const std::vector<uint8_t> same = prove_same_view(motion, params, false, options.threads);
+    if (std::find(same.begin(), same.end(), 0) == same.end()) {
+        options.report(format("pose \"{}\": everything moves as one body: V stays, and B turns with it", recipe.mesh));
+        return true;
+    }
+    VismapBaker baker;
+    PoseChange change;
+    if (!baker.prepare(pose.scene, params, error, options.threads, options.step("compare", 0, 0), 0, pose.normal_map))
+        return false;
+    if (!measure_change(change, { base, pose, motion, baker }, allowed, options.threads,
+                        options.step("compare", 0, 0))) {
+        error = "interrupted";
+        return false;
+    }
+    options.report(format("pose \"{}\": {}", recipe.mesh, change_text(change, allowed)));
+    return true;
+}
+
+} // namespace
+
+void report_pose(const PoseReport& pose, const MakeOptions& options)
+{
+    if (pose.base.empty()) {
+        if (!pose.why.empty())
+            options.report(format("pose: baked whole, as the base of those after it: {}", pose.why));
+        return;
+    }
+    const std::string traced = format("{:.1f} % of the texels are traced again, the others are kept from {}",
+                                      percent_of(pose.covered - pose.kept, pose.covered), pose.base);
+    if (pose.change.probes > 0)
+        options.report(
+            format("pose: V changes by at most {:.2g} in 99 % of the texels; {}", pose.change.bound, traced));
+    else
+        options.report(format("pose: {}{}", pose.is_rigid ? "everything moves as one body; " : "", traced));
+}
+
+bool report_pose_changes(const VismapRecipe& recipe, const std::vector<VismapRecipe>& poses, double error_allowed,
+                         const MakeOptions& options, std::string& error)
+{
+    PosedMap base;
+    if (!read_pose(base, recipe, options, error))
+        return false;
+    if (options.scene)
+        *options.scene = base.scene; // the bake shares it
+    return std::all_of(poses.begin(), poses.end(), [&](const VismapRecipe& pose) {
+        return report_change(base, pose, error_allowed, options, error);
+    });
+}
+
+} // namespace vmlight

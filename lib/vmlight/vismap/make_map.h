@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A map from whatever bakes its texels.
+#pragma once
+
+#include <vmlight/vismap/baker.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <functional>
+
+namespace vmlight {
+
+/// What make_vismap() is asked for.
+struct MapJob
+{
+    BakeScenePointer scene;
+    VismapParams params;
+    int nthreads = 0;
+    Progress progress;
+    double time_budget = 0;
+    NormalMapPointer normal_map;
+    StepListener at_step {}; ///< hears of the steps before and after those of `progress`
+};
+
+/// Set all covered texels of the map, their coverage and their counts, without the margin. False if stopped.
+using BakeTexels = std::function<bool(const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts)>;
+
+/// make_vismap(), with the texels of `bake`.
+bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report);
+
+} // namespace vmlight

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/pose_proof.h>
+
+#include <vmlight/base/parallel.h>
+#include <vmlight/trace/facet.h>
+#include <vmlight/trace/triangle_tree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vmlight {
+
+using Imath::V3d;
+using Imath::V3f;
+
+namespace {
+
+// Files round normals, mostly to four digits: twice 9e-5.
+constexpr double kSameNormal = 2.5e-4;
+constexpr int64_t kStep = 256; // triangles that one thread takes at once
+
+// Height of the ground above the centre of the scene, in units of `first`.
+double ground_height(const BakeScene& scene, const VismapParams& params, const BakeScene& first)
+{
+    const double height = params.ground_height == VismapParams::kLowest ? scene.lowest() : params.ground_height;
+    return (height - scene.frame().centre.y) * first.frame().scale;
+}
+
+// Whether the ground is where it was, as the body sees it.
+bool keeps_ground(const RigidMotion& motion, const PoseMotion& poses, const VismapParams& params)
+{
+    if (!params.ground)
+        return true;
+    const V3d up(0, 1, 0);
+    const double before = ground_height(poses.base(), params, poses.base());
+    const double after = ground_height(poses.pose(), params, poses.base());
+    return (rotate(motion.turn, up) - up).length() <= kSameNormal
+        && std::abs(motion.shift.y + before - after) <= kTinyTriangle;
+}
+
+bool keeps_normals(const Mesh& before, const Mesh& after, uint32_t triangle, const Rotation& turn)
+{
+    for (size_t k = 0; k < 3; ++k) {
+        const V3f a = before.normals[before.triangles[triangle][k]], b = after.normals[after.triangles[triangle][k]];
+        if (!((rotate(turn, V3d(a)) - V3d(b)).length() <= kSameNormal))
+            return false;
+    }
+    return true;
+}
+
+// What rays can meet and does not move with a body, in one pose.
+class Others
+{
+public:
+    Others(const BakeScene& scene, const PoseMotion& motion, uint32_t body)
+        : m_all(scene.occluder().triangles())
+    {
+        size_t at = 0;
+        for (const TracedTriangles& part : m_all) {
+            m_indices.emplace_back();
+            for (size_t i = 0; i < part.count; ++i, ++at)
+                if (motion.body_of_traced(at) != body)
+                    m_indices.back().push_back(part.triangles[i]);
+        }
+        for (size_t i = 0; i < m_all.size(); ++i)
+            m_others.push_back({ m_all[i].vertices, m_indices[i].data(), m_indices[i].size() });
+        m_tree = std::make_unique<TriangleTree>(m_others);
+    }
+    bool rise_above(const Facet& facet, double reach) const
+    {
+        return !facet.has_area() || m_tree->find_above(facet.horizon(), facet.box, reach) != TriangleTree::kNone;
+    }
+
+private:
+    std::vector<TracedTriangles> m_all, m_others;
+    std::vector<std::vector<std::array<uint32_t, 3>>> m_indices;
+    std::unique_ptr<TriangleTree> m_tree;
+};
+
+} // namespace
+
+std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParams& params, bool search, int nthreads)
+{
+    const BakeScene &base = motion.base(), &pose = motion.pose();
+    const Mesh &before = base.mesh(), &after = pose.mesh();
+    const auto triangles = uint32_t(before.triangles.size());
+    std::vector<uint8_t> same(triangles, 0);
+    for (uint32_t body = 0; body < motion.motions().size(); ++body) {
+        const RigidMotion& own = motion.motions()[body];
+        if (!keeps_ground(own, motion, params) || (!search && !motion.is_whole()))
+            continue;
+        std::unique_ptr<Others> others_before, others_after;
+        if (!motion.is_whole()) {
+            others_before = std::make_unique<Others>(base, motion, body);
+            others_after = std::make_unique<Others>(pose, motion, body);
+        }
+        const double reach_before = params.max_distance * base.frame().scale;
+        const double reach_after = params.max_distance * pose.frame().scale;
+        const auto prove = [&](int64_t item, int) {
+            const auto end = uint32_t(std::min<int64_t>(triangles, (item + 1) * kStep));
+            for (auto t = uint32_t(item * kStep); t < end; ++t)
+                same[t] = same[t]
+                    || (motion.body(t) == body && keeps_normals(before, after, t, own.turn)
+                        && (!others_before
+                            || (!others_before->rise_above(Facet(base, t), reach_before)
+                                && !others_after->rise_above(Facet(pose, t), reach_after))));
+        };
+        parallel_items((triangles + kStep - 1) / kStep, nthreads, prove);
+    }
+    return same;
+}
+
+std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& params)
+{
+    const Mesh &before = motion.base().mesh(), &after = motion.pose().mesh();
+    std::vector<uint8_t> still(before.triangles.size(), 0);
+    if (!motion.stands_still() || !keeps_ground(motion.motions().front(), motion, params))
+        return still;
+    for (uint32_t t = 0; t < still.size(); ++t) {
+        bool same = motion.body(t) == 0;
+        for (size_t k = 0; k < 3 && same; ++k) // exactly: directions of rays are made of them
+            same = before.normals[before.triangles[t][k]] == after.normals[after.triangles[t][k]];
+        still[t] = same;
+    }
+    return still;
+}
+
+} // namespace vmlight

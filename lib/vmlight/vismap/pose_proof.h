@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Triangles that see the same in two poses: proven, without a ray.
+#pragma once
+
+#include <vmlight/trace/pose_motion.h>
+#include <vmlight/vismap/vismap.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace vmlight {
+
+/// For each triangle of the baked mesh, 1 where it, its normals, the ground, and all that may rise above its tangent
+/// plane within `params.max_distance` move together: what its texels see is then what they saw, turned with it. 0 where
+/// that is not so, or not proven.
+///
+/// @param search   whether to look for what rises above each; otherwise only a scene that is one body is proven
+std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParams& params, bool search, int nthreads);
+
+/// For each triangle of the baked mesh, 1 where it stands still with all that its rays are made of: position, normals,
+/// the ground. Where rays of its texels meet nothing that moves, they meet what they met.
+std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& params);
+
+} // namespace vmlight

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a scene moves together from one pose to another.
+#include "pose_scenes.h"
+
+#include <vmlight/mesh/same_triangles.h>
+#include <vmlight/trace/pose_motion.h>
+
+#include <gmock/gmock.h>
+
+using namespace vmlight;
+using namespace vmlight::scenes;
+using testing::HasSubstr;
+
+namespace {
+
+double distance(const Rotation& a, const Rotation& b)
+{
+    double most = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            most = std::max(most, std::abs(a[i][j] - b[i][j]));
+    return most;
+}
+
+} // namespace
+
+TEST(PoseMotion, AMovedMeshIsOneBody)
+{
+    for (const double scale : { 1e-4, 1.0, 1e5 })
+        for (const V3d& shift : { V3d(0), V3d(3, -2, 1), V3d(-300, 20, 50) }) {
+            const Rotation turn = rotation_from_angles(20, 50, -110);
+            const Mesh mesh = placed(skin(0), scale);
+            const BakeScenePointer base = scene_of(mesh), pose = scene_of(moved(mesh, turn, shift * scale));
+            const PoseMotion motion(*base, *pose);
+            ASSERT_EQ(motion.fault(), "");
+            EXPECT_TRUE(motion.is_whole()) << scale << " " << shift.x << " " << motion.soft();
+            EXPECT_LT(distance(motion.turn(5), turn), shift.length() > 100 ? 1e-5 : 1e-7);
+        }
+}
+
+TEST(PoseMotion, WhatStandsStillIsABodyThatTurnsByNothing)
+{
+    const BakeScenePointer base = scene_of(door(0)), pose = scene_of(door(35));
+    const PoseMotion motion(*base, *pose);
+    ASSERT_EQ(motion.motions().size(), 2u); // and the door
+    EXPECT_EQ(motion.soft(), 0);
+    EXPECT_TRUE(is_straight(motion.turn(0)));
+    const auto last = uint32_t(base->mesh().triangles.size() - 1);
+    EXPECT_EQ(motion.body(0), 0u);
+    EXPECT_EQ(motion.body(last), 1u);
+    EXPECT_LT(distance(motion.turn(last), rotation_from_angles(0, -35, 0)), 1e-6);
+    // What rays can meet is the same mesh again.
+    EXPECT_EQ(motion.body_of_traced(last), 1u);
+}
+
+TEST(PoseMotion, AShiftTurnsByNothing)
+{
+    Mesh mesh = door(0), other = mesh;
+    for (size_t i = mesh.positions.size() - 12; i < mesh.positions.size(); ++i)
+        other.positions[i] += V3d(0.25, 0, -0.125);
+    const BakeScenePointer base = scene_of(mesh), pose = scene_of(other);
+    const PoseMotion motion(*base, *pose);
+    ASSERT_EQ(motion.motions().size(), 2u);
+    EXPECT_TRUE(is_straight(motion.motions()[1].turn));
+}
+
+TEST(PoseMotion, ClothIsNoBodyAndItsTrianglesTurnEachOnItsOwn)
+{
+    const BakeScenePointer base = scene_of(flag(0)), pose = scene_of(flag(0.3));
+    const PoseMotion motion(*base, *pose);
+    EXPECT_GT(motion.soft(), 1000);
+    const auto& triangles = base->mesh().triangles;
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+        const V3d before = surface_normal(base->mesh(), triangles[t]);
+        const V3d after = surface_normal(pose->mesh(), pose->mesh().triangles[t]);
+        EXPECT_LT((rotate(motion.turn(t), before) - after).length(), 1e-5) << t;
+    }
+}
+
+TEST(PoseMotion, OccludersAreBodiesToo)
+{
+    const Mesh mesh = door(0);
+    const auto ball = [](double x) { return placed(icosphere(1), 0.5, V3d(x, 2, 0)); };
+    const BakeScenePointer base = scene_of(mesh, { ball(0) }), pose = scene_of(mesh, { ball(1) });
+    const PoseMotion motion(*base, *pose);
+    EXPECT_FALSE(motion.is_whole());
+    EXPECT_EQ(motion.motions().size(), 2u);
+    EXPECT_EQ(motion.body_of_traced(mesh.triangles.size() + 3), 1u);
+    EXPECT_EQ(motion.body(uint32_t(mesh.triangles.size() - 1)), 0u);
+    const BakeScenePointer none = scene_of(mesh);
+    EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("1 meshes can be met by rays, and 2 in the other pose"));
+}
+
+TEST(PoseMotion, OtherTrianglesOrTextureCoordinatesAreNoPose)
+{
+    const Mesh mesh = door(0);
+    EXPECT_EQ(triangles_fault(mesh, door(40)), "");
+    Mesh fewer = mesh;
+    fewer.triangles.pop_back();
+    EXPECT_EQ(triangles_fault(mesh, fewer),
+              "\"door\" has 375 triangles, and \"door\" has 376: poses have the same triangles");
+    Mesh other = mesh;
+    other.uvs[mesh.triangles[7][1]].x = 0.5f;
+    EXPECT_THAT(triangles_fault(mesh, other), HasSubstr(" of \"door\" has the texture coordinates (0.5, "));
+    // Vertices in another order are the same mesh; so are those without texture coordinates.
+    Mesh shuffled = mesh;
+    std::swap(shuffled.positions[0], shuffled.positions[1]);
+    std::swap(shuffled.normals[0], shuffled.normals[1]);
+    std::swap(shuffled.uvs[0], shuffled.uvs[1]);
+    for (auto& triangle : shuffled.triangles)
+        for (uint32_t& corner : triangle)
+            corner = corner == 0 ? 1 : corner == 1 ? 0 : corner;
+    EXPECT_EQ(triangles_fault(mesh, shuffled), "");
+    Mesh half = mesh, also = mesh;
+    half.uvs[mesh.triangles[0][0]] = also.uvs[mesh.triangles[0][0]] = V2f(NAN);
+    EXPECT_EQ(triangles_fault(half, also), "");
+    EXPECT_NE(triangles_fault(half, mesh), "");
+}
