@@ -16,6 +16,8 @@ struct WorkCounts
     std::atomic<int64_t> albedos_made { 0 };
     std::atomic<int64_t> tiles_shaded { 0 };
     std::atomic<int64_t> alphas_read { 0 }; ///< alpha channels of textures, for cut-outs
+    std::atomic<int64_t> bounce_rays { 0 }; ///< rays that look for surfaces that light a texel
+    std::atomic<int64_t> bounces_made { 0 }; ///< times that their light was summed up
 };
 WorkCounts& work_counts();
 

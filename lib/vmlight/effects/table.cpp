@@ -214,6 +214,23 @@ void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const
         dst.back().impossible = "no --albedo is given";
 }
 
+void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool called = light.wants_bounce && light.has_albedo && light.albedo_high > 0 && light.sees_surfaces;
+    dst.push_back(decision(effect, called,
+                           !light.wants_bounce        ? std::string("not asked for: --bounce auto adds it")
+                               : !light.has_albedo    ? std::string("no albedo is given, so that nothing is sent back")
+                               : !light.sees_surfaces ? std::string("no texel sees a surface")
+                               : !called              ? std::string("the albedo is 0 everywhere")
+                                                      : format("texels see surfaces that send back up to {:.3g} of "
+                                                                            "their light; {} rays a texel, once for all light",
+                                                               light.albedo_high, light.bounce_rays),
+                           0.9));
+    if (!light.wants_bounce || !light.has_albedo)
+        dst.back().impossible = dst.back().reason;
+}
+
 void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
@@ -247,6 +264,7 @@ constexpr Effect kEffects[] = {
     { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
     { "rotation", "the light is turned", "lightmap", true, decide_rotation },
     { "albedo", "light is multiplied by a texture", "lightmap", true, decide_albedo },
+    { "bounce", "surfaces light each other, once", "lightmap", true, decide_bounce },
 };
 
 } // namespace

@@ -159,6 +159,10 @@ void LightmapShader::shade(OIIO::ROI roi, TexelLayout layout, const float* visma
         m_suns->add(roi, m_gain, rgb);
         sound = false;
     }
+    if (m_bounce) {
+        m_bounce->add(roi, m_gain, rgb);
+        sound = false;
+    }
     if (m_albedo) {
         m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);
         sound = false;

@@ -5,6 +5,7 @@
 #include <vmlight/effects/effect.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/bounce_shading.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -29,6 +30,8 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
     LightmapRecipe switched = recipe;
     if (switches.of("albedo") == Switch::off)
         switched.albedo = switched.albedo_colorspace = switched.albedo_layer = "";
+    if (switches.of("bounce") == Switch::off)
+        switched.bounce_params = {};
     if (switches.of("rotation") == Switch::off) {
         const LightmapParams defaults;
         LightmapParams& params = switched.lightmap_params;
@@ -65,6 +68,10 @@ bool explain_light(const LightmapInputs& inputs, const LightmapRecipe& recipe, c
         light.albedo_low = *std::min_element(range.min.begin(), range.min.end());
         light.albedo_high = *std::max_element(range.max.begin(), range.max.end());
     }
+    light.wants_bounce = recipe.bounce_params.bounce != "off";
+    light.bounce_rays = recipe.bounce_params.bounce_rays;
+    if (light.wants_bounce && !sees_surfaces(light.sees_surfaces, inputs.vismap, error))
+        return false;
     std::vector<EffectDecision> decisions;
     if (!decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
         return false;

@@ -12,7 +12,7 @@
 
 namespace vmlight {
 
-/// The recipe without what its switches of effects leave out: the albedo, or the rotation.
+/// The recipe without what its switches of effects leave out: the albedo, the bounce, or the rotation.
 VMLIGHT_API LightmapRecipe with_switches(const LightmapRecipe& recipe);
 
 /// Decide on the effects of `recipe` as given, whose inputs are read; report the table if the options ask for it, and

@@ -104,8 +104,10 @@ bool Scene::attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<
             indices[i] = mesh.triangles[part[i]];
         m_buffers.push_back({ static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, part.size(), cutouts });
         rtcSetGeometryUserData(geometry, &m_buffers.back());
-        if (cutouts)
+        if (cutouts) {
             rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);
+            rtcSetGeometryIntersectFilterFunction(geometry, reject_open_hits);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(m_scene, geometry, id);
     }

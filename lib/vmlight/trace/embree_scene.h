@@ -26,7 +26,7 @@ struct Buffers
     const Cutouts* cutouts = nullptr;
 };
 
-/// Embree's filter of shadow rays' hits on mixed triangles: rejects those where light passes.
+/// Embree's filter of hits on mixed triangles, of shadow rays and others: rejects those where light passes.
 void reject_open_hits(const RTCFilterFunctionNArguments* arguments);
 
 class Scene

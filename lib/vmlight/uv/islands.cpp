@@ -30,6 +30,18 @@ private:
     std::vector<uint32_t> m_parent;
 };
 
+// Vertices with the same texture coordinates have the same number.
+std::vector<uint32_t> number_points(const Mesh& mesh, size_t& count)
+{
+    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
+    std::vector<uint32_t> point_of_vertex;
+    point_of_vertex.reserve(mesh.uvs.size());
+    for (const Imath::V2f& uv : mesh.uvs)
+        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
+    count = points.keys().size();
+    return point_of_vertex;
+}
+
 struct Island
 {
     int64_t triangles = 0;
@@ -40,11 +52,9 @@ struct Island
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
-    std::vector<uint32_t> point_of_vertex;
-    for (const Imath::V2f& uv : mesh.uvs)
-        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
-    DisjointSets sets(points.keys().size());
+    size_t points = 0;
+    const std::vector<uint32_t> point_of_vertex = number_points(mesh, points);
+    DisjointSets sets(points);
     std::vector<uint32_t> in_tile;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!raster.is_in_tile(t))
@@ -53,7 +63,7 @@ void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
         for (int k = 1; k < 3; ++k)
             sets.join(point_of_vertex[mesh.triangles[t][0]], point_of_vertex[mesh.triangles[t][k]]);
     }
-    std::vector<Island> islands(points.keys().size());
+    std::vector<Island> islands(points);
     for (uint32_t t : in_tile) {
         Island& island = islands[sets.find(point_of_vertex[mesh.triangles[t][0]])];
         ++island.triangles;
@@ -65,6 +75,23 @@ void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
         report.uncovered_islands += island.triangles > 0 && !island.covers;
         report.uncovered_triangles += island.covers ? 0 : island.triangles;
     }
+}
+
+std::vector<uint32_t> triangle_islands(const Mesh& mesh)
+{
+    size_t points = 0;
+    const std::vector<uint32_t> point_of_vertex = number_points(mesh, points);
+    DisjointSets sets(points);
+    for (const auto& [a, b, c] : mesh.triangles)
+        if (has_uv(mesh, a) && has_uv(mesh, b) && has_uv(mesh, c)) {
+            sets.join(point_of_vertex[a], point_of_vertex[b]);
+            sets.join(point_of_vertex[a], point_of_vertex[c]);
+        }
+    std::vector<uint32_t> islands;
+    islands.reserve(mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles)
+        islands.push_back(sets.find(point_of_vertex[triangle[0]]));
+    return islands;
 }
 
 } // namespace vmlight
