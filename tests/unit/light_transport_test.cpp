@@ -35,7 +35,8 @@ public:
         std::string error;
         OIIO::ImageBuf image;
         auto built = std::make_shared<BakeScene>();
-        EXPECT_TRUE(built->build(non_owning(mesh), occluders, nthreads, error, SceneChoice::within(map.max_distance)))
+        EXPECT_TRUE(built->build(std::make_shared<Mesh>(mesh), occluders, nthreads, error,
+                                 SceneChoice::within(map.max_distance)))
             << error;
         scene = built;
         EXPECT_TRUE(make_vismap(image, mesh, occluders, map, nullptr, nthreads)) << image.geterror();
@@ -88,7 +89,7 @@ double error_of(const std::vector<float>& light, const std::vector<float>& visib
     for (size_t i = 0; i < places.size(); i += size_t(step)) {
         if (!places[i].exists)
             continue;
-        const double wanted = truth.bounced(places[i].position, places[i].normal, 40, 12);
+        const double wanted = truth.bounced(places[i].position, places[i].normal, 28, 6);
         squares += std::pow(double(light[3 * i]) - wanted, 2);
         all += double(visibility[i]) + wanted;
         ++count;
@@ -139,14 +140,15 @@ TEST(LightTransport, AFurnaceGivesTheFirstTermOfItsSeries)
 {
     const Mesh wall = sphere(V3d(0), 1, 16, true);
     const Bounced bounced(wall, {}, bounce_map_of(64));
+    const std::vector<oracle::Place> places = oracle::places(wall, 64, 64);
     for (const float v : bounced.visibility)
         ASSERT_EQ(v, 0);
     for (const float rho : { 0.0f, 0.25f, 1.0f, 3.0f }) {
         std::vector<float> light;
         ASSERT_TRUE(bounced.transport.gather(light, std::vector<float>(3 * 64 * 64, rho),
                                              std::vector<float>(3 * bounced.transport.points().size(), rho)));
-        for (const float value : light)
-            ASSERT_NEAR(value, rho, 1e-5f * rho);
+        for (size_t i = 0; i < places.size(); ++i)
+            ASSERT_NEAR(light[3 * i], places[i].exists ? rho : 0, 1e-5f * rho);
     }
 }
 
@@ -206,7 +208,7 @@ TEST(LightTransport, OccludersLightWhatTheyHide)
         ASSERT_EQ(point.caster, 0);
     const std::vector<float> light = bounced.gather(0.5f, [](const LightPoint&) { return 0.8f; });
     const oracle::Bounce truth({ floor, shelf }, constant_sky, [](size_t t) { return t < 2 ? 0.5 : 0.8; });
-    EXPECT_LT(error_of(light, bounced.visibility, oracle::places(floor, 32, 32), truth, 0.8, 7), 0.01);
+    EXPECT_LT(error_of(light, bounced.visibility, oracle::places(floor, 32, 32), truth, 0.8, 13), 0.01);
 }
 
 TEST(LightTransport, TheBackOfASheetHasItsOwnLight)
@@ -218,7 +220,7 @@ TEST(LightTransport, TheBackOfASheetHasItsOwnLight)
     const Bounced bounced(mesh, {}, bounce_map_of(64, 32));
     const std::vector<float> light = bounced.gather(0.6f);
     const oracle::Bounce truth({ mesh }, constant_sky, [](size_t) { return 0.6; });
-    EXPECT_LT(error_of(light, bounced.visibility, oracle::places(mesh, 64, 32), truth, 0.6, 13), 0.01);
+    EXPECT_LT(error_of(light, bounced.visibility, oracle::places(mesh, 64, 32), truth, 0.6, 29), 0.01);
 }
 
 TEST(LightTransport, TheGroundReflectsAsAMeshOfIt)
@@ -240,7 +242,7 @@ TEST(LightTransport, TheGroundReflectsAsAMeshOfIt)
     });
     const Mesh ground = rectangle(V3d(-1e4, 0, -1e4), V3d(2e4, 0, 0), V3d(0, 0, 2e4));
     const oracle::Bounce truth({ mesh, ground }, constant_sky, [](size_t t) { return t < 2 ? 0.5 : 0.4; });
-    EXPECT_LT(error_of(light, bounced.visibility, oracle::places(mesh, 32, 32), truth, 0.4, 7), 0.01);
+    EXPECT_LT(error_of(light, bounced.visibility, oracle::places(mesh, 32, 32), truth, 0.4, 13), 0.01);
 }
 
 TEST(LightTransport, WhatIsTooFarToOccludeSendsNothing)
@@ -251,7 +253,7 @@ TEST(LightTransport, WhatIsTooFarToOccludeSendsNothing)
     const oracle::Bounce truth(
         { corner() }, constant_sky, [](size_t) { return 1.0; }, 0.3);
     std::vector<oracle::Place> middle = oracle::places(corner(), 32, 32);
-    EXPECT_LT(error_of(bounced.gather(1), bounced.visibility, middle, truth, 1, 7), 0.01);
+    EXPECT_LT(error_of(bounced.gather(1), bounced.visibility, middle, truth, 1, 13), 0.01);
 }
 
 TEST(LightTransport, MirroredUvsAreNoMatter)
@@ -263,7 +265,7 @@ TEST(LightTransport, MirroredUvsAreNoMatter)
     add_quad(mesh, V3d(1, -20, 0), V3d(1, -20, 1), V3d(1, 20, 1), V3d(1, 20, 0), V2f(0.5f, 1), V2f(1, 0));
     const Bounced bounced(mesh, {}, bounce_map_of(32));
     const oracle::Bounce truth({ mesh }, constant_sky, [](size_t) { return 0.5; });
-    EXPECT_LT(error_of(bounced.gather(0.5f), bounced.visibility, oracle::places(mesh, 32, 32), truth, 0.5, 7), 0.01);
+    EXPECT_LT(error_of(bounced.gather(0.5f), bounced.visibility, oracle::places(mesh, 32, 32), truth, 0.5, 13), 0.01);
 }
 
 TEST(LightTransport, RefusesWhatItCannotTrace)
