@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <array>
 #include <cmath>
 
 using namespace vmlight;
@@ -152,11 +153,12 @@ TEST_F(Bounce, OccludersWithoutAColourHaveTheAlbedoThatIsGiven)
     write("wall.mtl", "newmtl paint\nKd 0.2 0.4 0.8\n");
     write("wall.obj", "mtllib wall.mtl\nusemtl paint\nv 0 0 10\nv 0 0 -10\nv 0 1 -10\nv 0 1 10\nf 1 2 3 4\n");
     done(light + "--bounce auto -o paint.exr");
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(value("paint.exr", 8, c) - value("plain.exr", 8, c),
-                    std::array { 0.2f, 0.4f, 0.8f }[size_t(c)]
-                        * (value("white_wall.exr", 8, c) - value("plain.exr", 8, c)),
+    const std::array<float, 3> paint { 0.2f, 0.4f, 0.8f };
+    for (int c = 0; c < 3; ++c) {
+        const float plain = value("plain.exr", 8, c);
+        EXPECT_NEAR(value("paint.exr", 8, c) - plain, paint[size_t(c)] * (value("white_wall.exr", 8, c) - plain),
                     0.002f);
+    }
 }
 
 TEST_F(Bounce, ExposureAndFramesKeepWhatIsTraced)
