@@ -4,8 +4,12 @@
 #include "scenes.h"
 
 #include <vmlight/base/work_counts.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/reference/reference.h>
 #include <vmlight/vismap/light_transport.h>
 #include <vmlight/vismap/point_visibility.h>
+
+#include <OpenImageIO/imagebufalgo.h>
 
 #include <gtest/gtest.h>
 
@@ -254,6 +258,45 @@ TEST(LightTransport, WhatIsTooFarToOccludeSendsNothing)
         { corner() }, constant_sky, [](size_t) { return 1.0; }, 0.3);
     std::vector<oracle::Place> middle = oracle::places(corner(), 32, 32);
     EXPECT_LT(error_of(bounced.gather(1), bounced.visibility, middle, truth, 1, 13), 0.01);
+}
+
+// The cow: smooth, with many islands, small triangles, and one half the mirror image of the other.
+TEST(LightTransport, ACowIsLitAsThePathTracerHasIt)
+{
+    Mesh cow;
+    std::string error;
+    ASSERT_TRUE(read_mesh(cow, VMLIGHT_TEST_DATA "/spot.obj", {}, error)) << error;
+    const Mesh ground = rectangle(V3d(-3, -0.75, 3), V3d(6, 0, 0), V3d(0, 0, -6));
+    const int side = 96;
+    const VismapParams map = bounce_map_of(side);
+    const std::vector<float> light = Bounced(cow, { ground }, map).gather(0.7f);
+    OIIO::ImageBuf sky(OIIO::ImageSpec(4, 2, 3, OIIO::TypeFloat)), direct, all;
+    OIIO::ImageBufAlgo::fill(sky, { 1.0f, 1.0f, 1.0f });
+    ReferenceParams params;
+    params.samples = 128;
+    ASSERT_TRUE(make_reference(direct, cow, { ground }, sky, map, {}, params)) << direct.geterror();
+    params.bounce_albedo = 0.7;
+    ASSERT_TRUE(make_reference(all, cow, { ground }, sky, map, {}, params)) << all.geterror();
+    double squares = 0, noise = 0, bias = 0, sum = 0, bounced = 0, count = 0;
+    OIIO::ImageBuf::ConstIterator<float> sky_alone(direct);
+    for (OIIO::ImageBuf::ConstIterator<float> truth(all); !truth.done(); ++truth, ++sky_alone) {
+        if (truth[6] == 0)
+            continue;
+        const double wanted = double(truth[0]) - double(sky_alone[0]);
+        const double error_here = double(light[3 * size_t(truth.y() * side + truth.x())]) - wanted;
+        squares += error_here * error_here;
+        noise += std::max(0.0, double(truth[3]) * double(truth[3]) - double(sky_alone[3]) * double(sky_alone[3]));
+        bias += error_here;
+        bounced += wanted;
+        sum += double(truth[0]);
+        ++count;
+    }
+    const double mean = sum / count;
+    std::printf("bounced %.4f of %.4f, bias %.5f, rms %.5f, noise %.5f\n", bounced / count, mean, bias / count,
+                std::sqrt(squares / count), std::sqrt(noise / count));
+    EXPECT_GT(bounced / count, 0.1 * mean);
+    EXPECT_NEAR(bias / count, 0, 0.003 * mean);
+    EXPECT_LT(std::sqrt(std::max(0.0, squares - noise) / count), 0.01 * mean);
 }
 
 TEST(LightTransport, MirroredUvsAreNoMatter)

@@ -25,7 +25,9 @@ uint64_t key_of(int caster, const V3f& position, const V3f& normal, float distan
     return (key << 3 | uint64_t(2 * axis + (normal[axis] < 0))) << 16 | uint64_t(uint16_t(caster + 2));
 }
 
-SurfacePoint surface_at(const V3f& position, const V3f& normal)
+} // namespace
+
+SurfacePoint surface_point(const V3f& position, const V3f& normal)
 {
     // Floats round far away.
     const double reach
@@ -36,8 +38,6 @@ SurfacePoint surface_at(const V3f& position, const V3f& normal)
     point.near_origin = position + normal * float(reach * kNearRayOffset);
     return point;
 }
-
-} // namespace
 
 LightCells::Cell& LightCells::cell(uint64_t key)
 {
@@ -53,7 +53,7 @@ uint32_t LightCells::add(LightPoint point, const V3f& position, const V3f& norma
 {
     Cell& own = cell(key_of(point.caster, position, normal, distance));
     if (own.count < kMostPoints) {
-        point.surface = surface_at(position, normal);
+        point.surface = surface_point(position, normal);
         own.points[size_t(own.count++)] = point;
     }
     return uint32_t(&own - m_cells.data());

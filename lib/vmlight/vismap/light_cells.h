@@ -26,6 +26,10 @@ struct LightPoint
     SurfacePoint surface;
 };
 
+/// A flat surface at a position that a ray met, both in scene space. Its ray origins are farther off it where floats
+/// round more.
+SurfacePoint surface_point(const Imath::V3f& position, const Imath::V3f& normal);
+
 /// Cells of a grid whose points face alike. The farther from the texels that they light, the larger the cells.
 class LightCells
 {
