@@ -65,6 +65,7 @@ int main(int argc, const char** argv)
     stage.params("Light:", recipe.lightmap_params);
     bool explain = false, dry_run = false;
     stage.group("Effects:");
+    stage.params("Effects:", recipe.bounce_params);
     stage.option("explain", "", "Say before the light which effects it simulates and why",
                  [&](auto, auto&) { return explain = true; });
     stage.option("dry_run", "",

@@ -243,6 +243,23 @@ void decide_visibility(std::vector<EffectDecision>& dst, const Effect& effect, c
                                               : format("V is 1 in all of {}: the light of the open sky", lit)));
 }
 
+void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool called = light.wants_bounce && light.has_albedo && light.albedo_high > 0 && light.shadowed > 0;
+    dst.push_back(decision(effect, called,
+                           !light.wants_bounce       ? std::string("not asked for: --bounce auto adds it")
+                               : !light.has_albedo   ? std::string("no albedo is given, so that nothing is sent back")
+                               : light.shadowed == 0 ? std::string("no texel sees a surface")
+                               : !called             ? std::string("the albedo is 0 everywhere")
+                                                     : format("texels see surfaces that send back up to {:.3g} of "
+                                                                          "their light; {} rays a texel, once for all light",
+                                                              light.albedo_high, light.bounce_rays),
+                           0.9));
+    if (!light.wants_bounce || !light.has_albedo)
+        dst.back().impossible = dst.back().reason;
+}
+
 void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
@@ -284,6 +301,7 @@ constexpr Effect kEffects[] = {
     { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
     { "rotation", "the light is turned", "lightmap", true, decide_rotation },
     { "albedo", "light is multiplied by a texture", "lightmap", true, decide_albedo },
+    { "bounce", "surfaces light each other, once", "lightmap", true, decide_bounce },
 };
 
 } // namespace

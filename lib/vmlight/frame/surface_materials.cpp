@@ -3,11 +3,9 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
-#include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
-#include <vmlight/image/image_file.h>
-#include <vmlight/image/primaries.h>
 #include <vmlight/stage/material_image.h>
+#include <vmlight/stage/material_texture.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -19,21 +17,6 @@ namespace {
 
 using OIIO::ImageBuf;
 
-bool read_embedded(ImageBuf& dst, const MaterialTexture& texture, std::string& error)
-{
-    MaterialImage image;
-    if (!image.open(texture, error))
-        return false;
-    OIIO::ImageSpec spec = image.spec();
-    const OIIO::TypeDesc stored = spec.format;
-    spec.set_format(OIIO::TypeFloat);
-    dst.reset(spec);
-    if (!image.read(0, spec.nchannels, static_cast<float*>(dst.localpixels()), error))
-        return false;
-    dst.specmod().attribute("vmlight:stored", int(stored.basetype));
-    return true;
-}
-
 class MaterialReader
 {
 public:
@@ -43,16 +26,7 @@ public:
     {
     }
 
-    // The conversion of factors: linear, Rec.709 primaries.
-    bool open(std::string& error)
-    {
-        OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeFloat);
-        tag_scene_linear(spec, "lin_rec709_scene");
-        ColorSettings settings = m_settings;
-        settings.stored = OIIO::TypeFloat;
-        std::string note;
-        return describe_scene_linear(spec, m_convert, "", settings, note, error);
-    }
+    bool open(std::string& error) { return find_factor_conversion(m_convert, m_settings, error); }
 
     SurfaceMaterial read(const Material& material)
     {
@@ -119,20 +93,9 @@ private:
     std::shared_ptr<const TexturePyramid> make(const MaterialTexture& texture, std::string& error)
     {
         ImageBuf image;
-        const bool is_file = !texture.embedded && texture.length == 0;
-        if (!(is_file ? read_image(image, texture.path, error) : read_embedded(image, texture, error)))
-            return nullptr;
-        ColorSettings settings = m_settings;
-        settings.stored = is_file
-            ? image.nativespec().format
-            : OIIO::TypeDesc(OIIO::TypeDesc::BASETYPE(image.spec().get_int_attribute("vmlight:stored")));
         std::array<int, 3> index;
-        std::string note;
-        if (!find_color_channels(image.spec(), index, error)
-            || !to_scene_linear(image, is_file ? texture.path : "", settings, note, error, m_options.threads)) {
-            error = format("\"{}\": {}", texture.path, error);
+        if (!read_material_texture(image, index, texture, m_settings, m_options.threads, error))
             return nullptr;
-        }
         const OIIO::ImageSpec& spec = image.spec();
         const size_t count = size_t(spec.width) * size_t(spec.height), channels = size_t(spec.nchannels);
         std::vector<float> all(count * channels), rgba(count * 4);

@@ -7,10 +7,10 @@
 #include <vmlight/base/parallel.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/lightmap/bounce_light.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
-#include <vmlight/lightmap/sun_light.h>
 
 #include <algorithm>
 #include <mutex>
@@ -65,8 +65,8 @@ bool shade(ImageBuf& dst, const VismapReader& vismap, const LightmapShader& shad
 }
 
 bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const SunLight* suns,
-          const LightmapParams& params, const ImageBuf* albedo, int nthreads, const Progress& progress,
-          std::string& error)
+          const BounceLight* bounce, const LightmapParams& params, const ImageBuf* albedo, int nthreads,
+          const Progress& progress, std::string& error)
 {
     Rotation rotation;
     VismapReader reader;
@@ -74,6 +74,8 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
     ShadingModel model;
     if (suns)
         shader.use_suns({ std::shared_ptr<const SunLight>(), suns });
+    if (bounce)
+        shader.use_bounce({ std::shared_ptr<const BounceLight>(), bounce });
     if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, has_all_light(cfem), model, error)
         || !shader.prepare(cfem, params, model, error))
         return false;
@@ -140,15 +142,21 @@ bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, const ImageBuf& cfem, 
 bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const LightmapParams& params,
                    const ImageBuf* albedo, int nthreads, const Progress& progress)
 {
-    std::string error;
-    return make(dst, vismap, cfem, nullptr, params, albedo, nthreads, progress, error) || fail_with(dst, error);
+    return make_lightmap(dst, vismap, cfem, nullptr, nullptr, params, albedo, nthreads, progress);
 }
 
 bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const SunLight* suns,
                    const LightmapParams& params, const ImageBuf* albedo, int nthreads, const Progress& progress)
 {
+    return make_lightmap(dst, vismap, cfem, suns, nullptr, params, albedo, nthreads, progress);
+}
+
+bool make_lightmap(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const SunLight* suns,
+                   const BounceLight* bounce, const LightmapParams& params, const ImageBuf* albedo, int nthreads,
+                   const Progress& progress)
+{
     std::string error;
-    return make(dst, vismap, cfem, suns, params, albedo, nthreads, progress, error) || fail_with(dst, error);
+    return make(dst, vismap, cfem, suns, bounce, params, albedo, nthreads, progress, error) || fail_with(dst, error);
 }
 
 } // namespace vmlight

@@ -189,6 +189,10 @@ void LightmapShader::shade(OIIO::ROI roi, TexelLayout layout, const float* visma
         m_suns->add(roi, m_gain, rgb);
         sound = false;
     }
+    if (m_bounce) {
+        m_bounce->add(roi, m_gain, rgb);
+        sound = false;
+    }
     if (m_albedo) {
         work_counts().texels_multiplied += int64_t(texels);
         m_albedo->multiply(roi, rgb, scratch, found.albedo, found.error);

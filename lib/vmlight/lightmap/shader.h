@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vmlight/base/bad_values.h>
+#include <vmlight/lightmap/bounce_light.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
@@ -53,6 +54,9 @@ public:
     /// refuses light whose suns were split off without them.
     void use_suns(std::shared_ptr<const SunLight> suns) { m_suns = std::move(suns); }
 
+    /// Add `bounce`, of the pixels of the visibility map, to that.
+    void use_bounce(std::shared_ptr<const BounceLight> bounce) { m_bounce = std::move(bounce); }
+
     /// Multiply by `albedo`, opened for the pixels of the visibility map. With `skip_one` it is looked at first: an
     /// albedo of 1, which changes nothing, is let go.
     void use_albedo(std::shared_ptr<const AlbedoReader> albedo, bool skip_one);
@@ -75,6 +79,7 @@ private:
     bool m_looks_up = true; // rather than that the light has one colour
     double m_gain = 1;
     std::shared_ptr<const SunLight> m_suns;
+    std::shared_ptr<const BounceLight> m_bounce;
     std::shared_ptr<const AlbedoReader> m_albedo;
 };
 

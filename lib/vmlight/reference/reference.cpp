@@ -7,6 +7,8 @@
 #include <vmlight/lightmap/environment_light.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/math/sampling.h>
+#include <vmlight/reference/bounce_paths.h>
+#include <vmlight/reference/random.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/uv/raster.h>
@@ -26,31 +28,6 @@ using latlong::pi;
 
 constexpr int kChannels = 7;
 constexpr int kPairs = 128; // traced at once
-
-// Independent random numbers in [0, 1), a function of texel, pair and seed alone.
-// Source: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (SplitMix64).
-class Random
-{
-public:
-    Random(int x, int y, int seed)
-    {
-        m_state = uint64_t(uint32_t(seed));
-        for (const int key : { x, y })
-            m_state = next_bits() ^ uint64_t(uint32_t(key));
-        next_bits();
-    }
-    double next() { return double(next_bits() >> 11) * 0x1p-53; }
-
-private:
-    uint64_t next_bits()
-    {
-        uint64_t z = m_state += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    uint64_t m_state;
-};
 
 // Running means and squared deviations of three channels.
 // Source: B. P. Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products", 1962.
@@ -76,7 +53,7 @@ class Tracer
 {
 public:
     Tracer(const Occluder& occluder, const GroundPlane& ground, const EnvironmentLight& light,
-           const Rotation& to_environment, float length)
+           const Rotation& to_environment, float length, std::unique_ptr<BouncePaths> bounce)
         : m_occluder(occluder)
         , m_ground(ground)
         , m_light(light)
@@ -85,10 +62,12 @@ public:
         , m_length(length)
         , m_fan(2 * kPairs)
         , m_values(2 * kPairs)
+        , m_bounce(std::move(bounce))
     {
     }
 
-    Moments trace(const SurfacePoint& point, Random random, int pairs)
+    /// @param more     for what only bounced light needs
+    Moments trace(const SurfacePoint& point, ReferenceRandom random, ReferenceRandom more, int pairs)
     {
         Moments moments;
         const TangentFrame frame(point.normal);
@@ -107,8 +86,13 @@ public:
             }
             m_ground.clear_blocked(m_fan, point);
             m_occluder.clear_blocked(m_fan, point.origin, m_length, point.is_near);
+            m_bounced.assign(size_t(count), V3d(0));
+            for (int i = 0; i < count && m_bounce; ++i)
+                m_bounce->add(point, V3d(m_fan.x[2 * i], m_fan.y[2 * i], m_fan.z[2 * i]), m_bounced[size_t(i)], more);
+            if (m_bounce)
+                m_bounce->flush(point, more);
             for (int i = 0; i < count; ++i)
-                moments.add(seen(2 * i) + seen(2 * i + 1));
+                moments.add(seen(2 * i) + seen(2 * i + 1) + m_bounced[size_t(i)]);
         }
         return moments;
     }
@@ -138,7 +122,8 @@ private:
     const Rotation m_to_environment, m_to_object;
     const float m_length;
     RayFan m_fan;
-    std::vector<V3d> m_values;
+    std::vector<V3d> m_values, m_bounced;
+    std::unique_ptr<BouncePaths> m_bounce; // nullptr without
 };
 
 OIIO::ImageSpec reference_spec(const VismapParams& map, const LightmapParams& light, const ReferenceParams& params)
@@ -189,9 +174,15 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
         TileCover cover;
     };
     std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
+    const auto bounce = [&] {
+        return params.bounce_albedo > 0
+            ? std::make_unique<BouncePaths>(scene, ground_of(scene, map), sky, rotation, length, params.bounce_albedo)
+            : nullptr;
+    };
     for (auto& worker : workers)
-        worker.reset(new Worker {
-            { scene.occluder(), ground_of(scene, map), sky, rotation, length }, { scene.mesh(), scene.frame() }, {} });
+        worker.reset(new Worker { { scene.occluder(), ground_of(scene, map), sky, rotation, length, bounce() },
+                                  { scene.mesh(), scene.frame() },
+                                  {} });
     TileProgress done(raster, nthreads, progress);
     if (done.stopped())
         return fail_with(dst, "interrupted");
@@ -207,7 +198,8 @@ bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::Ima
             SurfacePoint point = worker.surface.at(worker.cover.triangle[size_t(i)], worker.cover.weight1[size_t(i)],
                                                    worker.cover.weight2[size_t(i)]);
             adjust_ray_origins(&point, 1, scene.occluder());
-            const Moments moments = worker.tracer.trace(point, Random(x, y, params.seed), params.samples);
+            const Moments moments = worker.tracer.trace(point, ReferenceRandom(x, y, params.seed),
+                                                        ReferenceRandom(x, y, ~params.seed), params.samples);
             const double above = 0.5 * (1 + double(point.normal.dot(point.geometric_normal)));
             float* texel = pixels + (size_t(y) * size_t(width) + size_t(x)) * kChannels;
             for (int c = 0; c < 3; ++c) {

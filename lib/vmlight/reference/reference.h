@@ -24,6 +24,9 @@ struct ReferenceParams
     int seed = 0;
     /// As CfemParams::sanitize.
     bool sanitize = false;
+    /// Albedo of the mesh and its occluders, on both sides: adds what they send to a texel after one bounce. The ground
+    /// is black. 0: none does. Of programs that compare only, and so no parameter.
+    double bounce_albedo = 0;
 
     template <class Visit> void visit(Visit&& field)
     {

@@ -66,6 +66,8 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     } else {
         dst.albedo_low = 1;
     }
+    dst.wants_bounce = recipe.bounce_params.bounce != "off";
+    dst.bounce_rays = recipe.bounce_params.bounce_rays;
     measure_visibility(dst, inputs.vismap);
     return true;
 }
@@ -110,6 +112,8 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
     LightmapRecipe switched = recipe;
     if (switches.of("albedo") == Switch::off)
         switched.albedo = switched.albedo_colorspace = switched.albedo_layer = "";
+    if (switches.of("bounce") == Switch::off)
+        switched.bounce_params = {};
     if (switches.of("rotation") == Switch::off) {
         const LightmapParams defaults;
         LightmapParams& params = switched.lightmap_params;

@@ -69,8 +69,14 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& recipe, std::string&
         return false;
     }
     dst.key = config + dst.vismap->key() + dst.cfem->key();
+    std::shared_ptr<MapScene> scene;
+    if (recipe.suns != "off" || has_bounce(recipe)) {
+        scene = MapScene::open(recipe, dst.vismap->spec(), error, chain);
+        if (!scene)
+            return false;
+    }
     if (recipe.suns != "off") {
-        dst.suns = SunShading::open(recipe, dst.vismap->spec(), error, chain);
+        dst.suns = SunShading::open(recipe, dst.vismap->spec(), scene, error, chain);
         if (!dst.suns)
             return false;
         dst.key += dst.suns->key();
@@ -87,6 +93,12 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& recipe, std::string&
         if (!dst.albedo)
             return false;
         dst.key += dst.albedo->key();
+    }
+    if (has_bounce(recipe)) {
+        dst.bounce = BounceShading::open(recipe, *dst.vismap, dst.light.spec, scene, error, chain);
+        if (!dst.bounce)
+            return false;
+        dst.key += dst.bounce->key();
     }
     return true;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/stage/albedo_source.h>
+#include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/light_color.h>
 #include <vmlight/stage/pixel_source.h>
 #include <vmlight/stage/recipe/chain.h>
@@ -20,6 +21,7 @@ struct LightmapImages
     PixelSourcePointer cfem; ///< the recipe's, or that of its environment, of an implicit CfemRecipe
     std::shared_ptr<AlbedoSource> albedo; ///< nullptr without
     std::shared_ptr<SunShading> suns; ///< nullptr if the recipe's suns are off
+    std::shared_ptr<BounceShading> bounce; ///< nullptr if the recipe asks for none, or has no albedo
     LightColor light; ///< how the colour of the CFEM is converted
     std::string key; ///< changes with any of them, and with the OCIO config if one is used
 };

@@ -10,6 +10,7 @@
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/lightmap/vismap_check.h>
+#include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/light_effects.h>
 #include <vmlight/stage/lightmap_images.h>
 #include <vmlight/stage/make_stage.h>
@@ -62,6 +63,8 @@ public:
             error = with_location(m_recipe, "output_colorspace", chain, error);
             return false;
         }
+        if (m_images.bounce)
+            m_images.bounce->tag(m_spec);
         m_output.tag(m_spec);
         tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
@@ -142,6 +145,8 @@ public:
         } else if (dst.suns->shading->key() != m_images.suns->key()) {
             dst.suns->shading = m_images.suns;
         }
+        if (!m_images.bounce || !dst.bounce || dst.bounce->key() != m_images.bounce->key())
+            dst.bounce = m_images.bounce; // else what is traced is kept
         if (!make_light(dst, options, error))
             return false;
         if (!m_images.albedo || dst.albedo.initialized())
@@ -156,7 +161,8 @@ public:
     bool failed() const override
     {
         return m_prepare.failed() || m_images.vismap->failed() || m_images.cfem->failed()
-            || (m_images.albedo && m_images.albedo->failed()) || (m_images.suns && m_images.suns->failed());
+            || (m_images.albedo && m_images.albedo->failed()) || (m_images.suns && m_images.suns->failed())
+            || (m_images.bounce && m_images.bounce->failed());
     }
     size_t bytes() const override { return m_bytes; }
 
@@ -182,7 +188,22 @@ private:
         const AlbedoReader* albedo = m_images.albedo ? m_images.albedo->reader(error) : nullptr;
         if (albedo)
             m_shader.use_albedo({ m_images.albedo, albedo }, m_recipe.lightmap_params.skip_identities);
-        return error.empty();
+        return error.empty() && (!m_images.bounce || light_bounce(cfem, *albedo, error));
+    }
+
+    // Bounced light, whole: each texel gets it from anywhere.
+    bool light_bounce(const std::vector<OIIO::ImageBuf>& cfem, const AlbedoReader& albedo, std::string& error)
+    {
+        auto light = std::make_shared<BounceLight>();
+        OIIO::ImageBuf map;
+        if (!read_all(map, *m_images.vismap, error)
+            || !m_images.bounce->light(*light, map, cfem, m_suns && !m_suns->suns.empty() ? m_suns.get() : nullptr,
+                                       m_recipe.lightmap_params, albedo, {}, error))
+            return false;
+        m_bytes += sizeof(float) * light->light.size() + m_images.bounce->bytes();
+        if (!light->light.empty())
+            m_shader.use_bounce(light);
+        return true;
     }
 
     // The suns of the light, in its colour.
@@ -306,7 +327,8 @@ std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::
 {
     const LightmapRecipe recipe = with_switches(resolve_udim(given));
     error = recipe_fault(recipe, chain);
-    if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error))
+    if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error)
+        || !check_params(recipe.bounce_params, error))
         return nullptr;
     LightmapImages images;
     if (!open_images(images, recipe, error, chain))

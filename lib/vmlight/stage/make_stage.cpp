@@ -3,6 +3,7 @@
 
 #include <vmlight/base/fail_with.h>
 #include <vmlight/image/image_file.h>
+#include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/sun_shading.h>
 
@@ -67,11 +68,21 @@ bool make_lightmap(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const Ligh
     if (inputs.suns && !inputs.suns->shading->light(suns, inputs.suns->list, params, read, options, error))
         return false;
     const OIIO::ImageSpec& map = inputs.vismap.spec();
-    if (!make_lightmap(dst, inputs.vismap, inputs.cfem, suns.suns.empty() ? nullptr : &suns, params,
+    const SunLight* lit_suns = suns.suns.empty() ? nullptr : &suns;
+    BounceLight bounce;
+    if (inputs.bounce) {
+        AlbedoReader albedo;
+        if (!albedo.open(inputs.albedo, inputs.vismap.roi(), options.threads, error)
+            || !inputs.bounce->light(bounce, inputs.vismap, inputs.cfem, lit_suns, params, albedo, options, error))
+            return false;
+    }
+    if (!make_lightmap(dst, inputs.vismap, inputs.cfem, lit_suns, bounce.light.empty() ? nullptr : &bounce, params,
                        inputs.albedo_or_none(), options.threads, options.step("light", map.width, map.height))) {
         error = dst.geterror();
         return false;
     }
+    if (inputs.bounce)
+        inputs.bounce->tag(dst.specmod());
     inputs.finish(dst);
     return true;
 }

@@ -45,6 +45,7 @@ VMLIGHT_API bool vismap_materials(std::vector<std::string>& dst, const VismapRec
                                   std::string& error);
 
 struct LightmapSuns;
+class BounceShading;
 
 /// The inputs of a lightmap, ready for make_lightmap(), so that several lightmaps can share them.
 struct LightmapInputs
@@ -56,6 +57,8 @@ struct LightmapInputs
     std::string map, texture, light;
     /// The suns that `cfem` was split into, and where their shadows are traced; nullptr if the recipe's suns are off.
     std::shared_ptr<LightmapSuns> suns;
+    /// The surfaces that light bounces off; nullptr if the recipe asks for none, or has no albedo.
+    std::shared_ptr<BounceShading> bounce;
     /// What of their colour is converted, or "".
     std::string color;
     /// Brings what make_lightmap() makes of these to the output_colorspace of the recipe.

@@ -5,9 +5,9 @@
 #include <vmlight/base/once_cache.h>
 #include <vmlight/lightmap/sun_light.h>
 #include <vmlight/stage/make_options.h>
+#include <vmlight/stage/map_scene.h>
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
-#include <vmlight/stage/scene_cache.h>
 #include <vmlight/vismap/sun_visibility.h>
 
 #include <OpenImageIO/imageio.h>
@@ -22,15 +22,13 @@ namespace vmlight {
 class SunShading
 {
 public:
-    /// Find the meshes: those of the recipe of the visibility map, or the recipe's own `mesh` and `occluder`, read as
-    /// the metadata of the map say. Reads no mesh.
-    ///
     /// @param recipe   with its UDIM tile resolved; its suns are not off
     /// @param vismap   the header of the visibility map
-    /// @returns nullptr, with the location and reason in `error`, if there are neither a mesh nor channels `sun.N`, a
-    ///          file is missing, or the map is only a part of one
+    /// @param scene    of that map
+    /// @returns nullptr, with the location and reason in `error`, if there are neither a mesh nor channels `sun.N`
     static std::shared_ptr<SunShading> open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
-                                            std::string& error, const RecipeChain& chain);
+                                            std::shared_ptr<MapScene> scene, std::string& error,
+                                            const RecipeChain& chain);
 
     /// Equal keys, equal shadows.
     const std::string& key() const { return m_key; }
@@ -56,14 +54,9 @@ private:
     bool prepare(const MakeOptions& options, std::string& error);
 
     LightmapRecipe m_recipe;
-    VismapRecipe m_mesh; ///< what to trace on
-    VismapParams m_map; ///< its texels
-    OIIO::ROI m_roi;
-    std::string m_normal_map; ///< of a stored map that was baked with one
-    std::string m_hash, m_occluder_hashes; ///< of the meshes that were baked; "" if unknown
+    std::shared_ptr<MapScene> m_scene; ///< what to trace on
     std::vector<Disc> m_stored; ///< the discs of channels `sun.N`
     std::vector<int> m_channels; ///< and their indices
-    SceneStamps m_stamps;
     std::string m_key;
     RunOnce m_prepare;
     SunTracer m_tracer;

@@ -118,13 +118,18 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
 bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::string& error, const StepListener& at_step)
 {
     std::vector<const Mesh*> casters { m_choice.self ? m_mesh.get() : nullptr };
+    if (m_choice.self)
+        m_casters.push_back(kWhole);
     SceneBox box = scene_box(*m_mesh, m_frame);
     if (!occluders.empty())
         begin_step(at_step, "find what occluders reach");
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
-        casters.push_back(m_reach.back().is_traced(m_choice) ? &occluder : nullptr);
+        const bool is_traced = m_reach.back().is_traced(m_choice);
+        casters.push_back(is_traced ? &occluder : nullptr);
+        if (is_traced)
+            m_casters.push_back(int(m_reach.size()) - 1);
     }
     m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
     const auto occluder = std::make_shared<Occluder>();

@@ -40,6 +40,11 @@ public:
     const Mesh& mesh() const { return *m_mesh; }
     const SceneFrame& frame() const { return m_frame; }
     const Occluder& occluder() const { return *m_occluder; }
+    /// The mesh of which this bakes a part; or mesh(). It alone has the numbers of triangles that occluder() knows.
+    const Mesh& whole() const { return m_whole ? m_whole->whole() : *m_mesh; }
+    /// Which meshes occluder() traces, by their numbers there: kWhole, or the index of an occluder.
+    static constexpr int kWhole = -1;
+    const std::vector<int>& casters() const { return m_whole ? m_whole->casters() : m_casters; }
     /// mesh_hash() of the mesh, and of each occluder, separated by commas.
     const std::string& mesh_hash() const { return m_mesh_hash; }
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
@@ -82,6 +87,7 @@ private:
     int64_t m_triangles = 0, m_tiny = 0;
     double m_rounding = 0, m_lowest = 0, m_diagonal = 0;
     SceneChoice m_choice;
+    std::vector<int> m_casters;
     std::vector<CasterReach> m_reach;
 };
 

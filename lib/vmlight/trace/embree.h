@@ -42,6 +42,16 @@ public:
         m_arguments.filter = filter;
     }
     void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &rays, &m_arguments); }
+    /// The nearest hits.
+    void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)
+    {
+        RTCIntersectArguments arguments;
+        rtcInitIntersectArguments(&arguments);
+        arguments.context = &m_context;
+        arguments.flags = m_arguments.flags;
+        arguments.filter = m_arguments.filter;
+        rtcIntersect8(valid, scene, &rays, &arguments);
+    }
     const CutoutWork& cutouts() const { return m_context.cutouts; }
 
 private:
@@ -75,6 +85,10 @@ public:
         m_context.filter = filter;
     }
     void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &m_context, &rays); }
+    void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays)
+    {
+        rtcIntersect8(valid, scene, &m_context, &rays);
+    }
     const CutoutWork& cutouts() const { return m_context.cutouts; }
 
 private:

@@ -140,8 +140,10 @@ bool Scene::attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<
         if (cutouts)
             m_buffers.back().longest_edges = longest_edges(m_buffers.back());
         rtcSetGeometryUserData(geometry, &m_buffers.back());
-        if (cutouts)
+        if (cutouts) {
             rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);
+            rtcSetGeometryIntersectFilterFunction(geometry, reject_open_hits);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(m_scene, geometry, id);
     }

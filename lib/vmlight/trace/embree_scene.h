@@ -40,7 +40,7 @@ inline float weight_error(float distance, float longest_edge, float normal_dot)
     return 8e-7f * (distance + longest_edge) * longest_edge / std::fabs(normal_dot) + 8e-6f;
 }
 
-/// Embree's filter of shadow rays' hits on mixed triangles: rejects those where light passes.
+/// Embree's filter of hits on mixed triangles, of shadow rays and others: rejects those where light passes.
 void reject_open_hits(const RTCFilterFunctionNArguments* arguments);
 
 class Scene

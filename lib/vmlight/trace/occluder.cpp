@@ -150,4 +150,43 @@ uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int co
     return blocked;
 }
 
+void Occluder::find_nearest(const V3f* origins, const V3f* directions, const float* lengths, int count,
+                            NearestHit* hits) const
+{
+    const embree::FlushDenormals flush;
+    embree::Query query(reject_hits_behind_origin);
+    RTCRayHit8 rays;
+    alignas(32) int valid[kPacketSize];
+    for (int lane = 0; lane < kPacketSize; ++lane) {
+        const int from = std::min(lane, count - 1); // unused lanes must hold valid numbers too
+        const V3f &origin = origins[from], &direction = directions[from];
+        rays.ray.org_x[lane] = origin.x, rays.ray.org_y[lane] = origin.y, rays.ray.org_z[lane] = origin.z;
+        rays.ray.dir_x[lane] = direction.x, rays.ray.dir_y[lane] = direction.y, rays.ray.dir_z[lane] = direction.z;
+        rays.ray.tfar[lane] = lengths[from];
+        embree::prepare_lane(rays.ray, lane);
+        rays.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+        valid[lane] = lane < count ? -1 : 0;
+    }
+    query.intersect8(valid, m_scene->handle(), rays);
+    Occluder::count(query.cutouts());
+    const auto meshes = uint32_t(m_cutouts.size());
+    for (int lane = 0; lane < count; ++lane) {
+        NearestHit& hit = hits[lane];
+        hit = {};
+        const uint32_t geometry = rays.hit.geomID[lane], triangle = rays.hit.primID[lane];
+        if (geometry == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        hit.mesh = geometry % meshes;
+        const Cutouts* cutouts = m_cutouts[hit.mesh].get();
+        hit.triangle = !cutouts ? triangle
+            : geometry < meshes ? cutouts->opaque()[triangle]
+                                : cutouts->mixed()[triangle];
+        hit.u = rays.hit.u[lane];
+        hit.v = rays.hit.v[lane];
+        hit.distance = rays.ray.tfar[lane];
+        hit.normal = V3f(rays.hit.Ng_x[lane], rays.hit.Ng_y[lane], rays.hit.Ng_z[lane]);
+    }
+}
+
 } // namespace vmlight

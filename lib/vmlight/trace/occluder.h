@@ -43,6 +43,19 @@ struct TracedTriangles
     const Imath::V3f& corner(size_t triangle, int k) const { return vertices[triangles[triangle][size_t(k)]]; }
 };
 
+/// What a ray meets first.
+struct NearestHit
+{
+    static constexpr uint32_t kNone = ~0u;
+    uint32_t mesh = kNone; ///< its number among those that Occluder::build() was given
+    uint32_t triangle = 0; ///< of that mesh
+    float u = 0, v = 0; ///< weights of the triangle's second and third corners
+    float distance = 0; ///< in lengths of the ray's direction
+    Imath::V3f normal { 0 }; ///< of the triangle, by its winding; of any length
+
+    bool exists() const { return mesh != kNone; }
+};
+
 /// Triangles in an Embree scene: built once, then traced from any number of threads.
 class Occluder
 {
@@ -70,6 +83,11 @@ public:
     /// Which of the first `count` of kPacketSize rays are blocked within `length`: bit k for ray k. Rechecks hits as
     /// for `is_near`.
     uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length) const;
+
+    /// What the first `count` of kPacketSize rays meet first within their lengths (in scene units), from origins that
+    /// are off the surface. The same triangles block rays as for find_blocked().
+    void find_nearest(const Imath::V3f* origins, const Imath::V3f* directions, const float* lengths, int count,
+                      NearestHit* hits) const;
 
     /// After build().
     const CutoutCounts& cutouts() const { return m_counts; }

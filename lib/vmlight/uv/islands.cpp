@@ -4,7 +4,6 @@
 #include <vmlight/base/unique_index.h>
 
 #include <numeric>
-#include <vector>
 
 namespace vmlight {
 namespace {
@@ -31,39 +30,30 @@ private:
     std::vector<uint32_t> m_parent;
 };
 
+// Vertices with the same texture coordinates have the same number.
+std::vector<uint32_t> number_points(const Mesh& mesh, size_t& count)
+{
+    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
+    std::vector<uint32_t> point_of_vertex;
+    point_of_vertex.reserve(mesh.uvs.size());
+    for (const Imath::V2f& uv : mesh.uvs)
+        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
+    count = points.keys().size();
+    return point_of_vertex;
+}
+
 struct Island
 {
     int64_t triangles = 0;
     bool covers = false;
 };
 
-// The points of UV space that vertices have, each once. Sets the point of each vertex, and returns their number.
-size_t number_points(std::vector<uint32_t>& point_of_vertex, const Mesh& mesh)
-{
-    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
-    for (const Imath::V2f& uv : mesh.uvs)
-        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
-    return points.keys().size();
-}
-
 } // namespace
-
-std::vector<uint32_t> islands_of_triangles(const Mesh& mesh)
-{
-    std::vector<uint32_t> point_of_vertex, islands;
-    DisjointSets sets(number_points(point_of_vertex, mesh));
-    for (const auto& triangle : mesh.triangles)
-        for (int k = 1; k < 3; ++k)
-            sets.join(point_of_vertex[triangle[0]], point_of_vertex[triangle[size_t(k)]]);
-    for (const auto& triangle : mesh.triangles)
-        islands.push_back(sets.find(point_of_vertex[triangle[0]]));
-    return islands;
-}
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    std::vector<uint32_t> point_of_vertex;
-    const size_t points = number_points(point_of_vertex, mesh);
+    size_t points = 0;
+    const std::vector<uint32_t> point_of_vertex = number_points(mesh, points);
     DisjointSets sets(points);
     std::vector<uint32_t> in_tile;
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -85,6 +75,23 @@ void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
         report.uncovered_islands += island.triangles > 0 && !island.covers;
         report.uncovered_triangles += island.covers ? 0 : island.triangles;
     }
+}
+
+std::vector<uint32_t> islands_of_triangles(const Mesh& mesh)
+{
+    size_t points = 0;
+    const std::vector<uint32_t> point_of_vertex = number_points(mesh, points);
+    DisjointSets sets(points);
+    for (const auto& [a, b, c] : mesh.triangles)
+        if (has_uv(mesh, a) && has_uv(mesh, b) && has_uv(mesh, c)) {
+            sets.join(point_of_vertex[a], point_of_vertex[b]);
+            sets.join(point_of_vertex[a], point_of_vertex[c]);
+        }
+    std::vector<uint32_t> islands;
+    islands.reserve(mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles)
+        islands.push_back(sets.find(point_of_vertex[triangle[0]]));
+    return islands;
 }
 
 } // namespace vmlight

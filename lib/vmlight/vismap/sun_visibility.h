@@ -7,6 +7,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/ground_plane.h>
 #include <vmlight/trace/surface.h>
+#include <vmlight/vismap/map_points.h>
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -119,8 +120,7 @@ public:
     size_t bytes() const;
 
 private:
-    struct Setup;
-    std::unique_ptr<Setup> m_setup;
+    std::unique_ptr<MapPoints> m_points;
     mutable int64_t m_rays = 0;
 };
 

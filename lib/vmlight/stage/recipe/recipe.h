@@ -152,6 +152,31 @@ struct CfemRecipe
     }
 };
 
+/// Light that surfaces send to each other, once: keys of a lightmap.
+struct BounceParams
+{
+    /// `auto`: traced from the meshes of the visibility map, if there is an albedo.
+    std::string bounce = "off";
+    /// Rays per texel.
+    int bounce_rays = 64;
+    /// Albedo of occluders whose files say nothing of it; and of the ground.
+    double bounce_albedo = 0.5, ground_albedo = 0;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("bounce", bounce,
+              Choices { { { "off", "surfaces get the light of the environment alone" },
+                          { "auto",
+                            "and that which the mesh and its occluders send back, once, where there is an "
+                            "albedo" } } },
+              "Light from surface to surface");
+        field("bounce_rays", bounce_rays, Range { 8, 248 }, advanced("Rays per texel for the bounce"));
+        field("bounce_albedo", bounce_albedo, Range { 0, 1 },
+              "Albedo, for the bounce, of occluders whose files have no colour");
+        field("ground_albedo", ground_albedo, Range { 0, 1 }, "Albedo of the ground, for the bounce");
+    }
+};
+
 /// `hero.lightmap`: needs exactly one of `environment` and `cfem`.
 struct LightmapRecipe
 {
@@ -165,6 +190,7 @@ struct LightmapRecipe
     /// `auto`: split the suns off the environment, or use those that the CFEM was split into, and trace their shadows
     /// on the mesh of the visibility map.
     std::string suns = "off";
+    BounceParams bounce_params;
     /// That mesh, and what else casts shadows on it, if `vismap` is a file; its recipe names them otherwise.
     std::string mesh;
     std::vector<std::string> occluder;
@@ -190,8 +216,9 @@ struct LightmapRecipe
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);
         field("suns", suns, suns_choices(), "Lights with hard shadows, such as the sun");
-        field("mesh", mesh, Path {}, "Mesh of the visibility map, to trace suns on; a recipe of a map names it");
-        field("occluder", occluder, Paths {}, "Mesh that occluded the visibility map, to trace suns against");
+        bounce_params.visit(field);
+        field("mesh", mesh, Path {}, "Mesh of the visibility map, to trace light on; a recipe of a map names it");
+        field("occluder", occluder, Paths {}, "Mesh that occluded the visibility map, to trace light against");
         visit_effects(field, effects);
         cfem_params.visit([&](const char* name, auto& value, const auto& allowed, const char* help) {
             field(("cfem_" + std::string(name)).c_str(), value, allowed, advanced(help));

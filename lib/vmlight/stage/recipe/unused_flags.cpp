@@ -59,9 +59,12 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
         return "only the filter sh uses it";
     if ((key == "albedo_colorspace" || key == "albedo_layer") && recipe.albedo.empty())
         return "no albedo is given";
+    if ((key == "bounce_rays" || key == "bounce_albedo" || key == "ground_albedo")
+        && recipe.bounce_params.bounce == "off")
+        return "no bounced light is asked for: set --bounce auto";
     if (key == "mesh" || key == "occluder") {
-        if (recipe.suns == "off")
-            return "only suns are traced: set --suns auto";
+        if (recipe.suns == "off" && recipe.bounce_params.bounce == "off")
+            return "only suns and bounced light are traced: set --suns auto or --bounce auto";
         if (recipe_stage(recipe.vismap) == VismapRecipe::kStage)
             return "the recipe of the visibility map names its meshes";
     }

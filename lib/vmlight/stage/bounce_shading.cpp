@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/bounce_shading.h>
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/shader.h>
+#include <vmlight/vismap/point_visibility.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vmlight {
+namespace {
+
+using OIIO::ImageBuf;
+
+// Rays of a point that is no texel: a cell has several, and texels see many cells.
+constexpr int kPointSamples = 64;
+
+VismapParams point_params(const VismapParams& map)
+{
+    VismapParams params = map;
+    params.samples = std::min(params.samples, kPointSamples);
+    params.target_error = 0;
+    return params;
+}
+
+bool read_visibility(std::vector<float>& dst, const ImageBuf& vismap, std::string& error)
+{
+    std::array<int, 4> index;
+    if (!find_vismap_channels(vismap.spec(), index, error))
+        return false;
+    OIIO::ROI roi = vismap.roi();
+    roi.chbegin = index[0];
+    roi.chend = index[0] + 1;
+    dst.resize(size_t(roi.npixels()));
+    if (!vismap.get_pixels(roi, OIIO::TypeFloat, dst.data()))
+        error = vismap.geterror();
+    return error.empty();
+}
+
+// The texels' albedo, three floats each.
+bool read_albedo(std::vector<float>& dst, const AlbedoReader& albedo, OIIO::ROI roi, std::string& error)
+{
+    dst.assign(3 * size_t(roi.npixels()), 1.0f);
+    std::vector<float> scratch;
+    BadValues faults;
+    albedo.multiply(roi, dst.data(), scratch, faults, error);
+    if (faults.any())
+        error = albedo.fault_text(faults);
+    return error.empty();
+}
+
+// Two surfaces that light each other see each other: neither V is 1, and not both are 0, where there is no light.
+bool any_between(const std::vector<float>& visibility)
+{
+    return std::any_of(visibility.begin(), visibility.end(), [](float v) { return v > 0 && v < 1; });
+}
+
+} // namespace
+
+bool has_bounce(const LightmapRecipe& recipe)
+{
+    return recipe.bounce_params.bounce != "off" && !recipe.albedo.empty();
+}
+
+std::shared_ptr<BounceShading> BounceShading::open(const LightmapRecipe& recipe, const PixelSource& vismap,
+                                                   const OIIO::ImageSpec& light, std::shared_ptr<MapScene> scene,
+                                                   std::string& error, const RecipeChain& chain)
+{
+    if (!scene->has_mesh()) {
+        error = with_location(recipe, "bounce", chain,
+                              format("\"{}\": a visibility map in a file does not say where its mesh is, which light "
+                                     "bounces off; set --mesh, and --occluder for all else that occluded it",
+                                     recipe.vismap));
+        return nullptr;
+    }
+    auto bounce = std::make_shared<BounceShading>();
+    bounce->m_recipe = recipe;
+    bounce->m_space = light.get_string_attribute("colorInteropID");
+    bounce->m_key = format("bounce\n{}\n{}{}", bounce->m_space, scene->key(), vismap.key());
+    bounce->m_recipe.bounce_params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        bounce->m_key += std::string(name) + "=" + value_text(value, allowed) + "\n";
+    });
+    bounce->m_scene = std::move(scene);
+    return bounce;
+}
+
+void BounceShading::tag(OIIO::ImageSpec& lightmap) const
+{
+    append_params(lightmap, m_recipe.bounce_params);
+}
+
+bool BounceShading::prepare(const std::vector<float>& visibility, const MakeOptions& options, std::string& error)
+{
+    if (!m_scene->prepare(options, error))
+        return false;
+    const Stopwatch timer;
+    const VismapParams& map = m_scene->params();
+    TransportParams params;
+    params.rays = m_recipe.bounce_params.bounce_rays;
+    params.ground = m_recipe.bounce_params.ground_albedo > 0;
+    if (!m_transport.prepare(m_scene->scene(), map, visibility, params, error, options.threads,
+                             options.step("bounce", map.size().width, map.size().height), m_scene->normal_map()))
+        return false;
+    const VismapParams samples = point_params(map);
+    if (!bake_points(m_points, *m_scene->scene(), samples, m_transport.surfaces(), options.threads)
+        || !m_albedo.read(*m_scene, m_transport.points(), m_recipe, m_space, options, error))
+        return false;
+    options.report(format(
+        "bounce: {} in {:.3f} s, and {} off the map; {}", count_text(m_transport.rays(), "ray", "rays"), timer(),
+        count_text(int64_t(m_transport.points().size()), "point", "points"),
+        m_transport.is_kept() ? OIIO::Strutil::memformat(int64_t(m_transport.bytes())) + " are kept for other light"
+                              : "traced again for other light, as memory is short"));
+    return true;
+}
+
+bool BounceShading::light_points(std::vector<float>& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem,
+                                 const SunLight* suns, const LightmapParams& params, const MakeOptions& options,
+                                 std::string& error) const
+{
+    const size_t count = m_transport.points().size();
+    dst.assign(3 * count, 0.0f);
+    if (count == 0)
+        return true;
+    ShadingModel model;
+    Rotation rotation;
+    LightmapShader shader;
+    if (!lightmap_rotation(rotation, params, error)
+        || !choose_model(model, params, vismap.spec(), has_all_light(cfem), error))
+        return false;
+    const OIIO::ROI roi(0, int(count), 0, 1, 0, 1, 0, 3);
+    if (suns) {
+        auto own = std::make_shared<SunLight>();
+        own->suns = suns->suns;
+        own->roi = roi;
+        std::vector<Disc> discs;
+        for (const Sun& sun : own->suns) // the inverse of a rotation is its transpose
+            discs.push_back({ rotate(rotation.transposed(), sun.disc.direction), sun.disc.half_angle });
+        if (!trace_points(own->visibility, *m_scene->scene(), m_scene->params(), m_transport.surfaces(), discs,
+                          options.threads))
+            return false;
+        shader.use_suns(own);
+    }
+    if (!shader.prepare(cfem, params, model, error))
+        return false;
+    const std::vector<std::string> names = point_channels(m_scene->params());
+    std::vector<size_t> index;
+    for (const std::string& channel : model.channels) {
+        const auto found = std::find(names.begin(), names.end(), channel);
+        if (found == names.end()) {
+            error = format("\"{}\": its metadata do not say how its channel {} was baked, which bounced light needs",
+                           m_recipe.vismap, channel);
+            return false;
+        }
+        index.push_back(size_t(found - names.begin()));
+    }
+    std::vector<float> texels(count * index.size()), scratch;
+    for (size_t i = 0; i < count; ++i)
+        for (size_t c = 0; c < index.size(); ++c)
+            texels[i * index.size() + c] = m_points[i * names.size() + index[c]];
+    ShadeFaults faults;
+    shader.shade(roi, TexelLayout::visibility_first, texels.data(), dst.data(), scratch, faults);
+    if (faults.any())
+        error = shader.fault_text(faults, "");
+    return error.empty();
+}
+
+bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, const SunLight* suns,
+                          const LightmapParams& params, const AlbedoReader& albedo, const MakeOptions& options,
+                          std::string& error)
+{
+    dst.roi = vismap.roi();
+    dst.light.clear();
+    std::vector<float> reflected, points;
+    if (!read_albedo(reflected, albedo, dst.roi, error))
+        return false;
+    std::vector<float> visibility;
+    if (!read_visibility(visibility, vismap, error))
+        return false;
+    const bool is_between = any_between(visibility);
+    if (!is_between || std::none_of(reflected.begin(), reflected.end(), [](float a) { return a > 0; })) {
+        options.report(std::string("bounce: none, as ") + (is_between ? "the albedo is 0" : "no texel sees a surface"));
+        return true;
+    }
+    if (!m_prepare.run([&](std::string& reason) { return prepare(visibility, options, reason); }, error))
+        return false;
+    LightmapParams unexposed = params;
+    unexposed.exposure = 0;
+    ImageBuf first;
+    if (!make_lightmap(first, vismap, cfem, suns, unexposed, nullptr, options.threads, {})) {
+        error = first.geterror();
+        return false;
+    }
+    if (!light_points(points, vismap, cfem, suns, unexposed, options, error))
+        return false;
+    m_albedo.multiply(points, m_transport.points(), reflected, dst.roi);
+    const auto* texel = static_cast<const float*>(first.localpixels());
+    for (size_t i = 0; i < reflected.size(); ++i)
+        reflected[i] *= texel[i];
+    if (!m_transport.gather(dst.light, reflected, points, options.threads,
+                            options.step("bounce", dst.roi.width(), dst.roi.height()))) {
+        error = "interrupted";
+        return false;
+    }
+    return true;
+}
+
+} // namespace vmlight

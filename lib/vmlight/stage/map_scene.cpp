@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/map_scene.h>
+
+#include <vmlight/base/format.h>
+#include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/normal_map_file.h>
+#include <vmlight/stage/recipe/udim.h>
+
+namespace vmlight {
+namespace {
+
+// The bake that `map` says it is from, but for the meshes. Keys that are not in the map, or are no longer valid, keep
+// their defaults.
+VismapRecipe recipe_of_map(const OIIO::ImageSpec& map)
+{
+    VismapRecipe recipe;
+    for (const std::string& key : param_names(recipe))
+        if (const OIIO::ParamValue* value = map.find_attribute(metadata_name(key.c_str()))) {
+            std::string ignored;
+            if (key != "mesh" && key != "occluder") // `vmlight:mesh` is a name for people
+                set_param(recipe, key, value->get_string(), ignored);
+        }
+    return recipe;
+}
+
+} // namespace
+
+std::shared_ptr<MapScene> MapScene::open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
+                                         std::string& error, const RecipeChain& chain)
+{
+    auto scene = std::make_shared<MapScene>();
+    scene->m_recipe = recipe;
+    if (recipe_stage(recipe.vismap) == VismapRecipe::kStage) {
+        if (!read_recipe(scene->m_mesh, recipe.vismap, error))
+            return nullptr;
+        scene->m_mesh = with_switches(resolve_udim(scene->m_mesh));
+    } else {
+        scene->m_mesh = recipe_of_map(vismap);
+        scene->m_mesh.mesh = recipe.mesh;
+        scene->m_mesh.occluder = recipe.occluder;
+        scene->m_normal_map = scene->m_mesh.normal_map; // its name alone is known
+        scene->m_mesh.normal_map.clear();
+        scene->m_hash = vismap.get_string_attribute("vmlight:meshHash");
+        scene->m_occluder_hashes = vismap.get_string_attribute("vmlight:occluderHash");
+    }
+    scene->m_roi = OIIO::get_roi(vismap);
+    if (scene->m_roi != OIIO::get_roi_full(vismap)) {
+        error
+            = with_location(recipe, "vismap", chain,
+                            format("\"{}\": only a part of a map, and light is traced for whole ones", recipe.vismap));
+        return nullptr;
+    }
+    std::string at;
+    if (scene->has_mesh() && !stamp_scene(scene->m_stamps, scene->m_mesh, at, error)) {
+        error = with_location(recipe, at, chain, error);
+        return nullptr;
+    }
+    // The map may have been resized since.
+    scene->m_map = scene->m_mesh.vismap_params;
+    scene->m_map.width = vismap.width;
+    scene->m_map.height = vismap.height;
+    scene->m_key = format("{}{}x{}\n{}\n", scene->m_stamps.key, vismap.width, vismap.height, scene->m_hash);
+    scene->m_mesh.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
+        scene->m_key += std::string(name) + "=" + value_text(value, allowed) + "\n";
+    });
+    return scene;
+}
+
+bool MapScene::prepare(const MakeOptions& options, std::string& error)
+{
+    return m_prepare.run([&](std::string& reason) { return read(options, reason); }, error);
+}
+
+bool MapScene::read(const MakeOptions& options, std::string& error)
+{
+    BakeScenePointer scene;
+    std::string at;
+    if (!share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error, options.steps())) {
+        error = with_location(m_recipe, at, options.chain, error);
+        return false;
+    }
+    const bool other_mesh = !m_hash.empty() && scene->mesh_hash() != m_hash;
+    if (other_mesh || (!m_hash.empty() && scene->occluder_hashes() != m_occluder_hashes)) {
+        error = with_location(m_recipe, other_mesh ? "mesh" : "occluder", options.chain,
+                              format("\"{}\": {} that \"{}\" was baked {}: {}",
+                                     other_mesh ? m_mesh.mesh : m_recipe.vismap,
+                                     other_mesh ? "not the mesh" : "the occluders are not those", m_recipe.vismap,
+                                     other_mesh ? "from" : "with",
+                                     other_mesh ? "give that one, or bake the map again"
+                                                : "give each with --occluder, in the same order"));
+        return false;
+    }
+    if (!m_normal_map.empty()) {
+        error = with_location(m_recipe, "vismap", options.chain,
+                              format("\"{}\": baked with the normal map \"{}\", which traced light needs too; light "
+                                     "its recipe instead",
+                                     m_recipe.vismap, m_normal_map));
+        return false;
+    }
+    VismapRecipe sized = m_mesh;
+    sized.vismap_params = m_map;
+    std::vector<std::string> ignored;
+    if (!read_normal_map(m_normals, sized, { scene, &scene->mesh() }, options.threads, ignored, ignored, error)) {
+        error = with_location(m_recipe, "vismap", options.chain, error);
+        return false;
+    }
+    m_scene = std::move(scene);
+    return true;
+}
+
+} // namespace vmlight

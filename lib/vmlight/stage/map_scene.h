@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The meshes that a visibility map was baked from, found again to trace light on its texels.
+#pragma once
+
+#include <vmlight/base/once_cache.h>
+#include <vmlight/stage/make_options.h>
+#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/normal_map.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <memory>
+#include <string>
+
+namespace vmlight {
+
+class MapScene
+{
+public:
+    /// Find the meshes: those of the recipe of the visibility map, or the recipe's own `mesh` and `occluder`, read as
+    /// the metadata of the map say. Reads no mesh.
+    ///
+    /// @param recipe   with its UDIM tile resolved
+    /// @param vismap   the header of the visibility map
+    /// @returns nullptr, with the location and reason in `error`, if a file is missing, or the map is only a part of
+    /// one
+    static std::shared_ptr<MapScene> open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
+                                          std::string& error, const RecipeChain& chain);
+
+    /// Whether there is a mesh: a file of a map does not say where its own is.
+    bool has_mesh() const { return !m_mesh.mesh.empty(); }
+    /// Equal keys, equal scenes and texels.
+    const std::string& key() const { return m_key; }
+    /// Pixels of the map.
+    const OIIO::ROI& roi() const { return m_roi; }
+
+    /// Read and build them, once. False, with the location and reason in `error`, if a mesh cannot be read or is not
+    /// the one that was baked, or memory runs out.
+    bool prepare(const MakeOptions& options, std::string& error);
+    bool failed() const { return m_prepare.failed(); }
+
+    /// After prepare().
+    const BakeScenePointer& scene() const { return m_scene; }
+    const NormalMapPointer& normal_map() const { return m_normals; }
+    /// The bake, with the map's own size.
+    const VismapParams& params() const { return m_map; }
+    /// Of which the meshes are.
+    const VismapRecipe& recipe() const { return m_mesh; }
+
+private:
+    bool read(const MakeOptions& options, std::string& error);
+
+    LightmapRecipe m_recipe;
+    VismapRecipe m_mesh; ///< what to trace on
+    VismapParams m_map; ///< its texels
+    OIIO::ROI m_roi;
+    std::string m_normal_map; ///< of a stored map that was baked with one
+    std::string m_hash, m_occluder_hashes; ///< of the meshes that were baked; "" if unknown
+    SceneStamps m_stamps;
+    std::string m_key;
+    RunOnce m_prepare;
+    BakeScenePointer m_scene;
+    NormalMapPointer m_normals;
+};
+
+} // namespace vmlight

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/stage/point_albedo.h>
+
+#include <vmlight/base/work_counts.h>
+#include <vmlight/image/color.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/mesh/texture_wrap.h>
+#include <vmlight/stage/material_texture.h>
+#include <vmlight/uv/udim.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace vmlight {
+namespace {
+
+using Imath::V2d;
+using Imath::V3d;
+using Imath::V3f;
+
+// Cells are larger than details of a texture.
+constexpr int kMostTexels = 64;
+
+// A texture, as blocks of its mean colour.
+class ColorBlocks
+{
+public:
+    ColorBlocks(const OIIO::ImageBuf& image, const std::array<int, 3>& index, const MaterialTexture& texture)
+        : m_texture(texture)
+        , m_width(std::min(kMostTexels, image.spec().width))
+        , m_height(std::min(kMostTexels, image.spec().height))
+        , m_colors(size_t(m_width) * size_t(m_height))
+    {
+        std::vector<V3d> sums(m_colors.size(), V3d(0));
+        std::vector<double> counts(m_colors.size());
+        V3d sum(0);
+        double count = 0;
+        const OIIO::ImageSpec& spec = image.spec();
+        for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel) {
+            const int64_t x = int64_t(pixel.x() - spec.x) * m_width / spec.width,
+                          y = int64_t(pixel.y() - spec.y) * m_height / spec.height;
+            const size_t block = size_t(y * m_width + x);
+            const V3d color(pixel[index[0]], pixel[index[1]], pixel[index[2]]);
+            if (!std::isfinite(color.x + color.y + color.z))
+                continue;
+            sums[block] += color;
+            ++counts[block];
+            sum += color;
+            ++count;
+        }
+        m_mean = V3f(sum / std::max(1.0, count));
+        for (size_t i = 0; i < m_colors.size(); ++i)
+            m_colors[i] = counts[i] > 0 ? V3f(sums[i] / counts[i]) : m_mean;
+    }
+
+    V3f mean() const { return m_mean; }
+    V3f at(const V2d& uv) const
+    {
+        V2d st;
+        m_texture.uv_transform.multVecMatrix(uv, st);
+        if (!(std::abs(st.x) < 1e9 && std::abs(st.y) < 1e9))
+            return m_mean;
+        const int x = wrapped_texel(int64_t(std::floor(st.x * m_width)), m_width, wrap_of(m_texture.wrap_s));
+        const int y = wrapped_texel(int64_t(std::floor((1 - st.y) * m_height)), m_height, wrap_of(m_texture.wrap_t));
+        return m_colors[size_t(y) * size_t(m_width) + size_t(x)];
+    }
+
+private:
+    MaterialTexture m_texture;
+    int m_width, m_height;
+    std::vector<V3f> m_colors;
+    V3f m_mean { 0 };
+};
+
+struct MaterialColor
+{
+    V3f factor { 1 };
+    std::optional<ColorBlocks> texture;
+    bool has_uvs = false; // those of the texture are those that are read
+};
+
+V2d uv_of(const Mesh& mesh, const LightPoint& point)
+{
+    const auto& [a, b, c] = mesh.triangles[point.triangle];
+    const V2d first(mesh.uvs[a]);
+    return first + (V2d(mesh.uvs[b]) - first) * double(point.u) + (V2d(mesh.uvs[c]) - first) * double(point.v);
+}
+
+// White is what a material has that says nothing of its colour.
+bool has_color(const Material& material)
+{
+    const auto& color = material.base_color;
+    return material.base_color_texture.exists() || color.r != 1 || color.g != 1 || color.b != 1;
+}
+
+V3f non_negative(const V3f& color)
+{
+    return { std::max(0.0f, color.x), std::max(0.0f, color.y), std::max(0.0f, color.z) };
+}
+
+class CasterColors
+{
+public:
+    bool read(const std::string& path, const MeshParams& params, const ColorSettings& settings, const V3f& otherwise,
+              const MakeOptions& options, std::string& error)
+    {
+        ColorConversion convert;
+        ++work_counts().meshes_read;
+        if (!read_mesh(m_mesh, path, params, error) || !find_factor_conversion(convert, settings, error))
+            return false;
+        std::vector<bool> used(m_mesh.materials.size());
+        for (const uint32_t material : m_mesh.triangle_materials)
+            if (material < used.size())
+                used[material] = true;
+        m_otherwise = otherwise;
+        m_materials.resize(used.size());
+        for (size_t i = 0; i < used.size(); ++i) {
+            const Material& material = m_mesh.materials[i];
+            MaterialColor& color = m_materials[i];
+            if (!used[i])
+                continue;
+            if (!has_color(material)) {
+                color.factor = otherwise;
+                continue;
+            }
+            color.factor = { material.base_color.r, material.base_color.g, material.base_color.b };
+            if (convert)
+                convert(&color.factor.x, 1);
+            const MaterialTexture& texture = material.base_color_texture;
+            OIIO::ImageBuf image;
+            std::array<int, 3> index;
+            std::string reason = texture.missing;
+            if (texture.exists() && read_material_texture(image, index, texture, settings, options.threads, reason))
+                color.texture.emplace(image, index, texture);
+            else if (!reason.empty())
+                options.report_warning(reason + "; bounced light leaves the texture out");
+            color.has_uvs = texture.uv_set == params.uv_set && !m_mesh.uvs.empty();
+        }
+        return true;
+    }
+
+    V3f at(const LightPoint& point) const
+    {
+        const size_t triangle = point.triangle;
+        const uint32_t material
+            = triangle < m_mesh.triangle_materials.size() ? m_mesh.triangle_materials[triangle] : ~0u;
+        if (material >= m_materials.size())
+            return m_otherwise;
+        const MaterialColor& color = m_materials[material];
+        if (!color.texture)
+            return non_negative(color.factor);
+        return non_negative(color.factor
+                            * (color.has_uvs ? color.texture->at(uv_of(m_mesh, point)) : color.texture->mean()));
+    }
+
+private:
+    Mesh m_mesh;
+    V3f m_otherwise { 0 };
+    std::vector<MaterialColor> m_materials;
+};
+
+// The texel, in a map of the tile, that a point of the mesh has its uvs in; or `outside`.
+int texel_of(const BakeScene& scene, const VismapParams& map, const LightPoint& point, int outside)
+{
+    if (&scene.whole() != &scene.mesh() || scene.mesh().uvs.empty())
+        return outside;
+    const V2d uv = uv_of(scene.mesh(), point) - V2d(udim_corner(map.udim));
+    const Size size = map.size();
+    const double x = uv.x * size.width, y = (1 - uv.y) * size.height;
+    if (!(x >= 0 && x < size.width && y >= 0 && y < size.height))
+        return outside;
+    return int(y) * size.width + int(x);
+}
+
+} // namespace
+
+bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& points, const LightmapRecipe& recipe,
+                       const std::string& space, const MakeOptions& options, std::string& error)
+{
+    const VismapRecipe& bake = scene.recipe();
+    // What is not chosen of the mesh may be an occluder before those of the recipe: its albedo is the mesh's.
+    const int before = int(scene.scene()->reach().size()) - int(bake.occluder.size());
+    const ColorSettings settings { recipe.colorconfig, "", OIIO::TypeUInt8, space };
+    const V3f ground(float(recipe.bounce_params.ground_albedo)), otherwise(float(recipe.bounce_params.bounce_albedo));
+    std::vector<std::optional<CasterColors>> casters(bake.occluder.size());
+    m_colors.clear();
+    m_texels.clear();
+    for (const LightPoint& point : points) {
+        const int occluder = point.caster - before;
+        if (point.caster == LightPoint::kGround) {
+            m_colors.push_back(ground);
+            continue;
+        }
+        if (point.caster == BakeScene::kWhole || occluder < 0) {
+            m_texels.push_back(
+                point.caster == BakeScene::kWhole ? texel_of(*scene.scene(), scene.params(), point, kMean) : kMean);
+            continue;
+        }
+        auto& caster = casters[size_t(occluder)];
+        if (!caster
+            && !caster.emplace().read(bake.occluder[size_t(occluder)], bake.mesh_params, settings, otherwise, options,
+                                      error))
+            return false;
+        m_colors.push_back(caster->at(point));
+    }
+    m_before = before;
+    return true;
+}
+
+void PointAlbedo::multiply(std::vector<float>& light, const std::vector<LightPoint>& points,
+                           const std::vector<float>& albedo, const OIIO::ROI& roi) const
+{
+    V3d mean(0);
+    const size_t texels = size_t(roi.width()) * size_t(roi.height());
+    for (size_t i = 0; i < texels && !m_texels.empty(); ++i)
+        mean += V3d(albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]) / double(texels);
+    auto color = m_colors.begin();
+    auto texel = m_texels.begin();
+    for (size_t i = 0; i < points.size(); ++i) {
+        const int caster = points[i].caster;
+        const bool is_mesh = caster == BakeScene::kWhole || (caster >= 0 && caster < m_before);
+        const int from = is_mesh ? *texel++ : kMean;
+        const V3f own = !is_mesh ? *color++
+            : from == kMean      ? V3f(mean)
+                            : V3f(albedo[3 * size_t(from)], albedo[3 * size_t(from) + 1], albedo[3 * size_t(from) + 2]);
+        for (size_t c = 0; c < 3; ++c)
+            light[3 * i + c] *= own[int(c)];
+    }
+}
+
+} // namespace vmlight

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The albedo of points that light the texels of a map: of the mesh, its occluders and the ground.
+#pragma once
+
+#include <vmlight/stage/make_options.h>
+#include <vmlight/stage/map_scene.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/vismap/light_cells.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <Imath/ImathVec.h>
+
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+class PointAlbedo
+{
+public:
+    /// Find the albedo of all `points` but those of the mesh: base colours of occluders are those of their files, with
+    /// the mean of their textures; where a file has none, and for what cannot be read, it is the recipe's
+    /// `bounce_albedo`. Reads each occluder that has points again.
+    ///
+    /// @param space    interop id of the light's space
+    /// @returns false, with the reason in `error`, if an occluder cannot be read, or a colour not be converted
+    bool read(const MapScene& scene, const std::vector<LightPoint>& points, const LightmapRecipe& recipe,
+              const std::string& space, const MakeOptions& options, std::string& error);
+
+    /// Multiply `light`, three floats for each of `points`. Those of the mesh have the albedo of the texel that their
+    /// uvs are in, or the mean over the map where that is another part or tile.
+    ///
+    /// @param albedo   of the texels of `roi`, three floats each
+    void multiply(std::vector<float>& light, const std::vector<LightPoint>& points, const std::vector<float>& albedo,
+                  const OIIO::ROI& roi) const;
+
+private:
+    static constexpr int kMean = -1;
+    std::vector<Imath::V3f> m_colors; // of points that are not of the mesh, in their order
+    int m_before = 0; // occluders that are parts of the mesh
+    std::vector<int> m_texels; // of those that are: the index of a texel, or kMean
+};
+
+} // namespace vmlight

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/bounce_rays.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+
+using Imath::V3f;
+
+namespace {
+
+// Other directions than those of V, whose error is another then.
+constexpr uint32_t kOtherSeed = 0x9e3779b9u;
+
+} // namespace
+
+BounceRays::BounceRays(const MapPoints& map, const MapPatches& patches, const SamplePattern& pattern,
+                       const GroundPlane& ground, bool ground_reflects)
+    : m_map(map)
+    , m_patches(patches)
+    , m_pattern(pattern)
+    , m_ground(ground)
+    , m_ground_reflects(ground_reflects)
+    , m_length(float(map.params().max_distance * map.scene().frame().scale))
+    , m_fan(pattern.count())
+{
+}
+
+BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met)
+{
+    const Point32 hash = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_map.params().seed) ^ kOtherSeed);
+    const bool is_mapped = point.normal != point.mesh_normal;
+    m_pattern.directions(m_fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, hash);
+    const float lowest = m_ground.lowest_ray(point);
+    const double height = m_ground.exists() ? m_ground.height_of(point) : 0;
+    Count count;
+    for (int ray = 0; ray < m_pattern.count(); ++ray) {
+        if (!(m_fan.lanes[size_t(ray / kPacketSize)] >> ray % kPacketSize & 1))
+            continue;
+        const V3f direction(m_fan.x[ray], m_fan.y[ray], m_fan.z[ray]);
+        const bool is_below = is_mapped && direction.dot(point.geometric_normal) <= 0;
+        if (is_below && direction.dot(point.mesh_normal) > 0) // an error of the mesh's normal: as in the bake
+            continue;
+        ++count.all;
+        const bool ends_on_ground = direction.y < lowest;
+        if (is_below || (ends_on_ground && !(height > 0))) {
+            ++count.blocked;
+            if (is_below) // the surface meets itself
+                met.push_back(m_patches.of_texel(texel));
+            else if (m_ground_reflects && height == 0)
+                met.push_back(kCell | m_cells.add({}, point.near_origin, V3f(0, 1, 0), 0));
+            continue;
+        }
+        m_origins[size_t(m_waiting)] = point.origin;
+        m_directions[size_t(m_waiting)] = direction;
+        m_lengths[size_t(m_waiting)] = ends_on_ground ? float(height / -double(direction.y)) : m_length;
+        m_ends_on_ground[size_t(m_waiting)] = ends_on_ground;
+        if (++m_waiting == kPacketSize)
+            flush(point, count, met);
+    }
+    flush(point, count, met);
+    return count;
+}
+
+void BounceRays::flush(const SurfacePoint& point, Count& count, std::vector<uint32_t>& met)
+{
+    if (m_waiting == 0)
+        return;
+    m_map.scene().occluder().find_nearest(m_origins.data(), m_directions.data(), m_lengths.data(), m_waiting,
+                                          m_hits.data());
+    m_rays += m_waiting;
+    for (size_t i = 0; i < size_t(m_waiting); ++i) {
+        const bool hits = m_hits[i].exists();
+        count.blocked += hits || m_ends_on_ground[i];
+        if (hits)
+            meet(point, m_directions[i], m_hits[i], met);
+        else if (m_ends_on_ground[i] && m_ground_reflects)
+            met.push_back(kCell
+                          | m_cells.add({}, point.origin + m_directions[i] * m_lengths[i], V3f(0, 1, 0), m_lengths[i]));
+    }
+    m_waiting = 0;
+}
+
+void BounceRays::meet(const SurfacePoint& point, const V3f& direction, const NearestHit& hit,
+                      std::vector<uint32_t>& met)
+{
+    const BakeScene& scene = m_map.scene();
+    const int caster = scene.casters()[hit.mesh];
+    if (caster == BakeScene::kWhole) {
+        const Mesh& mesh = scene.whole();
+        const bool is_front = surface_normal(mesh, mesh.triangles[hit.triangle]).dot(Imath::V3d(direction)) < 0;
+        const uint32_t patch = is_front ? m_patches.find(hit.triangle, hit.u, hit.v) : MapPatches::kNone;
+        if (patch != MapPatches::kNone) {
+            met.push_back(patch);
+            return;
+        }
+    }
+    V3f normal = hit.normal.normalized();
+    if (!(normal.length2() > 0.5f)) // a triangle without area
+        return;
+    normal = normal.dot(direction) > 0 ? -normal : normal;
+    met.push_back(kCell
+                  | m_cells.add({ caster, hit.triangle, hit.u, hit.v, {} }, point.origin + direction * hit.distance,
+                                normal, hit.distance));
+}
+
+} // namespace vmlight

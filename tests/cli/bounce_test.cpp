@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounced light on the command line.
+#include "command_test.h"
+
+#include <vmlight/base/work_counts.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <array>
+#include <cmath>
+
+using namespace vmlight;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+class Bounce : public CommandTest
+{
+protected:
+    // A floor and a wall as long as 20 of their heights, each over one half of the map; a sky of 1, and albedos.
+    Bounce()
+    {
+        write("corner.obj",
+              "v 0 0 10\nv 1 0 10\nv 1 0 -10\nv 0 0 -10\nv 0 1 10\nv 0 1 -10\n"
+              "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nvt 1 0\nvt 1 1\nvn 0 1 0\nvn 1 0 0\n"
+              "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/2/2 4/3/2 6/6/2 5/5/2\n");
+        write("floor.obj",
+              "v 0 0 10\nv 1 0 10\nv 1 0 -10\nv 0 0 -10\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 1 0\n"
+              "f 1/1/1 2/2/1 3/3/1 4/4/1\n");
+        write("wall.obj", "v 0 0 10\nv 0 0 -10\nv 0 1 -10\nv 0 1 10\nf 1 2 3 4\n");
+        write("corner.vismap", "mesh = \"corner.obj\"\nresolution = 64\nsamples = 256\nmargin = 2\n");
+        write("shaded.vismap", "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 256\n");
+        make_sky({ 1, 1, 1 });
+        make_sky({ 1, 1, 1 }, "white.exr", 64, 64);
+        make_sky({ 0, 0, 0 }, "black.exr", 64, 64);
+        OIIO::ImageBuf halves(OIIO::ImageSpec(64, 64, 3, OIIO::TypeFloat)); // a red floor and a white wall
+        for (OIIO::ImageBuf::Iterator<float> p(halves); !p.done(); ++p)
+            p[0] = 1, p[1] = p[2] = p.x() < 32 ? 0 : 1;
+        EXPECT_TRUE(halves.write(path("red_floor.exr"))) << halves.geterror();
+    }
+
+    // Of the middle row.
+    float value(const std::string& name, int x, int channel = 0) const
+    {
+        return pixels(name).values[3 * (32 * 64 + size_t(x)) + size_t(channel)];
+    }
+};
+
+// What a floor gets at a distance from a wall as high as it is wide, both white: from the sky, and from the wall. In
+// two dimensions, by quadrature.
+struct WhiteCorner
+{
+    double direct, bounced = 0;
+
+    explicit WhiteCorner(double x)
+        : direct(1 - hidden(x))
+    {
+        constexpr int n = 2000;
+        for (int i = 0; i < n; ++i) {
+            const double h = (i + 0.5) / n;
+            bounced += (1 - hidden(h)) * 0.5 * x * h / std::pow(x * x + h * h, 1.5) / n;
+        }
+    }
+    static double hidden(double x) { return 0.5 * (1 - x / std::sqrt(x * x + 1)); }
+};
+
+} // namespace
+
+TEST_F(Bounce, AWhiteCornerGetsWhatRadiositySays)
+{
+    EXPECT_THAT(done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto -o lit.exr"),
+                HasSubstr("bounce: "));
+    done("makelightmap corner.vismap sky.exr --albedo white.exr -o plain.exr");
+    for (int x = 0; x < 64; ++x) {
+        const WhiteCorner wanted((x % 32 + 0.5) / 32);
+        EXPECT_NEAR(value("lit.exr", x), wanted.direct + wanted.bounced, 0.03) << x;
+        EXPECT_NEAR(value("lit.exr", x) - value("plain.exr", x), wanted.bounced, 0.03) << x;
+    }
+}
+
+TEST_F(Bounce, ColoursBleed)
+{
+    done("makelightmap corner.vismap sky.exr --albedo red_floor.exr --bounce auto -o lit.exr");
+    done("makelightmap corner.vismap sky.exr --albedo red_floor.exr -o plain.exr");
+    for (const int x : { 36, 40, 50, 60 }) { // the wall gets the red of the floor alone
+        EXPECT_GT(value("lit.exr", x), 1.05f * value("plain.exr", x)) << x;
+        EXPECT_EQ(value("lit.exr", x, 1), value("plain.exr", x, 1)) << x;
+        EXPECT_EQ(value("lit.exr", x, 2), value("plain.exr", x, 2)) << x;
+    }
+    EXPECT_EQ(value("lit.exr", 10, 1), 0);
+}
+
+TEST_F(Bounce, WithoutBeingAskedForItCostsNothing)
+{
+    const int64_t rays = work_counts().bounce_rays, made = work_counts().bounces_made;
+    const int64_t meshes = work_counts().meshes_read;
+    done("makevismap corner.vismap -o vm.exr");
+    done("makevismap floor.obj --resolution 64 -o open.exr");
+    const int64_t baked = work_counts().meshes_read;
+    EXPECT_EQ(baked, meshes + 2);
+    done("makelightmap vm.exr sky.exr --albedo white.exr -o plain.exr");
+    done("makelightmap vm.exr sky.exr --bounce auto --mesh corner.obj -o unasked.exr");
+    EXPECT_THAT(done("makelightmap vm.exr sky.exr --albedo black.exr --bounce auto --mesh corner.obj -o black_lit.exr"),
+                HasSubstr("bounce: none, as the albedo is 0"));
+    EXPECT_THAT(done("makelightmap open.exr sky.exr --albedo white.exr --bounce auto --mesh floor.obj -o open_lit.exr"),
+                HasSubstr("bounce: none, as no texel sees a surface"));
+    done("makelightmap vm.exr sky.exr --albedo white.exr --bounce auto --effects -bounce -o off.exr");
+    EXPECT_EQ(work_counts().bounce_rays, rays);
+    EXPECT_EQ(work_counts().bounces_made, made);
+    EXPECT_EQ(work_counts().meshes_read, baked);
+    expect_same_pixels("plain.exr", "off.exr", 0);
+    EXPECT_EQ(attribute("plain.exr", "vmlight:bounce"), "");
+}
+
+TEST_F(Bounce, SaysWhyItIsOnOrOff)
+{
+    const std::string light = "makelightmap corner.vismap sky.exr -o lit.exr --explain ";
+    EXPECT_THAT(done(light), HasSubstr("not asked for: --bounce auto adds it"));
+    EXPECT_THAT(done(light + "--bounce auto"), HasSubstr("no albedo is given"));
+    EXPECT_THAT(done(light + "--bounce auto --albedo white.exr"), HasSubstr("64 rays a texel"));
+    EXPECT_EQ(attribute("lit.exr", "vmlight:bounce"), "auto");
+    refused(1, "+bounce is impossible: not asked for", light + "--albedo white.exr --effects +bounce");
+    refused(2, "set --bounce auto", "makelightmap corner.vismap sky.exr -o lit.exr --bounce-rays 32");
+}
+
+TEST_F(Bounce, AFileOfTheMapNeedsItsMesh)
+{
+    done("makevismap shaded.vismap -o vm.exr");
+    const std::string light = " sky.exr --albedo white.exr --bounce auto ";
+    done("makelightmap shaded.vismap" + light + "-o a.exr");
+    done("makelightmap vm.exr" + light + "--mesh floor.obj --occluder wall.obj -o b.exr");
+    expect_same_pixels("a.exr", "b.exr", 0);
+    refused(1, "does not say where its mesh is", "makelightmap vm.exr" + light + "-o c.exr");
+    refused(1, "not the mesh that", "makelightmap vm.exr" + light + "--mesh corner.obj --occluder wall.obj -o c.exr");
+}
+
+TEST_F(Bounce, OccludersWithoutAColourHaveTheAlbedoThatIsGiven)
+{
+    const std::string light = "makelightmap shaded.vismap sky.exr --albedo white.exr ";
+    done(light + "-o plain.exr");
+    done(light + "--bounce auto --bounce-albedo 1 -o white_wall.exr");
+    done(light + "--bounce auto -o grey_wall.exr");
+    done(light + "--bounce auto --bounce-albedo 0 -o black_wall.exr");
+    expect_same_pixels("plain.exr", "black_wall.exr", 0);
+    for (const int x : { 2, 8, 20, 40 }) {
+        const WhiteCorner wanted((x + 0.5) / 64);
+        const float plain = value("plain.exr", x), added = value("white_wall.exr", x) - plain;
+        EXPECT_NEAR(value("grey_wall.exr", x) - plain, 0.5f * added, 1e-5f) << x;
+        EXPECT_NEAR(added, wanted.bounced, 0.03) << x;
+    }
+    // One with a colour has that.
+    write("wall.mtl", "newmtl paint\nKd 0.2 0.4 0.8\n");
+    write("wall.obj", "mtllib wall.mtl\nusemtl paint\nv 0 0 10\nv 0 0 -10\nv 0 1 -10\nv 0 1 10\nf 1 2 3 4\n");
+    done(light + "--bounce auto -o paint.exr");
+    const std::array<float, 3> paint { 0.2f, 0.4f, 0.8f };
+    for (int c = 0; c < 3; ++c) {
+        const float plain = value("plain.exr", 8, c);
+        EXPECT_NEAR(value("paint.exr", 8, c) - plain, paint[size_t(c)] * (value("white_wall.exr", 8, c) - plain),
+                    0.002f);
+    }
+}
+
+TEST_F(Bounce, ExposureAndFramesKeepWhatIsTraced)
+{
+    const int64_t before = work_counts().bounce_rays;
+    done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto -o lit.exr");
+    const int64_t once = work_counts().bounce_rays - before;
+    EXPECT_GT(once, 0);
+    done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto --frames 1-5 --rotate-y 0:40 -o f.#.exr");
+    EXPECT_EQ(work_counts().bounce_rays - before, 2 * once);
+    expect_same_pixels("lit.exr", "f.3.exr", 1e-5f); // of a constant sky
+    done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto --exposure 2 -o bright.exr");
+    const Pixels lit = pixels("lit.exr"), bright = pixels("bright.exr");
+    for (size_t i = 0; i < lit.values.size(); ++i)
+        ASSERT_NEAR(bright.values[i], 4 * lit.values[i], 1e-5f * bright.values[i]);
+}
+
+TEST_F(Bounce, EveryModelHasIt)
+{
+    done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto -o lit.exr");
+    for (const char* basis : { "sh", "mask", "cells" }) {
+        done(std::string("makevismap corner.vismap --channels normal --basis ") + basis + " -o vm.exr");
+        for (const char* model : { "paper", "lobe", "ao", basis }) {
+            done(std::string("makelightmap vm.exr sky.exr --mesh corner.obj --albedo white.exr --bounce auto --model ")
+                 + model + " -o model.exr");
+            for (const int x : { 2, 10, 30, 34, 50, 62 })
+                EXPECT_NEAR(value("model.exr", x), value("lit.exr", x), 0.03) << basis << " " << model << " " << x;
+        }
+    }
+}
+
+TEST_F(Bounce, ASunBouncesToo)
+{
+    // From the right and above: it lights the wall, and the floor; the wall lights the floor more than the sky alone
+    // would have it.
+    OIIO::ImageBuf sky(OIIO::ImageSpec(512, 256, 3, OIIO::TypeFloat));
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 512; ++x) {
+            const bool sun = (x == 127 || x == 128) && (y == 63 || y == 64);
+            const float value = sun ? 1e4f : 1, rgb[3] { value, value, value };
+            sky.setpixel(x, y, rgb);
+        }
+    ASSERT_TRUE(sky.write(path("sunny.exr"))) << sky.geterror();
+    const std::string light = "makelightmap corner.vismap sunny.exr --suns auto --albedo white.exr ";
+    done(light + "-o plain.exr");
+    done(light + "--bounce auto -o lit.exr");
+    const double flux = 1e4 * 4 * std::pow(M_PI / 256, 2) * std::sin(M_PI / 4) / M_PI, sun = flux * std::sin(M_PI / 4);
+    // The wall is evenly lit by the sun: floor texels get its light times what they see of the wall.
+    for (const int x : { 4, 12, 24 }) {
+        const double at = (x + 0.5) / 32;
+        const WhiteCorner wanted(at);
+        EXPECT_NEAR(value("lit.exr", x) - value("plain.exr", x), wanted.bounced + sun * WhiteCorner::hidden(at),
+                    0.03 * (1 + sun))
+            << x;
+    }
+    // An occluder's points see the sun as well.
+    done("makelightmap shaded.vismap sunny.exr --suns auto --albedo white.exr -o plain.exr");
+    done("makelightmap shaded.vismap sunny.exr --suns auto --albedo white.exr --bounce auto --bounce-albedo 1 "
+         "-o lit.exr");
+    for (const int x : { 8, 24, 48 }) {
+        const double at = (x + 0.5) / 64;
+        const WhiteCorner wanted(at);
+        EXPECT_NEAR(value("lit.exr", x) - value("plain.exr", x), wanted.bounced + sun * WhiteCorner::hidden(at),
+                    0.03 * (1 + sun))
+            << x;
+    }
+}
+
+TEST_F(Bounce, ARecipeKeepsIt)
+{
+    done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto --ground-albedo 0.25 -o hero.lightmap");
+    EXPECT_THAT(read("hero.lightmap"), HasSubstr("bounce = \"auto\""));
+    EXPECT_THAT(read("hero.lightmap"), HasSubstr("ground_albedo = 0.25"));
+    done("makelightmap hero.lightmap -o a.exr");
+    done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto --ground-albedo 0.25 -o b.exr");
+    expect_same_pixels("a.exr", "b.exr", 0);
+}

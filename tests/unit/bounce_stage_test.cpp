@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounced light through recipes: what a host reads tile by tile is what the executables make.
+#include "stage_scene.h"
+
+#include <vmlight/stage/make_stage.h>
+
+#include <thread>
+
+using namespace vmlight;
+using namespace vmlight::stage_scene;
+
+namespace {
+
+// The cow, which lights itself, on a ground, with an albedo of noise.
+class BounceFolder : public Folder
+{
+public:
+    BounceFolder()
+    {
+        OIIO::ImageBuf albedo(OIIO::ImageSpec(64, 48, 3, OIIO::TypeFloat));
+        OIIO::ImageBufAlgo::noise(albedo, "uniform", 0.0f, 1.0f, false, 3);
+        EXPECT_TRUE(albedo.write(*this / "paint.exr")) << albedo.geterror();
+        write("ground.vismap", "mesh = \"spot.obj\"\nresolution = [200, 150]\nsamples = 16\nground = true\n");
+        write("plain.lightmap", "vismap = \"ground.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"paint.exr\"\n");
+        write("bounced.lightmap",
+              "vismap = \"ground.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"paint.exr\"\nbounce = \"auto\"\n"
+              "ground_albedo = 0.4\nrotate = [0, 30, 0]\nexposure = 0.7\n");
+    }
+    OIIO::ImageBuf made(const std::string& name, int threads = 0) const
+    {
+        LightmapRecipe recipe;
+        std::string error;
+        EXPECT_TRUE(read_recipe(recipe, *this / name, error)) << error;
+        MakeOptions options;
+        options.chain = { *this / name };
+        options.threads = threads;
+        OIIO::ImageBuf image;
+        EXPECT_TRUE(make_image(image, recipe, options)) << image.geterror();
+        return image;
+    }
+};
+
+} // namespace
+
+TEST(BounceStage, AHostReadsWhatTheExecutablesMake)
+{
+    const BounceFolder folder;
+    const std::vector<float> whole = all_pixels(folder.made("bounced.lightmap"));
+    EXPECT_EQ(all_pixels(folder.made("bounced.lightmap", 1)), whole);
+    const auto host = OIIO::ImageInput::open(folder / "bounced.lightmap");
+    ASSERT_TRUE(host) << OIIO::geterror();
+    EXPECT_EQ(all_pixels(*host), whole);
+    EXPECT_EQ(host->spec().get_string_attribute("vmlight:bounce"), "auto");
+    for (const float value : whole)
+        ASSERT_TRUE(std::isfinite(value));
+}
+
+TEST(BounceStage, TilesShareOneTrace)
+{
+    const BounceFolder folder;
+    const std::vector<float> whole = all_pixels(folder.made("bounced.lightmap"));
+    const int64_t before = work_counts().bounces_made;
+    const auto input = OIIO::ImageInput::open(folder / "bounced.lightmap");
+    ASSERT_TRUE(input) << OIIO::geterror();
+    std::vector<std::thread> threads;
+    for (int k = 0; k < 4; ++k)
+        threads.emplace_back([&] {
+            const auto own = OIIO::ImageInput::open(folder / "bounced.lightmap");
+            EXPECT_EQ(all_pixels(*own), whole);
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(work_counts().bounces_made, before + 1);
+}
+
+TEST(BounceStage, NoKeyNoWork)
+{
+    const BounceFolder folder;
+    const int64_t rays = work_counts().bounce_rays, made = work_counts().bounces_made;
+    const std::vector<float> plain = all_pixels(folder.made("plain.lightmap"));
+    const auto host = OIIO::ImageInput::open(folder / "plain.lightmap");
+    ASSERT_TRUE(host) << OIIO::geterror();
+    EXPECT_EQ(all_pixels(*host), plain);
+    EXPECT_EQ(host->spec().find_attribute("vmlight:bounce"), nullptr);
+    EXPECT_EQ(work_counts().bounce_rays, rays);
+    EXPECT_EQ(work_counts().bounces_made, made);
+}
+
+TEST(BounceStage, WhateverTheAlbedoLightIsFinite)
+{
+    const BounceFolder folder;
+    for (const float value : { 0.0f, 1e-30f, 1.0f, 50.0f }) {
+        OIIO::ImageBuf albedo(OIIO::ImageSpec(8, 8, 3, OIIO::TypeFloat));
+        const float rgb[3] { value, value, value };
+        OIIO::ImageBufAlgo::fill(albedo, rgb);
+        ASSERT_TRUE(albedo.write(folder / "paint.exr")) << albedo.geterror();
+        for (const float light : all_pixels(folder.made("bounced.lightmap")))
+            ASSERT_TRUE(std::isfinite(light) && light >= 0) << value;
+    }
+}
+
+TEST(BounceStage, WorkCanBeStopped)
+{
+    const BounceFolder folder;
+    LightmapRecipe recipe;
+    std::string error;
+    ASSERT_TRUE(read_recipe(recipe, folder / "bounced.lightmap", error)) << error;
+    MakeOptions options;
+    bool was_asked = false;
+    options.progress = [&](const std::string& step, int64_t) {
+        const bool stops = step == "bounce";
+        was_asked |= stops;
+        return Progress([stops](double) { return !stops; });
+    };
+    OIIO::ImageBuf image;
+    EXPECT_FALSE(make_image(image, recipe, options));
+    EXPECT_TRUE(was_asked);
+    EXPECT_NE(image.geterror().find("interrupted"), std::string::npos);
+}
