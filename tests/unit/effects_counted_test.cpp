@@ -109,7 +109,7 @@ Mesh cut(const Mesh& mesh, float alpha)
         mesh, cutout_scene::material(AlphaMode::mask, cutout_scene::texture(4, 4, [&](int, int) { return alpha; })));
 }
 
-struct Case
+struct IdleCase
 {
     const char* name;
     std::function<void(BakeInputs&)> idle, called;
@@ -123,7 +123,7 @@ const Mesh& ball()
     return mesh;
 }
 
-std::vector<Case> cases()
+std::vector<IdleCase> idle_cases()
 {
     return {
         { "an occluder behind every horizon", [](auto& in) { in.occluders = { placed(ball(), 1, V3d(-0.5, 0, -2)) }; },
@@ -151,7 +151,7 @@ TEST(EffectsCounted, WhatChangesNothingCostsNothingInABake)
     const CountedBake least = work_of(plain(), without);
     EXPECT_GT(least.rays, 0);
     EXPECT_EQ(least.hits + least.lookups + least.tangents + least.margin, 0);
-    for (const Case& one : cases()) {
+    for (const IdleCase& one : idle_cases()) {
         BakeInputs idle = plain(), called = plain();
         one.idle(idle);
         EXPECT_EQ(work_of(idle, with), least) << one.name;

@@ -22,14 +22,14 @@ using namespace scene;
 
 namespace {
 
-constexpr float kColor[3] { 0.3f, 1.7f, 123.456f };
+constexpr float kLightColor[3] { 0.3f, 1.7f, 123.456f };
 
 ImageBuf one_color(int width, int height)
 {
     ImageSpec spec(width, height, 3, OIIO::TypeFloat);
     spec.channelnames = { "R", "G", "B" };
     ImageBuf image(spec);
-    OIIO::ImageBufAlgo::fill(image, { kColor[0], kColor[1], kColor[2] });
+    OIIO::ImageBufAlgo::fill(image, { kLightColor[0], kLightColor[1], kLightColor[2] });
     return image;
 }
 
@@ -105,9 +105,9 @@ TEST(EffectsLight, AFilterLeavesOneColourAsItIs)
                 std::string error;
                 ASSERT_TRUE(make_cfem(cfem, env, params)) << cfem.geterror();
                 ASSERT_TRUE(make_cfem_stack(stack, env, params, error)) << error;
-                expect_all(cfem, kColor[0], kColor[1], kColor[2]);
+                expect_all(cfem, kLightColor[0], kLightColor[1], kLightColor[2]);
                 for (const ImageBuf& image : stack)
-                    expect_all(image, kColor[0], kColor[1], kColor[2]);
+                    expect_all(image, kLightColor[0], kLightColor[1], kLightColor[2]);
                 EXPECT_EQ(before.since().passes, skip ? 0 : 5) << filter;
             }
 }
@@ -153,7 +153,7 @@ TEST(EffectsLight, EveryModelGivesVTimesOneColour)
         ASSERT_TRUE(make_model_light(exact, one_color(32, 16), filter, entry.light, error)) << error;
         ASSERT_TRUE(make_model_light(near, nearly_one_color(32, 16), filter, entry.light, error)) << error;
         // The other way: looked up, where no two directions see quite the same.
-        pixels(near[0])[0] = std::nextafter(pixels(near[0])[0], 2 * kColor[0]);
+        pixels(near[0])[0] = std::nextafter(pixels(near[0])[0], 2 * kLightColor[0]);
         ImageBuf lit, forced, other;
         const LightWorkDone before;
         ASSERT_TRUE(make_lightmap(lit, map, exact, params)) << entry.name << ": " << lit.geterror();
@@ -171,7 +171,7 @@ TEST(EffectsLight, EveryModelGivesVTimesOneColour)
                 forced.getpixel(x, y, 0, q, 3);
                 other.getpixel(x, y, 0, r, 3);
                 for (int c = 0; c < 3; ++c) {
-                    EXPECT_EQ(p[c], 2 * v * kColor[c]) << entry.name;
+                    EXPECT_EQ(p[c], 2 * v * kLightColor[c]) << entry.name;
                     EXPECT_EQ(p[c], q[c]) << entry.name;
                     EXPECT_NEAR(p[c], r[c], 2e-5 * double(p[c])) << entry.name;
                 }

@@ -57,7 +57,7 @@ struct CfemParams
 /// @param env      a lat-long map of any size from 1x1, with channels R, G, B or a single one, in linear light. The
 ///                 display window spans the sphere. Pixels are constant over their area, or, if the file has
 ///                 `oiio:sampleborder`, samples whose first and last rows and columns are on the poles and the seam.
-///                 Read row by row, once.
+///                 Read row by row: once, after a look at the first rows that ends at a second colour.
 /// @param params   `exact` (the default) integrates each row of the environment in closed form along longitude and
 ///                 by Gauss quadrature along latitude: no ringing, nothing below 0, energy preserved. Measured error,
 ///                 relative to the map's mean: below 1e-5 on photographed maps, below 5e-5 with a sun of one pixel. Its
