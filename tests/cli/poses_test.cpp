@@ -61,7 +61,7 @@ TEST_F(Poses, FramesKeepWhatDoesNotChange)
     EXPECT_EQ(read("vm.0001.exr"), read("alone.0001.exr"));
     EXPECT_EQ(attribute("vm.0001.exr", "vmlight:pose_base"), "");
     EXPECT_EQ(attribute("vm.0003.exr", "vmlight:pose_base"), "frame 1");
-    EXPECT_EQ(attribute("vm.0003.exr", "vmlight:pose_error"), "0.01");
+    EXPECT_EQ(attribute("vm.0003.exr", "vmlight:pose_error"), "0.02");
     EXPECT_EQ(attribute("vm.0003.exr", "vmlight:mesh"), "lid.0003.obj");
     EXPECT_NE(read("vm.0003.exr"), read("alone.0003.exr"));
     // Proof alone: the same pixels.
@@ -86,7 +86,7 @@ TEST_F(Poses, AnotherPoseIsComparedBeforeTheBake)
     const std::string said
         = done(std::string("makevismap lid.0001.obj --pose lid.0002.obj --pose lid.0003.obj -o vm.exr") + kFlags);
     EXPECT_THAT(said, HasSubstr("pose \"lid.0002.obj\": V changes by at most "));
-    EXPECT_THAT(said, HasSubstr(" % by more than 0.01 ("));
+    EXPECT_THAT(said, HasSubstr(" % by more than 0.02 ("));
     EXPECT_LT(said.find("lid.0003.obj"), said.find("bake:"));
     done(std::string("makevismap lid.0001.obj -o alone.exr") + kFlags);
     EXPECT_EQ(read("vm.exr"), read("alone.exr"));
@@ -114,14 +114,14 @@ TEST_F(Poses, OccludersMayBeWhatMoves)
     const Pixels kept = visibility("vm.2.exr"), whole = visibility("alone.exr");
     int beyond = 0;
     for (size_t i = 0; i < kept.values.size(); ++i)
-        beyond += std::abs(kept.values[i] - whole.values[i]) > 1.01f / 64; // one ray
+        beyond += std::abs(kept.values[i] - whole.values[i]) > 0.02f;
     EXPECT_LE(beyond, int(kept.values.size() / 100));
 }
 
 TEST_F(Poses, ExplainCountsThem)
 {
     EXPECT_THAT(done(std::string("makevismap lid.####.obj --frames 1-3 --explain -o vm.####.exr") + kFlags),
-                HasSubstr("3 poses; texels are traced again where V may change by more than 0.01"));
+                HasSubstr("3 poses; texels are traced again where V may change by more than 0.02"));
     EXPECT_THAT(done(std::string("makevismap lid.0001.obj --explain -o vm.exr") + kFlags),
                 HasSubstr("one pose is given"));
 }

@@ -121,7 +121,9 @@ TEST(EffectsDecide, ReasonsHaveTheNumbers)
     EXPECT_EQ(find(on, "cut-outs"),
               "12 triangles: 0 opaque, 0 transparent, 12 in part, where 10 % of the cells ask the texture");
     EXPECT_EQ(find(on, "max-distance"), "rays end after 3, and the scene is 10 across");
+    EXPECT_EQ(find(on, "poses"), "24 poses; texels are traced again where V may change by more than 0.01");
     const auto off = decided("vismap", nothing());
+    EXPECT_EQ(find(off, "poses"), "one pose is given");
     EXPECT_EQ(find(off, "self-occlusion"), "nothing rises above the tangent plane of any of 1000 triangles");
     EXPECT_EQ(find(off, "normal-map"), "it is flat: every normal stays as it is");
     EXPECT_EQ(find(off, "occluders"), "500 triangles, all below the tangent plane of each of 1000 triangles");
@@ -159,12 +161,12 @@ TEST(EffectsDecide, SwitchesOverrideOneByOne)
             states += decision.on ? '1' : '0';
         return states;
     };
-    // self-occlusion, occluders, ground, cut-outs, normal-map, max-distance, udim, margin, half
-    EXPECT_EQ(state("auto"), "000000000");
-    EXPECT_EQ(state("all"), "110010000") << "what is not given cannot be forced";
-    EXPECT_EQ(state("+occluders"), "010000000");
-    EXPECT_EQ(state("all,-occluders"), "100010000");
-    EXPECT_EQ(state(" auto , +self-occlusion "), "100000000");
+    // self-occlusion, occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half
+    EXPECT_EQ(state("auto"), "0000000000");
+    EXPECT_EQ(state("all"), "1100100000") << "what is not given cannot be forced";
+    EXPECT_EQ(state("+occluders"), "0100000000");
+    EXPECT_EQ(state("all,-occluders"), "1000100000");
+    EXPECT_EQ(state(" auto , +self-occlusion "), "1000000000");
 }
 
 TEST(EffectsDecide, WhatIsLeftOutThoughCalledForIsNamed)
@@ -176,13 +178,15 @@ TEST(EffectsDecide, WhatIsLeftOutThoughCalledForIsNamed)
 TEST(EffectsDecide, TheImpossibleIsRefused)
 {
     EXPECT_EQ(refusal(nothing(), "+ground"), "effects: +ground is impossible: no --ground is given");
+    EXPECT_EQ(refusal(nothing(), "+poses"),
+              "effects: +poses is impossible: one pose is given: give --frames or --pose");
     EXPECT_EQ(refusal(everything(), "-udim"), "effects: -udim: cannot be left out: tile 1002 of UV space");
     EXPECT_EQ(refusal(everything(), "+gruond"),
               "\"gruond\" is not an effect: did you mean \"ground\"?; there are self-occlusion, occluders, ground, "
-              "cut-outs, normal-map, max-distance, udim, margin, half");
+              "cut-outs, normal-map, max-distance, poses, udim, margin, half");
     EXPECT_EQ(refusal(everything(), "ground"),
               "\"ground\" is not a switch: auto, all, or + or - before the name of an effect: self-occlusion, "
-              "occluders, ground, cut-outs, normal-map, max-distance, udim, margin, half");
+              "occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half");
     EXPECT_EQ(refusal(everything(), "+ground,-ground"), "\"ground\" is named twice");
     EXPECT_EQ(refusal(everything(), "+ground,all"), "\"all\" must be the first word");
 }

@@ -39,7 +39,7 @@ PoseList::PoseList(StageMain& stage, VismapRecipe& recipe)
     stage.option(
         "pose_error", "0..1",
         "Of several frames or poses, by how much V may be off in texels that are not traced again, at least 99 % of "
-        "them; 0: trace again all that is not proven the same [0.01]",
+        "them; 0: trace again all that is not proven the same [0.02]",
         [&](auto text, auto& error) {
             m_has_error = true;
             if (parse_value(m_error, text, Range { 0, 1 }, error))

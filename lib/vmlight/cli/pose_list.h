@@ -45,7 +45,7 @@ private:
     VismapRecipe& m_recipe;
     std::vector<int> m_frames;
     std::vector<std::string> m_meshes; // of --pose
-    double m_error = 0.01;
+    double m_error = 0.02;
     bool m_has_error = false, m_has_time = false;
     // As given: with #### where each frame has a file.
     std::string m_mesh, m_normal_map;
