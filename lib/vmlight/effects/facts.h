@@ -44,12 +44,12 @@ struct LightFacts
     double rotation_degrees = 0; ///< angle of the rotation as a whole
     bool has_albedo = false;
     double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels
-    bool wants_bounce = false; ///< asked for
-    bool sees_surfaces = false; ///< whether a texel sees less than all of its hemisphere; if a bounce is asked for
-    int bounce_rays = 0; ///< a texel
     int levels = 0; ///< images of the light that the model reads
     std::string model;
     bool has_environment = false; ///< rather than filtered light
+    bool wants_bounce = false; ///< asked for
+    bool sees_surfaces = false; ///< whether a texel sees less than all of its hemisphere; if a bounce is asked for
+    int bounce_rays = 0; ///< a texel
 };
 
 struct EffectFacts
