@@ -2,6 +2,7 @@
 // Decisions on effects: a scene that calls for each and one that does not, switches, and what they refuse.
 #include <vmlight/effects/effect.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,6 +106,31 @@ TEST(EffectsDecide, EachIsOnWhereTheSceneCallsForItAndOffWhereNot)
         EXPECT_GT(share, 0.1);
     }
     EXPECT_EQ(rows, size_t(all_effects().size()));
+}
+
+TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
+{
+    const auto bounce = [](const EffectFacts& facts) {
+        const auto decisions = decided("lightmap", facts);
+        return *std::find_if(decisions.begin(), decisions.end(),
+                             [](const EffectDecision& decision) { return decision.name == "bounce"; });
+    };
+    EXPECT_THAT(bounce(everything()).reason, testing::HasSubstr("send back up to 0.9 of their light; 64 rays a texel"));
+    EffectFacts facts = everything();
+    facts.light.wants_bounce = false;
+    EXPECT_EQ(bounce(facts).reason, "not asked for: --bounce auto adds it");
+    EXPECT_NE(bounce(facts).impossible, "");
+    facts = everything();
+    facts.light.has_albedo = false;
+    EXPECT_EQ(bounce(facts).reason, "no albedo is given, so that nothing is sent back");
+    facts = everything();
+    facts.light.albedo_low = facts.light.albedo_high = 0;
+    EXPECT_EQ(bounce(facts).reason, "the albedo is 0 everywhere");
+    facts = everything();
+    facts.light.sees_surfaces = false;
+    EXPECT_EQ(bounce(facts).reason, "no texel sees a surface");
+    EXPECT_FALSE(bounce(facts).on);
+    EXPECT_EQ(bounce(facts).impossible, "");
 }
 
 TEST(EffectsDecide, ReasonsHaveTheNumbers)

@@ -255,7 +255,7 @@ void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const
                                                      : format("texels see surfaces that send back up to {:.3g} of "
                                                                           "their light; {} rays a texel, once for all light",
                                                               light.albedo_high, light.bounce_rays),
-                           0.9));
+                           light.has_environment ? 0.15 : 0.6));
     if (!light.wants_bounce || !light.has_albedo)
         dst.back().impossible = dst.back().reason;
 }
