@@ -214,6 +214,22 @@ void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const
         dst.back().impossible = "no --albedo is given";
 }
 
+void decide_suns(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool called = light.wants_suns && light.no_suns.empty() && light.suns > 0;
+    dst.push_back(decision(effect, called,
+                           !light.wants_suns            ? std::string("not asked for: --suns auto adds them")
+                               : !light.no_suns.empty() ? light.no_suns
+                               : !called                ? std::string("the light has no small strong source")
+                                         : format("{} with {} of the light; one ray or more for each texel that "
+                                                  "faces them, at each rotation",
+                                                  count_text(light.suns, "sun", "suns"), percent_text(light.sun_share)),
+                           0.3));
+    if (!light.wants_suns || !light.no_suns.empty())
+        dst.back().impossible = dst.back().reason;
+}
+
 void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
@@ -243,6 +259,7 @@ constexpr Effect kEffects[] = {
     { "margin", "texels around UV islands are filled", "vismap", true, decide_margin },
     { "half", "16 bits per channel", "vismap", false, decide_half },
     { "color-conversion", "inputs are brought to one colour space", "lightmap", false, decide_color },
+    { "suns", "small strong lights throw shadows with edges", "lightmap", true, decide_suns },
     { "filter", "the environment is filtered by the cosine", "lightmap", false, decide_filter },
     { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
     { "rotation", "the light is turned", "lightmap", true, decide_rotation },

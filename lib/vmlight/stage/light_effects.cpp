@@ -5,6 +5,8 @@
 #include <vmlight/effects/effect.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/sun_choice.h>
+#include <vmlight/stage/sun_shading.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -21,6 +23,27 @@ double degrees_of(const Rotation& r)
     return std::atan2(std::sqrt(x * x + y * y + z * z), r[0][0] + r[1][1] + r[2][2] - 1) * 180 / M_PI;
 }
 
+// Of the light as it is without the switches.
+bool find_sun_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRecipe& recipe,
+                    const MakeOptions& options, std::string& error)
+{
+    dst.wants_suns = recipe.suns != "off" || inputs.suns;
+    if (!dst.wants_suns)
+        return true;
+    std::vector<Sun> suns;
+    if (inputs.suns) {
+        suns = inputs.suns->list;
+    } else {
+        dst.no_suns = recipe.cfem.empty() ? why_no_suns(recipe, inputs.vismap.spec())
+                                          : format("\"{}\" was filtered with its suns, if it has any", recipe.cfem);
+        if (dst.no_suns.empty() && !suns_of_light(suns, recipe, error, options.chain))
+            return false;
+    }
+    dst.suns = int(suns.size());
+    dst.sun_share = inputs.cfem.empty() ? 0 : sun_share(suns, inputs.cfem[0], inputs.suns != nullptr);
+    return true;
+}
+
 } // namespace
 
 LightmapRecipe with_switches(const LightmapRecipe& recipe)
@@ -29,6 +52,13 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
     LightmapRecipe switched = recipe;
     if (switches.of("albedo") == Switch::off)
         switched.albedo = switched.albedo_colorspace = switched.albedo_layer = "";
+    if (switches.of("suns") == Switch::off) {
+        switched.suns = "off";
+        switched.mesh.clear();
+        switched.occluder.clear();
+    } else if (switches.of("suns") == Switch::on && switches.names("suns")) {
+        switched.suns = "on";
+    }
     if (switches.of("rotation") == Switch::off) {
         const LightmapParams defaults;
         LightmapParams& params = switched.lightmap_params;
@@ -65,6 +95,8 @@ bool explain_light(const LightmapInputs& inputs, const LightmapRecipe& recipe, c
         light.albedo_low = *std::min_element(range.min.begin(), range.min.end());
         light.albedo_high = *std::max_element(range.max.begin(), range.max.end());
     }
+    if (!find_sun_facts(light, inputs, recipe, options, error))
+        return false;
     std::vector<EffectDecision> decisions;
     if (!decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
         return false;
