@@ -63,13 +63,56 @@ TEST_F(Suns, AFileOfTheMapNeedsItsMeshAndGivesTheSameLight)
     done("makelightmap hero.vismap sunny.exr --suns auto --rotate 0,30,0 -o a.exr");
     done("makelightmap vm.exr sunny.exr --suns auto --rotate 0,30,0 --mesh floor.obj --occluder wall.obj -o b.exr");
     expect_same_pixels("a.exr", "b.exr", 0);
-    refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --suns auto -o c.exr");
+    refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --suns on -o c.exr");
     refused(1, "not the mesh that",
             "makelightmap vm.exr sunny.exr --suns auto --mesh {spot} --occluder wall.obj -o c.exr");
     refused(1, "the occluders are not those", "makelightmap vm.exr sunny.exr --suns auto --mesh floor.obj -o c.exr");
     refused(2, "set --suns auto", "makelightmap vm.exr sunny.exr --mesh floor.obj -o c.exr");
     refused(2, "the recipe of the visibility map",
             "makelightmap hero.vismap sunny.exr --suns auto --mesh floor.obj -o c.exr");
+}
+
+// A farm that lights whatever it gets does not stop, but says what the picture lacks.
+TEST_F(Suns, AutoIsWhereTheMeshIsKnown)
+{
+    done("makevismap hero.vismap -o vm.exr");
+    done("makelightmap vm.exr sunny.exr -o soft.exr");
+    EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto -o same.exr"),
+                HasSubstr("WARNING: suns stay in the environment, with soft shadows: \"vm.exr\" does not say where its "
+                          "mesh is; set --mesh"));
+    EXPECT_EQ(pixels("soft.exr").values, pixels("same.exr").values);
+    // A light that was filtered before has them or not, whatever the mesh.
+    done("makecfem sunny.exr --stack -o whole.exr");
+    done("makelightmap vm.exr whole.exr --suns auto -o same.exr");
+    EXPECT_EQ(pixels("soft.exr").values, pixels("same.exr").values);
+    done("makecfem sunny.exr --stack --suns auto -o rest.exr");
+    refused(1, "does not say where its mesh is", "makelightmap vm.exr rest.exr --suns auto -o c.exr");
+    done("makelightmap hero.vismap sunny.exr --suns auto -o a.exr");
+    EXPECT_THAT(done("makelightmap hero.vismap sunny.exr --suns on -o b.exr"),
+                HasSubstr("model: lobe+suns, the best that"));
+    EXPECT_EQ(pixels("a.exr").values, pixels("b.exr").values);
+    EXPECT_THAT(done("makelightmap hero.vismap cloudy.exr --suns on -o c.exr"), Not(HasSubstr("lobe+suns")));
+}
+
+TEST_F(Suns, AreARowOfTheEffects)
+{
+    const std::string line = "makelightmap hero.vismap sunny.exr -o a.exr --explain";
+    EXPECT_THAT(done(line), HasSubstr("not asked for: --suns auto adds them"));
+    EXPECT_THAT(done(line + " --suns auto"), HasSubstr("1 sun with 28 % of the light"));
+    EXPECT_THAT(done("makelightmap hero.vismap cloudy.exr --suns auto --explain -o a.exr"),
+                HasSubstr("the light has no small strong source"));
+    done("makelightmap hero.vismap sunny.exr -o soft.exr");
+    EXPECT_THAT(done(line + " --suns auto --effects -suns"),
+                HasSubstr("WARNING: effects: the picture has suns, left out"));
+    EXPECT_EQ(pixels("a.exr").values, pixels("soft.exr").values);
+    EXPECT_THAT(done("makelightmap hero.vismap cloudy.exr --suns auto --effects -suns -o a.exr"),
+                Not(HasSubstr("WARNING")));
+    done("makelightmap hero.vismap sunny.exr --suns auto -o hard.exr");
+    done("makelightmap hero.vismap sunny.exr --effects +suns -o a.exr");
+    EXPECT_EQ(pixels("a.exr").values, pixels("hard.exr").values);
+    done("makevismap hero.vismap -o vm.exr");
+    EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto --explain -o a.exr"), HasSubstr("set --mesh"));
+    refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --effects +suns -o a.exr");
 }
 
 TEST_F(Suns, AFilteredSkyCarriesThemInItsMetadata)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cfem/sun_search.h>
 
+#include <vmlight/cfem/sun_cap.h>
 #include <vmlight/math/latlong.h>
 
 #include <algorithm>
@@ -13,75 +14,51 @@ namespace {
 using Imath::V3d;
 using latlong::pi;
 
-constexpr double kDegree = pi / 180;
-/// Radii of cuts: the least is two texels of a map 512 wide, so that the light of a point stays inside.
-constexpr double kLeastRadius = 1.5 * kDegree, kMostRadius = 12 * kDegree, kRadiusStep = 1.25;
-/// Of the ring around a cut, whose median is the background.
-constexpr double kRingWidth = 6 * kDegree;
-/// A disc as wide as this gains nothing: models resolve about that much of the sky.
-constexpr double kModelWidth = 10 * kDegree;
 /// Of all light: a weaker sun is below the models' error on the rest.
 constexpr double kLeastShare = 1.0 / 32;
-/// A cut ends where the light rises again by this factor: another source begins.
-constexpr double kRise = 1.5;
-
-struct Texel
-{
-    double angle; // from the candidate
-    size_t index;
-};
-
-struct Candidate
-{
-    SunSplit::Cut cut;
-    double gain = 0; // energy, less for wide discs
-    V3d direction { 0 }; // of the first moment
-};
+/// A seed that gains less than this part of it will not become a sun on its way.
+constexpr double kHopeless = 0.125;
+/// Seeds that come so near each other are one; and so far does the best one move in the end.
+constexpr double kNear = 0.2 * pi / 180, kStill = 0.0025 * pi / 180;
 
 class Search
 {
 public:
     explicit Search(const OIIO::ImageBuf& map)
-        : m_width(map.spec().width)
-        , m_height(map.spec().height)
-        , m_rgb(size_t(3) * m_width * m_height)
-        , m_least(std::max(kLeastRadius, 1.5 * pi / m_height))
+        : m_map(map)
     {
-        map.get_pixels(OIIO::ROI(0, m_width, 0, m_height, 0, 1, 0, 3), OIIO::TypeFloat, m_rgb.data());
-        for (int j = 0; j < m_height; ++j)
-            m_area.push_back(latlong::row_solid_angle(j, m_height) / m_width);
-        for (int j = 0; j < m_height; ++j)
-            for (int i = 0; i < m_width; ++i) {
-                m_direction.push_back(latlong::direction((i + 0.5) / m_width, (j + 0.5) / m_height));
-                m_all += light(m_direction.size() - 1) * m_area[size_t(j)];
-            }
     }
 
     std::vector<SunSplit::Cut> run()
     {
         std::vector<SunSplit::Cut> cuts;
-        while (cuts.size() < SunSplit::kMostSuns && m_least < kMostRadius && m_all > 0) {
-            Candidate best;
+        while (cuts.size() < SunSplit::kMostSuns && m_map.least_radius < SunMap::kMostRadius && m_map.all > 0) {
+            SunCandidate best;
             for (const V3d& seed : seeds()) {
-                const Candidate found = settle(seed);
+                const SunCandidate found = settled(seed);
                 if (found.gain > best.gain)
                     best = found;
             }
-            if (best.gain < kLeastShare * m_all)
+            // What is looked at closely gains more, but not that much.
+            if (best.gain < 0.75 * kLeastShare * m_map.all)
                 break;
-            set_background(best);
-            apply(best);
+            best = settle(best.direction, kStill, true).found;
+            if (best.gain < kLeastShare * m_map.all)
+                break;
+            cut_out(best.cut);
             cuts.push_back(best.cut);
         }
         return cuts;
     }
 
 private:
-    double light(size_t texel) const
+    // Where the light around a seed is. Another sun's cut, far away, does not change it.
+    struct Settled
     {
-        return (double(m_rgb[3 * texel]) + double(m_rgb[3 * texel + 1]) + double(m_rgb[3 * texel + 2])) / 3;
-    }
-    double area(size_t texel) const { return m_area[texel / size_t(m_width)]; }
+        V3d seed;
+        SunCandidate found;
+        double reach; // from the seed, of texels that were read
+    };
 
     // The brightest places, at several sizes: a lamp may be dimmer than a glint, and yet a lamp.
     std::vector<V3d> seeds() const
@@ -89,16 +66,20 @@ private:
         constexpr int kEach = 4;
         std::vector<V3d> found;
         for (const int rows : { 128, 64, 32 }) {
-            const int high = std::min(rows, m_height), wide = std::min(2 * high, m_width);
-            std::vector<double> sum(size_t(high) * wide), weight(sum.size());
+            const int high = std::min(rows, m_map.height), wide = std::min(2 * high, m_map.width);
+            std::vector<double> sum(size_t(high) * size_t(wide)), weight(sum.size());
             std::vector<V3d> middle(sum.size(), V3d(0));
-            for (size_t texel = 0; texel < m_direction.size(); ++texel) {
-                const size_t row = texel / size_t(m_width) * size_t(high) / size_t(m_height);
-                const size_t cell = row * wide + texel % size_t(m_width) * size_t(wide) / size_t(m_width);
-                const double energy = light(texel) * area(texel);
-                sum[cell] += energy;
-                weight[cell] += area(texel);
-                middle[cell] += m_direction[texel] * energy;
+            size_t texel = 0;
+            for (int j = 0; j < m_map.height; ++j) {
+                const size_t row = size_t(j) * size_t(high) / size_t(m_map.height);
+                const double area = m_map.area[size_t(j)];
+                for (int i = 0; i < m_map.width; ++i, ++texel) {
+                    const size_t cell = row * size_t(wide) + size_t(i) * size_t(wide) / size_t(m_map.width);
+                    const double energy = double(m_map.light[texel]) * area;
+                    sum[cell] += energy;
+                    weight[cell] += area;
+                    middle[cell] += m_map.direction[texel] * energy;
+                }
             }
             std::vector<size_t> order(sum.size());
             std::iota(order.begin(), order.end(), size_t(0));
@@ -121,141 +102,68 @@ private:
         return found;
     }
 
-    // The texels within `reach`, the nearest first.
-    std::vector<Texel> around(const V3d& centre, double reach) const
+    SunCandidate settled(const V3d& seed)
     {
-        std::vector<Texel> near;
-        const double cosine = std::cos(reach), polar = std::acos(std::clamp(centre.y, -1.0, 1.0));
-        const int first = std::max(0, int((polar - reach) / pi * m_height) - 1);
-        const int end = std::min(m_height, int((polar + reach) / pi * m_height) + 2);
-        for (size_t texel = size_t(first) * m_width; texel < size_t(end) * m_width; ++texel)
-            if (m_direction[texel].dot(centre) >= cosine)
-                near.push_back({ 2 * std::asin(std::min(1.0, 0.5 * (m_direction[texel] - centre).length())), texel });
-        std::sort(near.begin(), near.end(), [](const Texel& a, const Texel& b) {
-            return a.angle < b.angle || (a.angle == b.angle && a.index < b.index);
-        });
-        return near;
+        for (const Settled& known : m_settled)
+            if (known.seed == seed)
+                return known.found;
+        m_settled.push_back(settle(seed, kNear, false));
+        return m_settled.back().found;
     }
 
-    // Move a seed to the middle of its light.
-    Candidate settle(const V3d& seed) const
+    // Move a seed to the middle of its light, until it moves by less than `still`. If it meets an earlier one on the
+    // way, theirs is the same.
+    Settled settle(const V3d& seed, double still, bool between_steps) const
     {
         constexpr int kSteps = 10;
-        constexpr double kStill = 1e-9; // 1 - the cosine of .0025 degrees
-        Candidate found;
+        Settled result { seed, {}, 0 };
         V3d centre = seed;
         for (int step = 0; step < kSteps; ++step) {
-            found = grow(centre);
-            if (!(found.gain > 0) || found.direction.dot(centre) > 1 - kStill)
+            const SunCap cap(m_map, centre);
+            result.found = cap.grow(between_steps);
+            result.reach = std::max(result.reach, angle_between(seed, centre) + double(cap.texels().back().angle));
+            if (result.found.gain < kHopeless * kLeastShare * m_map.all
+                || angle_between(result.found.direction, centre) < still)
                 break;
-            centre = found.direction;
+            centre = result.found.direction;
+            if (between_steps)
+                continue;
+            for (const Settled& known : m_settled)
+                if (angle_between(known.found.direction, centre) < kNear) {
+                    result.found = known.found;
+                    result.reach = std::max(result.reach, angle_between(seed, known.seed) + known.reach);
+                    return result;
+                }
         }
-        return found;
+        return result;
     }
 
-    // The cap around `centre` that gains most.
-    Candidate grow(const V3d& centre) const
+    // Set the background of a cut and take its light from the map.
+    void cut_out(SunSplit::Cut& cut)
     {
-        const std::vector<Texel> near = around(centre, kMostRadius + kRingWidth);
-        const double end = std::clamp(end_of_light(near), m_least, kMostRadius);
-        Candidate best;
-        double low = m_least, high = m_least;
-        for (double radius = m_least; radius <= end; radius *= kRadiusStep)
-            if (const Candidate found = cap(near, centre, radius); found.gain > best.gain) {
-                best = found;
-                low = std::max(m_least, radius / kRadiusStep);
-                high = std::min(end, radius * kRadiusStep);
-            }
-        // Between steps, by golden sections, so that the radius does not jump where the map changes a little.
-        const double golden = 0.5 * (std::sqrt(5.0) - 1);
-        for (int step = 0; step < 12 && best.gain > 0; ++step) {
-            const double inner = high - golden * (high - low), outer = low + golden * (high - low);
-            const Candidate a = cap(near, centre, inner), b = cap(near, centre, outer);
-            (a.gain > b.gain ? high : low) = a.gain > b.gain ? outer : inner;
-            for (const Candidate& found : { a, b })
-                if (found.gain > best.gain)
-                    best = found;
-        }
-        return best;
-    }
-
-    Candidate cap(const std::vector<Texel>& near, const V3d& centre, double radius) const
-    {
-        const SunSplit::Cut cut { centre, radius, {} };
-        const double background = ring_median(near, radius, [&](size_t texel) { return light(texel); });
-        double energy = 0;
-        V3d moment(0);
-        for (const Texel& texel : near) {
-            const double share = cut.share(m_direction[texel.index], pi / m_height);
-            if (share == 0 && texel.angle > radius)
-                break;
-            const double excess = share * std::max(0.0, light(texel.index) - background) * area(texel.index);
-            energy += excess;
-            moment += m_direction[texel.index] * excess;
-        }
-        if (!(energy > 0))
-            return {};
-        const double width = disc_half_angle(moment.length() / energy);
-        return { cut, energy * (1 - width / kModelWidth), moment.normalized() };
-    }
-
-    // Where rings of texels become brighter again.
-    double end_of_light(const std::vector<Texel>& near) const
-    {
-        const double step = std::max(0.5 * m_least, pi / m_height);
-        double least = INFINITY, sum = 0, weight = 0, edge = m_least;
-        for (const Texel& texel : near) {
-            while (texel.angle > edge) {
-                if (weight > 0 && sum / weight > kRise * least)
-                    return edge - step;
-                if (weight > 0)
-                    least = std::min(least, sum / weight);
-                sum = weight = 0;
-                edge += step;
-            }
-            sum += light(texel.index) * area(texel.index);
-            weight += area(texel.index);
-        }
-        return kMostRadius;
-    }
-
-    template <class Value> double ring_median(const std::vector<Texel>& near, double radius, Value&& value) const
-    {
-        std::vector<std::pair<double, double>> ring; // value, weight
-        double all = 0;
-        for (const Texel& texel : near)
-            if (texel.angle > radius && texel.angle <= radius + std::min(radius + m_least, kRingWidth)) {
-                ring.emplace_back(value(texel.index), area(texel.index));
-                all += area(texel.index);
-            }
-        std::sort(ring.begin(), ring.end());
-        double sum = 0;
-        for (const auto& [level, weight] : ring)
-            if ((sum += weight) >= 0.5 * all)
-                return level;
-        return 0;
-    }
-
-    void set_background(Candidate& found) const
-    {
-        const std::vector<Texel> near = around(found.cut.centre, kMostRadius + kRingWidth);
+        const SunCap cap(m_map, cut.centre);
         for (size_t c = 0; c < 3; ++c)
-            found.cut.background[c] = float(
-                ring_median(near, found.cut.radius, [&](size_t texel) { return double(m_rgb[3 * texel + c]); }));
+            cut.background[c] = float(cap.background(cut.radius, c));
+        const double reach = cut.radius + m_map.height_of_texel();
+        for (const SunCap::Texel& texel : cap.texels()) {
+            if (double(texel.angle) > reach)
+                break;
+            float* rgb = &m_map.rgb[3 * size_t(texel.index)];
+            cut.apply(rgb, m_map.direction[texel.index], m_map.height_of_texel());
+            m_map.light[texel.index] = float((double(rgb[0]) + double(rgb[1]) + double(rgb[2])) / 3);
+        }
+        const auto was_read
+            = [&](const Settled& known) { return angle_between(known.seed, cut.centre) <= known.reach + reach; };
+        m_settled.erase(std::remove_if(m_settled.begin(), m_settled.end(), was_read), m_settled.end());
     }
 
-    void apply(const Candidate& found)
+    static double angle_between(const V3d& a, const V3d& b)
     {
-        for (const Texel& texel : around(found.cut.centre, found.cut.radius + pi / m_height))
-            found.cut.apply(&m_rgb[3 * texel.index], m_direction[texel.index], pi / m_height);
+        return 2 * std::asin(std::min(1.0, 0.5 * (a - b).length()));
     }
 
-    const int m_width, m_height;
-    std::vector<float> m_rgb;
-    const double m_least;
-    std::vector<double> m_area; // of a texel of each row
-    std::vector<V3d> m_direction;
-    double m_all = 0;
+    SunMap m_map;
+    std::vector<Settled> m_settled;
 };
 
 } // namespace

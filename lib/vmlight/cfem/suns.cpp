@@ -24,11 +24,11 @@ constexpr int kSearchWidth = 512, kSearchHeight = 256;
 // Half the width of the edge of a cut: that of a pixel of this map.
 constexpr double kSoftEdge = 0.5 * pi / kSearchHeight;
 
-// The middle of a cell, its solid angle and the integral of the direction over it.
+// The solid angle of a cell and the integral of the direction over it.
 struct Cell
 {
-    V3d middle, moment;
     double solid_angle;
+    V3d moment;
 };
 
 Cell cell_of(const EnvironmentGrid& grid, int column, int row)
@@ -37,7 +37,6 @@ Cell cell_of(const EnvironmentGrid& grid, int column, int row)
     const double left = grid.column_edge(column) - pi, right = grid.column_edge(column + 1) - pi; // latlong.h's phi
     const double turn = right - left, middle = 0.5 * (left + right), half = 0.5 * (a + b), height = b - a;
     Cell cell;
-    cell.middle = V3d(-std::sin(middle) * std::sin(half), std::cos(half), std::cos(middle) * std::sin(half));
     cell.solid_angle = turn * 2 * std::sin(half) * std::sin(0.5 * height);
     // Int sin^2 theta, Int sin theta cos theta.
     const double across = 0.5 * (height - std::cos(a + b) * std::sin(height));
@@ -55,21 +54,32 @@ bool reaches(const SunSplit::Cut& cut, double from, double to)
     return polar - radius <= to && polar + radius >= from;
 }
 
-// Apply the cuts to a row of R, G, B. `take` is told of each pixel, cut and channel that loses light, and how much.
+// Apply the cuts to a row of R, G, B. `take` is told of the columns where a cut takes light, and how much.
 template <class Take>
 void cut_row(float* rgb, const EnvironmentGrid& grid, int row, const std::vector<SunSplit::Cut>& cuts, Take&& take)
 {
+    const double top = grid.row_edge(row), bottom = grid.row_edge(row + 1);
+    const double sine = std::sin(0.5 * (top + bottom)), cosine = std::cos(0.5 * (top + bottom));
     for (size_t k = 0; k < cuts.size(); ++k) {
         const SunSplit::Cut& cut = cuts[k];
-        if (!reaches(cut, grid.row_edge(row), grid.row_edge(row + 1)))
+        if (!reaches(cut, top, bottom))
             continue;
+        // All that the cut takes light from is nearer than this, and most columns are not.
+        const double reach = std::min(pi, cut.radius + std::max(kSoftEdge, bottom - top));
+        const double least = std::cos(reach) - 1e-9, centre = cut.centre.y * cosine;
+        const double across = sine * std::hypot(cut.centre.x, cut.centre.z);
+        const double longitude = std::atan2(-cut.centre.x, cut.centre.z) + pi; // that of grid.h
         for (int i = 0; i < grid.width; ++i) {
             float* pixel = rgb + size_t(3) * size_t(i);
             if (pixel[0] <= cut.background[0] && pixel[1] <= cut.background[1] && pixel[2] <= cut.background[2])
                 continue;
-            const Cell cell = cell_of(grid, i, row);
-            const auto excess = cut.apply(pixel, cell.middle, grid.row_edge(row + 1) - grid.row_edge(row));
-            take(k, cell, excess);
+            const double middle = 0.5 * (grid.column_edge(i) + grid.column_edge(i + 1));
+            if (centre + across * std::cos(middle - longitude) < least)
+                continue;
+            const V3d direction(std::sin(middle) * sine, cosine, -std::cos(middle) * sine);
+            const auto excess = cut.apply(pixel, direction, bottom - top);
+            if (excess[0] + excess[1] + excess[2] > 0)
+                take(k, i, excess);
         }
     }
 }
@@ -96,9 +106,13 @@ double SunSplit::Cut::share(const V3d& direction, double height) const
     const double edge = std::max(kSoftEdge, 0.5 * height);
     const double chord = 0.5 * (direction - centre).length();
     // No arc sine far away: most pixels are.
-    if (chord > radius + edge)
-        return 0;
-    return std::clamp((radius + edge - 2 * std::asin(std::min(1.0, chord))) / (2 * edge), 0.0, 1.0);
+    return chord > radius + edge ? 0 : share_at(2 * std::asin(std::min(1.0, chord)), height);
+}
+
+double SunSplit::Cut::share_at(double angle, double height) const
+{
+    const double edge = std::max(kSoftEdge, 0.5 * height);
+    return std::clamp((radius + edge - angle) / (2 * edge), 0.0, 1.0);
 }
 
 std::array<double, 3> SunSplit::Cut::apply(float* rgb, const V3d& direction, double height) const
@@ -195,7 +209,8 @@ bool SunSplit::measure(const Environment& env, std::vector<Cut>& cuts, std::stri
         good = rows.read(j, rgb.data()) && (!progress || progress(double(j) / grid.height));
         if (!good)
             break;
-        cut_row(rgb.data(), grid, j, cuts, [&](size_t k, const Cell& cell, const std::array<double, 3>& excess) {
+        cut_row(rgb.data(), grid, j, cuts, [&](size_t k, int i, const std::array<double, 3>& excess) {
+            const Cell cell = cell_of(grid, i, j);
             for (size_t c = 0; c < 3; ++c)
                 sums[k].energy[c] += excess[c] * cell.solid_angle;
             sums[k].moment += cell.moment * ((excess[0] + excess[1] + excess[2]) / 3);
@@ -229,24 +244,24 @@ Environment SunSplit::rest(const Environment& env) const
     spec.extra_attribs = all.extra_attribs;
     const auto state = std::make_shared<std::unique_ptr<EnvironmentRows>>();
     const auto next = std::make_shared<int>(0);
-    return Environment(
-        spec, [env, state, next, cuts = m_cuts, sanitize = m_sanitize](int y, float* rgb, std::string& error) {
-            if (!*state || y < *next) { // a new pass
-                *state = std::make_unique<EnvironmentRows>(env, sanitize);
-                *next = 0;
-                if (!(*state)->open()) {
-                    error = (*state)->error();
-                    return false;
-                }
-            }
-            for (; *next <= y; ++*next)
-                if (!(*state)->read(*next, rgb)) {
-                    error = (*state)->error();
-                    return false;
-                }
-            cut_row(rgb, (*state)->grid(), y, cuts, [](size_t, const Cell&, const std::array<double, 3>&) {});
-            return true;
-        });
+    return Environment(spec,
+                       [env, state, next, cuts = m_cuts, sanitize = m_sanitize](int y, float* rgb, std::string& error) {
+                           if (!*state || y < *next) { // a new pass
+                               *state = std::make_unique<EnvironmentRows>(env, sanitize);
+                               *next = 0;
+                               if (!(*state)->open()) {
+                                   error = (*state)->error();
+                                   return false;
+                               }
+                           }
+                           for (; *next <= y; ++*next)
+                               if (!(*state)->read(*next, rgb)) {
+                                   error = (*state)->error();
+                                   return false;
+                               }
+                           cut_row(rgb, (*state)->grid(), y, cuts, [](size_t, int, const std::array<double, 3>&) {});
+                           return true;
+                       });
 }
 
 } // namespace vmlight

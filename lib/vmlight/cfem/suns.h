@@ -73,6 +73,8 @@ public:
 
         /// How much of the pixel in the middle of `direction`, `height` radians high, is the cap's.
         double share(const Imath::V3d& direction, double height) const;
+        /// The same of a pixel whose middle is at `angle` radians from the centre.
+        double share_at(double angle, double height) const;
         /// Take its light above the background from a pixel of R, G, B. Returns what was taken.
         std::array<double, 3> apply(float* rgb, const Imath::V3d& direction, double height) const;
     };

@@ -58,6 +58,10 @@ struct LightFacts
     int64_t lit = 0, shadowed = 0; ///< texels with V above 0; of them, with V below 1
     bool wants_bounce = false; ///< one is asked for
     int bounce_rays = 0; ///< of a texel
+    bool wants_suns = false; ///< asked for
+    std::string no_suns; ///< why they cannot be traced, or ""
+    int suns = 0; ///< that the light has, if they are asked for and can be traced
+    double sun_share = 0; ///< of all light
 };
 
 struct EffectFacts

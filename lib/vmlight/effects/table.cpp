@@ -260,6 +260,22 @@ void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const
         dst.back().impossible = dst.back().reason;
 }
 
+void decide_suns(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool called = light.wants_suns && light.no_suns.empty() && light.suns > 0;
+    dst.push_back(decision(effect, called,
+                           !light.wants_suns            ? std::string("not asked for: --suns auto adds them")
+                               : !light.no_suns.empty() ? light.no_suns
+                               : !called                ? std::string("the light has no small strong source")
+                                         : format("{} with {} of the light; one ray or more for each texel that "
+                                                  "faces them, at each rotation",
+                                                  count_text(light.suns, "sun", "suns"), percent_text(light.sun_share)),
+                           0.3));
+    if (!light.wants_suns || !light.no_suns.empty())
+        dst.back().impossible = dst.back().reason;
+}
+
 void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
@@ -297,6 +313,7 @@ constexpr Effect kEffects[] = {
     { "half", "16 bits per channel", "vismap", false, decide_half },
     { "color-conversion", "inputs are brought to one colour space", "lightmap", false, decide_color },
     { "visibility", "part of the sky is hidden", "lightmap", false, decide_visibility },
+    { "suns", "small strong lights throw shadows with edges", "lightmap", true, decide_suns },
     { "filter", "the environment is filtered by the cosine", "lightmap", false, decide_filter },
     { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
     { "rotation", "the light is turned", "lightmap", true, decide_rotation },

@@ -7,6 +7,8 @@
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/sun_choice.h>
+#include <vmlight/stage/sun_shading.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -41,8 +43,29 @@ void measure_visibility(LightFacts& dst, const OIIO::ImageBuf& vismap)
     }
 }
 
+// Of the light as it is without the switches.
+bool find_sun_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRecipe& recipe,
+                    const MakeOptions& options, std::string& error)
+{
+    dst.wants_suns = recipe.suns != "off" || inputs.suns;
+    if (!dst.wants_suns)
+        return true;
+    std::vector<Sun> suns;
+    if (inputs.suns) {
+        suns = inputs.suns->list;
+    } else {
+        dst.no_suns = recipe.cfem.empty() ? why_no_suns(recipe, inputs.vismap.spec())
+                                          : format("\"{}\" was filtered with its suns, if it has any", recipe.cfem);
+        if (dst.no_suns.empty() && !suns_of_light(suns, recipe, error, options.chain))
+            return false;
+    }
+    dst.suns = int(suns.size());
+    dst.sun_share = inputs.cfem.empty() ? 0 : sun_share(suns, inputs.cfem[0], inputs.suns != nullptr);
+    return true;
+}
+
 bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRecipe& recipe,
-                const LightmapParams& params, std::string& error)
+                const LightmapParams& params, const MakeOptions& options, std::string& error)
 {
     Rotation rotation;
     ShadingModel model;
@@ -69,7 +92,7 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     dst.wants_bounce = recipe.bounce_params.bounce != "off";
     dst.bounce_rays = recipe.bounce_params.bounce_rays;
     measure_visibility(dst, inputs.vismap);
-    return true;
+    return find_sun_facts(dst, inputs, recipe, options, error);
 }
 
 struct Difference
@@ -114,6 +137,16 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
         switched.albedo = switched.albedo_colorspace = switched.albedo_layer = "";
     if (switches.of("bounce") == Switch::off)
         switched.bounce_params = {};
+    if (switches.of("suns") == Switch::off) {
+        switched.suns = "off";
+    } else if (switches.of("suns") == Switch::on && switches.names("suns")) {
+        switched.suns = "on";
+    }
+    const auto traces = [](const LightmapRecipe& r) { return r.suns != "off" || r.bounce_params.bounce != "off"; };
+    if (traces(recipe) && !traces(switched)) {
+        switched.mesh.clear();
+        switched.occluder.clear();
+    }
     if (switches.of("rotation") == Switch::off) {
         const LightmapParams defaults;
         LightmapParams& params = switched.lightmap_params;
@@ -134,7 +167,7 @@ bool explain_light(const LightmapInputs& inputs, const SwitchedLight& light, con
     const EffectSwitches switches = switches_of(light.asked.effects, LightmapRecipe::kStage);
     EffectFacts facts;
     std::vector<EffectDecision> decisions;
-    if (!find_facts(facts.light, inputs, light.asked, light.asked_params, error)
+    if (!find_facts(facts.light, inputs, light.asked, light.asked_params, options, error)
         || !decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
         return false;
     if (options.explain || options.dry_run) {

@@ -4,6 +4,7 @@
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/output_color.h>
+#include <vmlight/stage/sun_choice.h>
 
 namespace vmlight {
 namespace {
@@ -27,7 +28,7 @@ PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpe
     filter.layout = recipe.layout;
     filter.cfem_params = recipe.cfem_params;
     filter.stack = model.light != ModelLight::cfem;
-    filter.suns = recipe.suns;
+    filter.suns = recipe.suns == "off" ? "off" : "auto";
     return open_source(filter, error);
 }
 
@@ -51,13 +52,20 @@ std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::RO
 
 } // namespace
 
-bool open_images(LightmapImages& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)
+bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& error, const RecipeChain& chain)
 {
+    LightmapRecipe recipe = given;
     dst.vismap = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, chain);
+    if (dst.vismap && recipe.suns == "auto" && recipe.cfem.empty()) { // without its suns, a CFEM is too dark
+        dst.no_suns = why_no_suns(recipe, dst.vismap->spec());
+        recipe.suns = dst.no_suns.empty() ? "auto" : "off";
+    }
     if (dst.vismap)
         dst.cfem = open_light(recipe, dst.vismap->spec(), error, chain);
     if (!error.empty())
         return false;
+    if (recipe.suns == "auto" && !recipe.cfem.empty() && !dst.cfem->spec().find_attribute(kSunsAttribute))
+        recipe.suns = "off";
     std::string config;
     if ((may_convert_light(recipe, dst.cfem->spec()) || !recipe.output_colorspace.empty())
         && !stamp_config(config, recipe.colorconfig, error)) {

@@ -302,10 +302,14 @@ private:
         }
         if (dst.suns && !find_suns(dst.suns->list, error))
             return false;
+        if (!m_images.no_suns.empty())
+            options.report_warning("suns stay in the environment, with soft shadows: " + m_images.no_suns);
+        const std::string suns = dst.suns && !dst.suns->list.empty() ? "+suns" : "";
         if (m_recipe.lightmap_params.model == "auto")
-            options.report(filtered && m_model.light == ModelLight::cfem
-                               ? "model: paper, because the CFEM is not a stack (makecfem --stack makes one)"
-                               : format("model: {}, the best that this visibility map supports", m_model.name));
+            options.report(
+                filtered && m_model.light == ModelLight::cfem
+                    ? format("model: paper{}, because the CFEM is not a stack (makecfem --stack makes one)", suns)
+                    : format("model: {}{}, the best that this visibility map supports", m_model.name, suns));
         dst.light = light;
         return true;
     }

@@ -62,8 +62,8 @@ std::vector<std::string> sun_channels(const std::string& text)
 
 namespace {
 
-// Of a wide disc: if they all agree, the texel is not in the penumbra.
-constexpr int kProbes = 16;
+// In a penumbra. Of a wide disc, the first ones: if they all agree, the texel is not in the penumbra.
+constexpr int kLeastRays = 16, kProbes = 16;
 
 } // namespace
 
@@ -71,7 +71,7 @@ int disc_rays(double half_angle)
 {
     // As many as half degrees fit in the disc, side by side.
     const double half_degrees = half_angle * 360 / latlong::pi;
-    int rays = 1;
+    int rays = kLeastRays;
     while (rays < 64 && rays < half_degrees * half_degrees)
         rays *= 2;
     return rays;
@@ -92,21 +92,40 @@ DiscTracer::DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSam
     m_texels.reserve(kPacketSize + 1);
 }
 
-void DiscTracer::add(const SurfacePoint& point, int x, int y, float* dst)
+bool DiscTracer::place(Texel& dst, const SurfacePoint& point, int x, int y) const
 {
     const V3d normal(point.normal), geometric(point.geometric_normal);
     const double facing = normal.dot(m_direction), above = geometric.dot(m_direction);
-    *dst = 0;
     const float lowest = m_ground.lowest_ray(point);
     if (facing <= -m_sine || above <= -m_sine || m_direction.y + m_sine < double(lowest))
-        return;
+        return false;
     const bool is_whole = facing >= m_sine && above >= m_sine && m_direction.y - m_sine >= double(lowest);
     // What a normal map adds is in front of the surface or behind it, and not left out.
     const double counted = (1 + V3d(point.mesh_normal).dot(geometric)) / 2;
     const double scale = (is_whole ? facing * m_mean_length : 1.0 / m_rays_each) / counted;
     const uint32_t hash = texel_hash(uint32_t(x), uint32_t(y), m_seed).u;
-    const bool is_probe = is_whole && m_rays_each > kProbes;
-    start({ dst, point, hash, scale, is_whole, is_probe, lowest }, is_probe ? kProbes : m_rays_each);
+    dst = { dst.dst, point, hash, scale, is_whole, is_whole && m_rays_each > kProbes, lowest, 0, 0, 0 };
+    return true;
+}
+
+void DiscTracer::add(const SurfacePoint& point, int x, int y, float* dst)
+{
+    *dst = 0;
+    Texel texel {};
+    texel.dst = dst;
+    if (place(texel, point, x, y))
+        start(texel, texel.is_probe ? kProbes : m_rays_each);
+}
+
+bool DiscTracer::add_one(const SurfacePoint& point, int x, int y, float* dst)
+{
+    Texel texel {};
+    texel.dst = dst;
+    if (!place(texel, point, x, y) || !texel.is_whole)
+        return false;
+    texel.is_probe = true;
+    start(texel, 1);
+    return true;
 }
 
 void DiscTracer::start(const Texel& texel, int rays)
@@ -115,7 +134,9 @@ void DiscTracer::start(const Texel& texel, int rays)
     m_texels.back().rays_left = rays;
     for (int ray = 0; ray < rays; ++ray) {
         Texel& own = m_texels.back();
-        const V3f& direction = own.is_probe ? m_samples.probe(own.hash, ray) : m_samples.at(own.hash, ray, rays);
+        const V3f& direction = rays == 1 ? m_samples.probe(own.hash / 4, own.hash % 4 != 0) // three of four at the rim
+            : own.is_probe               ? m_samples.probe(own.hash, ray)
+                                         : m_samples.at(own.hash, ray, rays);
         const double cosine = double(direction.dot(own.point.normal));
         if (!(cosine > 0 && direction.dot(own.point.geometric_normal) > 0 && direction.y >= own.lowest)) {
             if (--own.rays_left == 0)

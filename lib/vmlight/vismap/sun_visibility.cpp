@@ -13,6 +13,47 @@ namespace {
 // Points that are kept between traces.
 constexpr size_t kMostKept = size_t(256) << 20; // bytes
 
+// Texels of a tile whose one ray met something, or nothing, by rows.
+struct Looked
+{
+    std::array<uint64_t, kTileSize> blocked {}, seen {};
+
+    uint64_t looked(int y) const { return y < 0 || y >= kTileSize ? 0 : blocked[size_t(y)] | seen[size_t(y)]; }
+
+    // Texels that have as many around them as those of a straight edge, but for one.
+    uint64_t has_neighbours(int y) const
+    {
+        std::array<uint64_t, 5> at_least { ~uint64_t(0), 0, 0, 0, 0 }; // 0 to 4
+        const auto add = [&](uint64_t one) {
+            for (size_t n = 4; n > 0; --n)
+                at_least[n] |= at_least[n - 1] & one;
+        };
+        for (int row = y - 1; row <= y + 1; ++row) {
+            add(looked(row) << 1);
+            add(looked(row) >> 1);
+            if (row != y)
+                add(looked(row));
+        }
+        return at_least[4];
+    }
+
+    // Texels that do not agree with one of the eight around them, or that have too few to tell.
+    std::array<uint64_t, kTileSize> penumbra() const
+    {
+        std::array<uint64_t, kTileSize> result {};
+        const auto around = [](const std::array<uint64_t, kTileSize>& rows, int y) {
+            uint64_t all = 0;
+            for (int row = std::max(0, y - 1); row <= std::min(kTileSize - 1, y + 1); ++row)
+                all |= rows[size_t(row)] | rows[size_t(row)] << 1 | rows[size_t(row)] >> 1;
+            return all;
+        };
+        for (int y = 0; y < kTileSize; ++y)
+            result[size_t(y)] = (blocked[size_t(y)] & around(seen, y)) | (seen[size_t(y)] & around(blocked, y))
+                | (looked(y) & ~has_neighbours(y));
+        return result;
+    }
+};
+
 } // namespace
 
 SunTracer::SunTracer() = default;
@@ -56,8 +97,24 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
             const Disc& disc = discs[ptrdiff_t(k)];
             DiscTracer tracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length, params.seed,
                               ground);
+            // One ray each, and all where a shadow has its edge.
+            Looked looked;
+            std::array<uint64_t, kTileSize> whole {};
+            const auto value
+                = [&](const MapPoint& point) -> float& { return dst[map.texel(int(tile), point) * count + k]; };
             for (const MapPoint& point : points)
-                tracer.add(point.surface, left + point.x, top + point.y, &dst[map.texel(int(tile), point) * count + k]);
+                if (tracer.add_one(point.surface, left + point.x, top + point.y, &value(point)))
+                    whole[point.y] |= uint64_t(1) << point.x;
+                else
+                    tracer.add(point.surface, left + point.x, top + point.y, &value(point));
+            tracer.flush();
+            for (const MapPoint& point : points)
+                if (const uint64_t bit = uint64_t(1) << point.x; whole[point.y] & bit)
+                    (value(point) > 0 ? looked.seen : looked.blocked)[point.y] |= bit;
+            const std::array<uint64_t, kTileSize> penumbra = looked.penumbra();
+            for (const MapPoint& point : points)
+                if (penumbra[point.y] >> point.x & 1)
+                    tracer.add(point.surface, left + point.x, top + point.y, &value(point));
             tracer.flush();
             worker.rays += tracer.rays();
         }

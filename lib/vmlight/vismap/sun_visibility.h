@@ -21,8 +21,7 @@
 
 namespace vmlight {
 
-/// Rays per texel for a disc: one up to half a degree wide, whose penumbras are narrow; more for wider discs, up to 64.
-/// A power of 2. Above 16, all are traced only where 16 that probe the disc do not agree.
+/// Rays for a texel in the penumbra of a disc: 16, or for discs wider than 4 degrees more, up to 64. A power of 2.
 int disc_rays(double half_angle);
 
 /// The discs of VismapParams::sun_directions. Returns false, with the reason in `error`, if the text is none.
@@ -50,6 +49,9 @@ public:
     /// the geometric surface g are left out, and the result is divided by the share of the cosine above it, (1 + n.g)
     /// / 2. A texel whose horizon is above the disc gets 0 and traces no ray.
     void add(const SurfacePoint& point, int x, int y, float* dst);
+    /// The same with one ray, as if the whole disc were alike. False, having done nothing, if it cannot be: a horizon
+    /// cuts the disc, or is above it.
+    bool add_one(const SurfacePoint& point, int x, int y, float* dst);
     /// Trace what is left.
     void flush();
 
@@ -68,6 +70,7 @@ private:
         double all = 0, seen = 0; // sums of cosines
         int rays_left = 0;
     };
+    bool place(Texel& dst, const SurfacePoint& point, int x, int y) const;
     void start(const Texel& texel, int rays);
     void trace();
     void finish(const Texel& texel);

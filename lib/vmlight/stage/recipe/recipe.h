@@ -110,11 +110,16 @@ void visit_image(Visit&& field, std::string& layer, std::string& layout, std::st
           advanced("Linear colour space of the result; default: the working space"));
 }
 
-/// The words of the key `suns` of both.
-inline Choices suns_choices()
+/// The words of the key `suns`: of a CFEM, and of a lightmap.
+inline Choices suns_choices(bool traces)
 {
-    return { { { "off", "suns stay in the environment" },
-               { "auto", "small strong lights are split off, and lit each by its own visibility" } } };
+    Choices choices { { { "off", "suns stay in the environment" },
+                        { "auto", "small strong lights are split off, to be lit each by its own visibility" } } };
+    if (traces) {
+        choices.choices[1].meaning = "small strong lights are split off and traced, if the mesh is known";
+        choices.choices.push_back({ "on", "the same; an error if the mesh is not known" });
+    }
+    return choices;
 }
 
 /// `studio.cfem`
@@ -146,7 +151,7 @@ struct CfemRecipe
         visit_image(field, layer, layout, output_colorspace);
         field("stack", stack, Flag {},
               "Write a stack: filters of several widths and the environment itself, for all models");
-        field("suns", suns, suns_choices(), "Suns to split off, for makelightmap --suns auto");
+        field("suns", suns, suns_choices(false), "Suns to split off, for makelightmap --suns auto");
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         cfem_params.visit(field);
     }
@@ -187,8 +192,8 @@ struct LightmapRecipe
     /// As VismapRecipe::effects.
     std::string effects = "auto";
     LightmapParams lightmap_params;
-    /// `auto`: split the suns off the environment, or use those that the CFEM was split into, and trace their shadows
-    /// on the mesh of the visibility map.
+    /// `on`: split the suns off the environment, or use those that the CFEM was split into, and trace their shadows
+    /// on the mesh of the visibility map. `auto`: unless that mesh is not known.
     std::string suns = "off";
     BounceParams bounce_params;
     /// That mesh, and what else casts shadows on it, if `vismap` is a file; its recipe names them otherwise.
@@ -215,7 +220,7 @@ struct LightmapRecipe
         visit_image(field, layer, layout, output_colorspace);
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);
-        field("suns", suns, suns_choices(), "Lights with hard shadows, such as the sun");
+        field("suns", suns, suns_choices(true), "Lights with hard shadows, such as the sun");
         bounce_params.visit(field);
         field("mesh", mesh, Path {}, "Mesh of the visibility map, to trace light on; a recipe of a map names it");
         field("occluder", occluder, Paths {}, "Mesh that occluded the visibility map, to trace light against");

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Whether the suns of a lightmap's light can be traced, before anything is.
+#pragma once
+
+#include <vmlight/cfem/suns.h>
+#include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/recipe/recipe.h>
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// Why suns cannot be traced on the map with this header, in a clause, or "".
+std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap);
+
+/// Set `dst` to the suns that the light of `recipe` has, whatever its key `suns` is; none if it is filtered with them.
+/// False, with the reason in `error`, if an input cannot be read.
+bool suns_of_light(std::vector<Sun>& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain);
+
+/// The share of `suns` in all light, 0 to 1.
+///
+/// @param light    a CFEM, or the environment: float, in memory
+/// @param is_rest  whether the suns are no longer in it
+double sun_share(const std::vector<Sun>& suns, const OIIO::ImageBuf& light, bool is_rest);
+
+} // namespace vmlight
