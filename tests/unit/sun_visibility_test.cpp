@@ -61,7 +61,8 @@ TEST(SunVisibility, AnOpenFloorSeesTheWholeDisc)
             const SunTrace traced(floor_facing_z(1), {}, { disc }, sun_map_of(16));
             for (const float t : traced.seen)
                 ASSERT_NEAR(t, disc.direction.z * (1 + std::cos(disc.half_angle)) / 2, 1e-6);
-            EXPECT_EQ(traced.rays, 256 * std::min(16, disc_rays(disc.half_angle)));
+            // The corners of the map have too few neighbours to agree with.
+            EXPECT_EQ(traced.rays, 256 + 4 * 16);
         }
 }
 
@@ -119,6 +120,11 @@ TEST(SunVisibility, AWallThrowsAShadowWithAPenumbra)
             EXPECT_NEAR(traced.mean() / (disc.direction.z * disc_mean_length(disc.half_angle)), visible,
                         4 * noise + 0.03 * disc.half_angle + 1e-3)
                 << half_angle << " " << above;
+            // Texel by texel too: with one ray each it would be up to .5.
+            double squares = 0;
+            for (const float t : traced.seen)
+                squares += std::pow(double(t) / (disc.direction.z * disc_mean_length(disc.half_angle)) - visible, 2);
+            EXPECT_LT(std::sqrt(squares / double(traced.seen.size())), 0.12) << half_angle << " " << above;
             if (std::abs(above) > 1) {
                 for (const float t : traced.seen)
                     ASSERT_EQ(t > 0, above > 0) << half_angle << " " << above;
@@ -187,9 +193,9 @@ TEST(SunVisibility, TheMarginHasTheMeanOfItsNeighbours)
 
 TEST(SunVisibility, RaysGrowWithTheDisc)
 {
-    EXPECT_EQ(disc_rays(0), 1);
-    EXPECT_EQ(disc_rays(0.265 * latlong::pi / 180), 1);
-    EXPECT_EQ(disc_rays(1 * latlong::pi / 180), 4);
+    EXPECT_EQ(disc_rays(0), 16);
+    EXPECT_EQ(disc_rays(0.265 * latlong::pi / 180), 16);
+    EXPECT_EQ(disc_rays(1.5 * latlong::pi / 180), 64);
     EXPECT_EQ(disc_rays(4 * latlong::pi / 180), 64);
     EXPECT_EQ(disc_rays(40 * latlong::pi / 180), 64);
 }

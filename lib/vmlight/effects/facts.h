@@ -48,7 +48,7 @@ struct LightFacts
     std::string model;
     bool has_environment = false; ///< rather than filtered light
     bool wants_suns = false; ///< asked for
-    std::string no_suns; ///< why they cannot be traced, or ""
+    std::string no_suns {}; ///< why they cannot be traced, or ""
     int suns = 0; ///< that the light has, if they are asked for and can be traced
     double sun_share = 0; ///< of all light
 };
