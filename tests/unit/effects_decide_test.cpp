@@ -33,7 +33,7 @@ EffectFacts everything()
     bake.margin = 16;
     bake.udim = 1002;
     bake.udim_given = bake.half = true;
-    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true };
+    facts.light = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true, true, "", 2, 0.5 };
     return facts;
 }
 
