@@ -59,7 +59,7 @@ struct LightFacts
     bool wants_bounce = false; ///< one is asked for
     int bounce_rays = 0; ///< of a texel
     bool wants_suns = false; ///< asked for
-    std::string no_suns; ///< why they cannot be traced, or ""
+    std::string no_suns {}; ///< why they cannot be traced, or ""
     int suns = 0; ///< that the light has, if they are asked for and can be traced
     double sun_share = 0; ///< of all light
 };

@@ -37,14 +37,15 @@ struct Looked
         return at_least[4];
     }
 
-    // Texels that do not agree with one of the eight around them, or that have too few to tell.
+    // Texels that do not agree with one of the 24 around them, or that have too few beside them to tell.
     std::array<uint64_t, kTileSize> penumbra() const
     {
         std::array<uint64_t, kTileSize> result {};
         const auto around = [](const std::array<uint64_t, kTileSize>& rows, int y) {
             uint64_t all = 0;
-            for (int row = std::max(0, y - 1); row <= std::min(kTileSize - 1, y + 1); ++row)
-                all |= rows[size_t(row)] | rows[size_t(row)] << 1 | rows[size_t(row)] >> 1;
+            for (int row = std::max(0, y - 2); row <= std::min(kTileSize - 1, y + 2); ++row)
+                for (const int side : { 0, 1, 2 })
+                    all |= rows[size_t(row)] << side | rows[size_t(row)] >> side;
             return all;
         };
         for (int y = 0; y < kTileSize; ++y)
