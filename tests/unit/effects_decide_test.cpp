@@ -128,7 +128,7 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     facts.light.albedo_low = facts.light.albedo_high = 0;
     EXPECT_EQ(bounce(facts).reason, "the albedo is 0 everywhere");
     facts = everything();
-    facts.light.sees_surfaces = false;
+    facts.light.shadowed = 0;
     EXPECT_EQ(bounce(facts).reason, "no texel sees a surface");
     EXPECT_FALSE(bounce(facts).on);
     EXPECT_EQ(bounce(facts).impossible, "");
