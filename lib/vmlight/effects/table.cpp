@@ -271,7 +271,7 @@ void decide_suns(std::vector<EffectDecision>& dst, const Effect& effect, const E
                                          : format("{} with {} of the light; one ray or more for each texel that "
                                                   "faces them, at each rotation",
                                                   count_text(light.suns, "sun", "suns"), percent_text(light.sun_share)),
-                           0.3));
+                           0.15));
     if (!light.wants_suns || !light.no_suns.empty())
         dst.back().impossible = dst.back().reason;
 }
