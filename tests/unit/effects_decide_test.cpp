@@ -128,6 +128,11 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     facts.light.albedo_low = facts.light.albedo_high = 0;
     EXPECT_EQ(bounce(facts).reason, "the albedo is 0 everywhere");
     facts = everything();
+    facts.light.no_bounce = "\"vm.exr\" is only a part of a map";
+    EXPECT_EQ(bounce(facts).reason, "\"vm.exr\" is only a part of a map");
+    EXPECT_FALSE(bounce(facts).called_for);
+    EXPECT_NE(bounce(facts).impossible, "");
+    facts = everything();
     facts.light.shadowed = 0;
     EXPECT_EQ(bounce(facts).reason, "no texel sees a surface");
     EXPECT_FALSE(bounce(facts).on);

@@ -91,6 +91,7 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     }
     dst.wants_bounce = recipe.bounce_params.bounce != "off";
     dst.bounce_rays = recipe.bounce_params.bounce_rays;
+    dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec()) : "";
     measure_visibility(dst, inputs.vismap);
     return find_sun_facts(dst, inputs, recipe, options, error);
 }

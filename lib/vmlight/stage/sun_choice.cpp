@@ -11,18 +11,26 @@
 
 namespace vmlight {
 
+std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap)
+{
+    if (recipe_stage(recipe.vismap) != VismapRecipe::kStage && recipe.mesh.empty())
+        return format("\"{}\" does not say where its mesh is; set --mesh, and --occluder for all else that occluded it",
+                      recipe.vismap);
+    if (OIIO::get_roi(vismap) != OIIO::get_roi_full(vismap))
+        return format("\"{}\" is only a part of a map", recipe.vismap);
+    return "";
+}
+
 std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap)
 {
     const std::vector<std::string> stored = sun_channels(vismap.get_string_attribute("vmlight:sun_directions"));
     const bool has_stored = !stored.empty() && std::all_of(stored.begin(), stored.end(), [&](const std::string& name) {
         return vismap.channelindex(name) >= 0;
     });
-    if (recipe_stage(recipe.vismap) != VismapRecipe::kStage && recipe.mesh.empty() && !has_stored)
-        return format("\"{}\" does not say where its mesh is; set --mesh, and --occluder for all else that occluded it",
-                      recipe.vismap);
-    if (OIIO::get_roi(vismap) != OIIO::get_roi_full(vismap))
-        return format("\"{}\" is only a part of a map", recipe.vismap);
-    return "";
+    LightmapRecipe known = recipe;
+    if (has_stored && recipe.mesh.empty())
+        known.mesh = "its own channels";
+    return why_no_trace(known, vismap);
 }
 
 bool suns_of_light(std::vector<Sun>& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)

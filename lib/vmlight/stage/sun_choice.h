@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Whether the suns of a lightmap's light can be traced, before anything is.
+/// Whether a lightmap's suns and its bounce can be traced, before anything is.
 #pragma once
 
 #include <vmlight/cfem/suns.h>
@@ -13,7 +13,9 @@
 
 namespace vmlight {
 
-/// Why suns cannot be traced on the map with this header, in a clause, or "".
+/// Why nothing can be traced on the map with this header, in a clause, or "".
+std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap);
+/// The same of suns, whose visibility the map may hold.
 std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap);
 
 /// Set `dst` to the suns that the light of `recipe` has, whatever its key `suns` is; none if it is filtered with them.
