@@ -21,7 +21,7 @@ using Imath::V3d;
 using Imath::V3f;
 
 // Cells are larger than details of a texture.
-constexpr int kMostTexels = 64;
+constexpr int kMostAlbedoTexels = 64;
 
 // A texture, as blocks of its mean colour.
 class ColorBlocks
@@ -29,8 +29,8 @@ class ColorBlocks
 public:
     ColorBlocks(const OIIO::ImageBuf& image, const std::array<int, 3>& index, const MaterialTexture& texture)
         : m_texture(texture)
-        , m_width(std::min(kMostTexels, image.spec().width))
-        , m_height(std::min(kMostTexels, image.spec().height))
+        , m_width(std::min(kMostAlbedoTexels, image.spec().width))
+        , m_height(std::min(kMostAlbedoTexels, image.spec().height))
         , m_colors(size_t(m_width) * size_t(m_height))
     {
         std::vector<V3d> sums(m_colors.size(), V3d(0));

@@ -53,8 +53,8 @@ struct MicromapGrid
         const float across = x - float(i), up = y - float(j);
         const bool is_upper = across + up > 1;
         // Without branches: which way they go is as random as the hits.
-        const bool is_inside = (std::fabs(across - 0.5f) < 0.5f - slack) & (std::fabs(up - 0.5f) < 0.5f - slack)
-            & (std::fabs(across + up - 1) > slack) & (i + j + int(is_upper) < n);
+        const int is_inside = int(std::fabs(across - 0.5f) < 0.5f - slack) & int(std::fabs(up - 0.5f) < 0.5f - slack)
+            & int(std::fabs(across + up - 1) > slack) & int(i + j + int(is_upper) < n);
         return is_inside ? index(i, j, is_upper) : -1;
     }
     /// Where the half of square (i, j) is stored.
