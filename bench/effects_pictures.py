@@ -62,6 +62,8 @@ def columns(folder):
     scenes.well_stairs().write(made("well_stairs.obj"))
     wall(made("wall.obj"))
     bumps(made("bumps.png"))
+    subprocess.run(["oiiotool", "--create", "64x64", "3", "--fill:color=0.85,0.35,0.2", "64x64", "--attrib",
+                    "oiio:ColorSpace", "ACEScg", "-d", "float", "-o", made("paint.exr")], check=True)
     subprocess.run([sys.executable, leaf_cards.__file__, folder], check=True)
     leaves = [made("leaf_cards.gltf"), STUDIO, "--uv-set", "1", "--white", "--elevation", "15", "--exposure", "-1.5"]
     return {
@@ -71,32 +73,49 @@ def columns(folder):
         "cut-outs": (leaves, ["--cutouts", "off"], []),
         "normal-map": ([SPOT, STUDIO, "--white", "--exposure", "-1.5"], [], ["--normal-map", made("bumps.png")]),
         "max-distance": ([made("well_stairs.obj"), STUDIO, "--elevation", "75", "--exposure", "-1"], [], ["--max-distance", "0.3"]),
-        #"suns": ([GAZEBO, SUNNY, "--elevation", "20", "--model", "lobe"], [], ["--suns", "auto"]),
+        "suns": ([GAZEBO, SUNNY, "--elevation", "20", "--model", "lobe"], [], ["--suns", "auto"]),
+        "bounce": ([GAZEBO, STUDIO, "--elevation", "-10", "--exposure", "-0.5", "--albedo", made("paint.exr")], [],
+                   ["--bounce", "auto"]),
     }
 
 
-def picture(binaries, folder, words, name):
-    out = os.path.join(folder, name + ".exr")
-    map_words, frame_words, i = [], [], 2
+TO_MAP = ("--effects", "--occluder", "--bake-ground", "--normal-map", "--max-distance")
+TO_BOTH = ("--uv-set", "--cutouts")
+TO_LIGHT = ("--suns", "--bounce", "--albedo", "--model")
+SWITCHES = ("--white", "--bake-ground")
+
+
+def sorted_words(words):
+    """The flags of makevismap, of makelightmap and of vmframes."""
+    bake, light, frame, i = [], [], [], 0
     while i < len(words):
-        flag = words[i]
-        step = 1 if flag in ("--white", "--bake-ground") else 2
-        to_map = flag in ("--effects", "--occluder", "--bake-ground", "--normal-map", "--max-distance", "--uv-set",
-                          "--cutouts")
-        both = flag in ("--uv-set", "--cutouts")
+        flag, step = words[i], 1 if words[i] in SWITCHES else 2
         part = ["--ground"] if flag == "--bake-ground" else words[i:i + step]
-        if to_map:
-            map_words += part
-        if not to_map or both:
-            frame_words += part
+        bake += part if flag in TO_MAP + TO_BOTH else []
+        light += part if flag in TO_LIGHT else []
+        frame += part if flag not in TO_MAP + TO_LIGHT else []
         i += step
-    vismap = os.path.join(folder, name + "_vismap.exr")
-    subprocess.run([os.path.join(binaries, "makevismap"), words[0], "--resolution", "512", "--quiet", "-o", vismap]
-                   + map_words, check=True)
-    subprocess.run([os.path.join(binaries, "vmframes"), words[0], words[1], "--vismap", vismap, "--size", str(SIDE),
-                    "--background", "0.18,0.18,0.18", "--colorconfig", CONFIG, "--quiet", "-o", out] + frame_words,
-                   check=True)
-    return out
+    return bake, light, frame
+
+
+def picture(binaries, folder, words, name):
+    def run(tool, *rest):
+        subprocess.run([os.path.join(binaries, tool), *rest, "--quiet"], check=True, stderr=subprocess.DEVNULL)
+
+    def made(kind):
+        return os.path.join(folder, f"{name}{kind}.exr")
+
+    mesh, environment = words[:2]
+    bake, light, frame = sorted_words(words[2:])
+    run("makevismap", mesh, "--resolution", "512", "-o", made("_vismap"), *bake)
+    shown = [environment, "--vismap", made("_vismap")]
+    if light:
+        traced = ["--mesh", mesh] if "--suns" in light or "--bounce" in light else []
+        run("makelightmap", made("_vismap"), environment, "--colorconfig", CONFIG, "-o", made("_lit"), *light, *traced)
+        shown = ["--texture", made("_lit")]
+    run("vmframes", mesh, *shown, "--size", str(SIDE), "--background", "0.18,0.18,0.18", "--colorconfig", CONFIG, "-o",
+        made(""), *frame)
+    return made("")
 
 
 def main():
