@@ -103,7 +103,7 @@ double PoseProbe::change(uint32_t triangle, float weight1, float weight2, int x,
     int64_t changed = 0;
     for (int packet = 0; packet < m_base.fan.packets; ++packet)
         changed += int64_t(std::bitset<8>(m_base.fan.lanes[size_t(packet)] ^ m_pose.fan.lanes[size_t(packet)]).count());
-    return double(changed) / double(all) + (frame.normal - after.normal).length();
+    return std::min(1.0, double(changed) / double(all) + double((frame.normal - after.normal).length()));
 }
 
 } // namespace vmlight

@@ -32,8 +32,8 @@ public:
               const BakeHints* hints = nullptr);
 
     /// The share of the texel's rays that are blocked in one pose and not in the other, if the texel turns by `turn`
-    /// and its rays with it, plus how far its normal turns otherwise, in radians. By what is known of so many rays, V
-    /// and B of the texel (turned) differ by no more, nor does light that is nowhere brighter than 1.
+    /// and its rays with it, plus how far its normal turns otherwise, in radians; at most 1. By what is known of so
+    /// many rays, V and B of the texel (turned) differ by no more, nor does light that is nowhere brighter than 1.
     double change(uint32_t triangle, float weight1, float weight2, int x, int y, const Rotation& turn);
 
     /// Rays traced so far.
