@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/effects/rows.h>
+
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+
+namespace vmlight {
+
+void decide_color(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    dst.push_back(decision(effect, light.converts_color,
+                           light.converts_color ? light.color_note : "all inputs are in the space of the result",
+                           0.02));
+    if (!light.converts_color)
+        dst.back().impossible = "there is nothing to convert";
+}
+
+void decide_rotation(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const double degrees = facts.light.rotation_degrees;
+    dst.push_back(decision(effect, degrees > 0,
+                           degrees > 0 ? format("the light is turned by {:.4g} degrees", degrees)
+                                       : std::string("no rotation, or one that turns nothing"),
+                           0.01));
+}
+
+void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool is_one = light.albedo_low == 1 && light.albedo_high == 1;
+    const bool called = light.has_albedo && !is_one;
+    dst.push_back(decision(effect, called,
+                           !light.has_albedo                          ? std::string("none is given")
+                               : light.albedo_high < light.albedo_low ? std::string("one is given, and not read")
+                               : is_one                               ? std::string("it is 1 everywhere")
+                                        : format("values from {:.3g} to {:.3g}", light.albedo_low, light.albedo_high),
+                           0.1));
+    if (!light.has_albedo)
+        dst.back().impossible = "no --albedo is given";
+}
+
+void decide_visibility(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const std::string lit = count_text(light.lit, "texel", "texels");
+    dst.push_back(decision(effect, light.shadowed > 0,
+                           light.shadowed > 0 ? format("V is below 1 in {} of {}", light.shadowed, lit)
+                                              : format("V is 1 in all of {}: the light of the open sky", lit)));
+}
+
+void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool called = light.wants_bounce && light.has_albedo && light.no_bounce.empty() && light.albedo_high > 0
+        && light.shadowed > 0;
+    dst.push_back(decision(effect, called,
+                           !light.wants_bounce     ? std::string("not asked for: --bounce auto adds it")
+                               : !light.has_albedo ? std::string("no albedo is given, so that nothing is sent back")
+                               : !light.no_bounce.empty() ? light.no_bounce
+                               : light.shadowed == 0      ? std::string("no texel sees a surface")
+                               : !called                  ? std::string("the albedo is 0 everywhere")
+                                                          : format("texels see surfaces that send back up to {:.3g} of "
+                                                                                    "their light; {} rays a texel, once for all light",
+                                                                   light.albedo_high, light.bounce_rays),
+                           light.has_environment ? 0.15 : 0.5));
+    if (!light.wants_bounce || !light.has_albedo || !light.no_bounce.empty())
+        dst.back().impossible = dst.back().reason;
+}
+
+void decide_suns(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    const bool called = light.wants_suns && light.no_suns.empty() && light.suns > 0;
+    dst.push_back(decision(effect, called,
+                           !light.wants_suns            ? std::string("not asked for: --suns auto adds them")
+                               : !light.no_suns.empty() ? light.no_suns
+                               : !called                ? std::string("the light has no small strong source")
+                                         : format("{} with {} of the light; one ray or more for each texel that "
+                                                  "faces them, at each rotation",
+                                                  count_text(light.suns, "sun", "suns"), percent_text(light.sun_share)),
+                           0.15));
+    if (!light.wants_suns || !light.no_suns.empty())
+        dst.back().impossible = dst.back().reason;
+}
+
+void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    dst.push_back(decision(effect, light.has_environment && !light.is_one_color,
+                           !light.has_environment   ? "the light is filtered already"
+                               : light.is_one_color ? "the environment is of one colour, which no filter changes"
+                                                    : "an environment is given",
+                           0.35));
+    if (!light.has_environment)
+        dst.back().impossible = "the light is filtered already";
+}
+
+void decide_levels(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const LightFacts& light = facts.light;
+    dst.push_back(
+        decision(effect, light.levels > 1 && !light.is_one_color,
+                 light.is_one_color     ? std::string("the light is of one colour: V times it, wherever texels look")
+                     : light.levels > 1 ? format("the model {} reads {} images of the light", light.model, light.levels)
+                                        : format("the model {} reads one image of the light", light.model),
+                 0.2));
+}
+
+} // namespace vmlight
