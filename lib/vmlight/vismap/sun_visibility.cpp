@@ -3,6 +3,7 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/vismap/ground_of.h>
+#include <vmlight/vismap/penumbra.h>
 
 #include <algorithm>
 #include <numeric>
@@ -13,47 +14,18 @@ namespace {
 // Points that are kept between traces.
 constexpr size_t kMostKept = size_t(256) << 20; // bytes
 
-// Texels of a tile whose one ray met something, or nothing, by rows.
-struct Looked
+// The tiles around one that have been looked at for disc k of `count`.
+LookedAround around(const std::vector<LookedTile>& looked, const UvRaster& raster, int tile, size_t k, size_t count)
 {
-    std::array<uint64_t, kTileSize> blocked {}, seen {};
-
-    uint64_t looked(int y) const { return y < 0 || y >= kTileSize ? 0 : blocked[size_t(y)] | seen[size_t(y)]; }
-
-    // Texels that have as many around them as those of a straight edge, but for one.
-    uint64_t has_neighbours(int y) const
-    {
-        std::array<uint64_t, 5> at_least { ~uint64_t(0), 0, 0, 0, 0 }; // 0 to 4
-        const auto add = [&](uint64_t one) {
-            for (size_t n = 4; n > 0; --n)
-                at_least[n] |= at_least[n - 1] & one;
-        };
-        for (int row = y - 1; row <= y + 1; ++row) {
-            add(looked(row) << 1);
-            add(looked(row) >> 1);
-            if (row != y)
-                add(looked(row));
-        }
-        return at_least[4];
+    const int across = raster.tiles_across(), down = raster.tiles_down();
+    LookedAround tiles {};
+    for (int i = 0; i < 9; ++i) {
+        const int x = tile % across + i % 3 - 1, y = tile / across + i / 3 - 1;
+        if (x >= 0 && x < across && y >= 0 && y < down)
+            tiles[size_t(i)] = &looked[size_t(y * across + x) * count + k];
     }
-
-    // Texels that do not agree with one of the 24 around them, or that have too few beside them to tell.
-    std::array<uint64_t, kTileSize> penumbra() const
-    {
-        std::array<uint64_t, kTileSize> result {};
-        const auto around = [](const std::array<uint64_t, kTileSize>& rows, int y) {
-            uint64_t all = 0;
-            for (int row = std::max(0, y - 2); row <= std::min(kTileSize - 1, y + 2); ++row)
-                for (const int side : { 0, 1, 2 })
-                    all |= rows[size_t(row)] << side | rows[size_t(row)] >> side;
-            return all;
-        };
-        for (int y = 0; y < kTileSize; ++y)
-            result[size_t(y)] = (blocked[size_t(y)] & around(seen, y)) | (seen[size_t(y)] & around(blocked, y))
-                | (looked(y) & ~has_neighbours(y));
-        return result;
-    }
-};
+    return tiles;
+}
 
 } // namespace
 
@@ -75,7 +47,7 @@ bool SunTracer::prepare(BakeScenePointer scene, const VismapParams& map, std::st
     return true;
 }
 
-bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthreads, const Progress& progress) const
+bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthreads, const Progress& progress)
 {
     const MapPoints& map = *m_points;
     const VismapParams& params = map.params();
@@ -84,43 +56,57 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
     const std::vector<DiscSamples> samples(discs.begin(), discs.end());
     const float length = float(params.max_distance * map.scene().frame().scale);
     const GroundPlane ground = ground_of(map.scene(), params);
+    std::vector<LookedTile> looked(size_t(map.tiles()) * count);
     struct Worker
     {
         MapPoints::ScratchPointer scratch;
         int64_t rays = 0;
     };
     std::vector<Worker> workers(size_t(worker_count(nthreads)));
-    const auto trace = [&](int64_t tile, int index) {
-        Worker& worker = workers[size_t(index)];
-        const std::vector<MapPoint>& points = map.of_tile(int(tile), worker.scratch);
-        const int left = map.left(int(tile)), top = map.top(int(tile));
-        for (size_t k = 0; k < count; ++k) {
-            const Disc& disc = discs[ptrdiff_t(k)];
-            DiscTracer tracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length, params.seed,
-                              ground);
-            // One ray each, and all where a shadow has its edge.
-            Looked looked;
-            std::array<uint64_t, kTileSize> whole {};
-            const auto value
-                = [&](const MapPoint& point) -> float& { return dst[map.texel(int(tile), point) * count + k]; };
-            for (const MapPoint& point : points)
-                if (tracer.add_one(point.surface, left + point.x, top + point.y, &value(point)))
-                    whole[point.y] |= uint64_t(1) << point.x;
-                else
-                    tracer.add(point.surface, left + point.x, top + point.y, &value(point));
-            tracer.flush();
-            for (const MapPoint& point : points)
-                if (const uint64_t bit = uint64_t(1) << point.x; whole[point.y] & bit)
-                    (value(point) > 0 ? looked.seen : looked.blocked)[point.y] |= bit;
-            const std::array<uint64_t, kTileSize> penumbra = looked.penumbra();
-            for (const MapPoint& point : points)
-                if (penumbra[point.y] >> point.x & 1)
-                    tracer.add(point.surface, left + point.x, top + point.y, &value(point));
-            tracer.flush();
-            worker.rays += tracer.rays();
-        }
+    // Call work(tracer, tile, points, k) for each tile and disc.
+    const auto each = [&](const auto& work, const Progress& part) {
+        const auto trace_tile = [&](int64_t tile, int index) {
+            Worker& worker = workers[size_t(index)];
+            const std::vector<MapPoint>& points = map.of_tile(int(tile), worker.scratch);
+            for (size_t k = 0; k < count && !points.empty(); ++k) {
+                const Disc& disc = discs[ptrdiff_t(k)];
+                DiscTracer tracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length,
+                                  params.seed, ground);
+                work(tracer, int(tile), points, k);
+                worker.rays += tracer.rays();
+            }
+        };
+        return parallel_items(map.tiles(), nthreads, trace_tile, part);
     };
-    if (!parallel_items(map.tiles(), nthreads, trace, progress))
+    const auto value
+        = [&](int tile, const MapPoint& point, size_t k) -> float& { return dst[map.texel(tile, point) * count + k]; };
+    // One ray each, but for texels that the horizon of the surface cuts the disc of: these need all.
+    const auto look = [&](DiscTracer& tracer, int tile, const std::vector<MapPoint>& points, size_t k) {
+        std::array<uint64_t, kTileSize> whole {};
+        for (const MapPoint& point : points) {
+            const int x = map.left(tile) + point.x, y = map.top(tile) + point.y;
+            if (tracer.add_one(point.surface, x, y, &value(tile, point, k)))
+                whole[point.y] |= uint64_t(1) << point.x;
+            else
+                tracer.add(point.surface, x, y, &value(tile, point, k));
+        }
+        tracer.flush();
+        for (const MapPoint& point : points)
+            if (whole[point.y] >> point.x & 1)
+                looked[size_t(tile) * count + k].set(point.x, point.y, value(tile, point, k) > 0);
+    };
+    // And all where a shadow has its edge.
+    const auto refine = [&](DiscTracer& tracer, int tile, const std::vector<MapPoint>& points, size_t k) {
+        const std::array<uint64_t, kTileSize> edge = penumbra(around(looked, map.raster(), tile, k, count));
+        for (const MapPoint& point : points)
+            if (edge[point.y] >> point.x & 1)
+                tracer.add(point.surface, map.left(tile) + point.x, map.top(tile) + point.y, &value(tile, point, k));
+        tracer.flush();
+    };
+    const auto part = [&](double from) {
+        return progress ? Progress([&progress, from](double done) { return progress(from + 0.5 * done); }) : Progress();
+    };
+    if (!each(look, part(0)) || !each(refine, part(0.5)))
         return false;
     m_rays = std::accumulate(workers.begin(), workers.end(), int64_t(0),
                              [](int64_t sum, const Worker& worker) { return sum + worker.rays; });

@@ -102,9 +102,8 @@ public:
     /// Find the points of all texels. Keeps them if they take no more than 256 MiB, else finds them each time.
     ///
     /// @param scene    built
-    /// @param map      size, UDIM tile, maximum distance, ground, margin and seed, as for the visibility map of the
-    /// same
-    ///                 texels
+    /// @param map      as for the visibility map of the same texels: size, UDIM tile, maximum distance, ground,
+    ///                 margin and seed
     /// @param normal_map   likewise; nullptr without
     /// @returns false, with the reason in `error`, if a parameter is out of range or `progress` stopped the work
     bool prepare(BakeScenePointer scene, const VismapParams& map, std::string& error, int nthreads = 0,
@@ -113,10 +112,9 @@ public:
     /// Trace `discs`, which are in object space.
     ///
     /// @param dst  set to one float for each disc, texel by texel: T of DiscTracer::add(), and in the margin the mean
-    /// of
-    ///             neighbours whose normals are alike; 0 elsewhere. The same bits for any number of threads
+    ///             of neighbours whose normals are alike; 0 elsewhere. The same bits for any number of threads
     /// @returns false if `progress` stopped the work
-    bool trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthreads = 0, const Progress& progress = {}) const;
+    bool trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthreads = 0, const Progress& progress = {});
 
     /// Rays of the last trace().
     int64_t rays() const { return m_rays; }
@@ -124,7 +122,7 @@ public:
 
 private:
     std::unique_ptr<MapPoints> m_points;
-    mutable int64_t m_rays = 0;
+    int64_t m_rays = 0;
 };
 
 } // namespace vmlight
