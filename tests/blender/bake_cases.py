@@ -1,84 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Unwrap and Bake."""
+"""Bake, and what it refuses."""
 import json
 import os
-import shlex
-import stat
 import struct
-import threading
-import time
 
 import bpy
 import numpy
 import OpenImageIO
-from scene import BIN, Case, STUDIO, channel, plane, preferences, select, wall, world
-
-
-class Unwrap(Case):
-    def monkey(self):
-        bpy.ops.mesh.primitive_monkey_add()
-        self.settings.resolution = 256
-        return bpy.context.object
-
-    def test_the_monkey_gets_charts_that_do_not_overlap(self):
-        monkey = self.monkey()
-        before = [tuple(vertex.co) for vertex in monkey.data.vertices]
-        bpy.ops.vmlight.unwrap()
-        self.assertEqual(self.settings.uv_source, "UNWRAPPED")
-        self.assertEqual([layer.name for layer in monkey.data.uv_layers], ["UVMap", "vmlight"])
-        self.assertTrue(monkey.data.uv_layers["UVMap"].active_render)  # its own textures stay where they are
-        self.assertEqual([tuple(vertex.co) for vertex in monkey.data.vertices], before)
-        from vmlight_addon import status
-        bpy.ops.vmlight.bake()
-        self.assertEqual([text for kind, text in status.log if kind == "WARNING"], [])
-        self.assertTrue(any("0 texels are shared" in text for _, text in status.log), status.log)
-        self.assertGreater(channel(self.path("vmlight", "shot_Suzanne_vismap.exr"), "coverage").mean(), 0.2)
-
-    def test_faces_are_cut_only_where_charts_part_them(self):
-        from vmlight_addon import glb, mesh_export, status, unwrap
-        monkey = self.monkey()
-        faces = len(monkey.data.polygons)
-        atlases, set_uvs = [], unwrap.set_uvs
-
-        def watched(mesh, atlas):
-            atlases.append(glb.read_uvs(atlas).reshape(-1, 3, 2))
-            return set_uvs(mesh, atlas)
-
-        unwrap.set_uvs = watched
-        self.addCleanup(setattr, unwrap, "set_uvs", set_uvs)
-        bpy.ops.vmlight.unwrap()
-        cut = len(monkey.data.polygons) - faces
-        self.assertTrue(0 < cut < faces / 5, cut)
-        self.assertIn(f"1 mesh unwrapped; {cut} faces were cut into triangles", status.log[-1][1])
-        # The triangles of the mesh have the atlas's own UVs, each corner where it was.
-        corners, _, _ = mesh_export.triangles(monkey.data)
-        uvs = numpy.array([loop.uv for loop in monkey.data.uv_layers["vmlight"].data], numpy.float32)[corners]
-
-        def turned(triangles):
-            """In an order that does not depend on which corner comes first."""
-            return sorted(min((t[i:] + t[:i] for i in range(3))) for t in triangles.tolist())
-
-        self.assertEqual(turned(uvs), turned(atlases[0]))
-        # A second time, nothing is left to cut.
-        bpy.ops.vmlight.unwrap()
-        self.assertEqual(len(monkey.data.polygons), faces + cut)
-        self.assertEqual(status.log[-1][1], "1 mesh unwrapped")
-
-    def test_objects_that_share_a_mesh_are_unwrapped_once(self):
-        first = plane()
-        second = first.copy()
-        self.scene.collection.objects.link(second)
-        select(first, second)
-        bpy.ops.vmlight.unwrap()
-        from vmlight_addon import status
-        self.assertEqual(status.log[-1][1], "1 mesh unwrapped")
-
-    def test_modifiers_that_copy_uvs_are_warned_of(self):
-        plane().modifiers.new("Twin", "MIRROR")
-        bpy.ops.vmlight.unwrap()
-        from vmlight_addon import status
-        self.assertIn(("WARNING", '"floor": its modifier Twin lays copies onto the same UVs: apply it, then unwrap again'),
-                      status.log)
+from scene import Case, STUDIO, channel, plane, preferences, select, wall, world
 
 
 class Bake(Case):
@@ -246,58 +175,3 @@ class Refusals(Case):
         bpy.ops.object.mode_set(mode="EDIT")
         with self.assertRaises(RuntimeError):
             bpy.ops.vmlight.bake()
-
-
-class Cancel(Case):
-    def cancel_when_running(self):
-        from vmlight_addon import status
-
-        def watch():
-            end = time.monotonic() + 120  # then it is ended anyway
-            while not (status.job and "bake" in status.job.line) and time.monotonic() < end:
-                time.sleep(0.005)
-            status.job.cancel()
-
-        thread = threading.Thread(target=watch)
-        thread.start()
-        return thread
-
-    def test_cancel_leaves_nothing(self):
-        from vmlight_addon import status
-        floor, other = plane(), plane("other")
-        select(floor, other)
-        self.settings.resolution, self.settings.samples = 2048, 2048  # an hour
-        thread = self.cancel_when_running()
-        self.assertEqual(bpy.ops.vmlight.bake(), {"CANCELLED"})
-        thread.join()
-        self.assertEqual(status.log[-1], ("INFO", "Bake cancelled"))
-        self.assertIsNone(status.job)
-        self.assertFalse(os.path.exists(self.path("vmlight")))
-        self.assertEqual((floor.vmlight.vismap, other.vmlight.vismap), ("", ""))
-
-    def test_cancel_keeps_the_maps_before(self):
-        floor, other = plane(), plane("other")
-        select(floor, other)
-        bpy.ops.vmlight.bake()
-        with open(self.path("vmlight", "shot_floor_vismap.exr"), "rb") as file:
-            before = file.read()
-        self.settings.resolution, self.settings.samples = 2048, 2048  # an hour
-        self.cancel_when_running()
-        bpy.ops.vmlight.bake()
-        with open(self.path("vmlight", "shot_floor_vismap.exr"), "rb") as file:
-            self.assertEqual(file.read(), before)
-        self.assertEqual(self.maps(), ["shot_floor_vismap.exr", "shot_other_vismap.exr"])
-
-    def test_a_failure_half_way_leaves_nothing(self):
-        bad = self.path("bin")
-        os.mkdir(bad)
-        script = os.path.join(bad, "makevismap")
-        with open(script, "w") as file:
-            file.write(f'#!/bin/sh\ncase "$3" in other) echo "makevismap ERROR: the disk is full" >&2; exit 1;; esac\n'
-                       f'exec {shlex.quote(os.path.join(BIN, "makevismap"))} "$@"\n')
-        os.chmod(script, os.stat(script).st_mode | stat.S_IXUSR)
-        preferences().folder = bad
-        floor, other = plane(), plane("other")
-        select(floor, other)
-        self.assert_refused("the disk is full", bpy.ops.vmlight.bake)
-        self.assertFalse(os.path.exists(self.path("vmlight")))

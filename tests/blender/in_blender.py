@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Installs the add-on from its zip and runs the cases of a file beside this one, or of one class: light_cases.Relight.
+"""Installs the add-on from its zip and runs the cases of a file beside this one, or of one class: relight_cases.Relight.
 Run by addon_test.py, in Blender."""
 import os
 import sys

@@ -152,3 +152,24 @@ def render(path, resolution, samples=1, location=(0, 0, 5), rotation=(0, 0, 0), 
     scene.render.filepath = path
     bpy.ops.render.render(write_still=True)
     return read(path)
+
+
+class Lit(Case):
+    def floor(self):
+        """Beside a wall, baked, under the studio."""
+        floor = plane()
+        wall()
+        select(floor)
+        bpy.ops.vmlight.bake()
+        world(STUDIO)
+        return floor
+
+    def expected(self, *words):
+        """Of makelightmap itself."""
+        self.run_tool("makelightmap", self.path("vmlight", "shot_floor_vismap.exr"), STUDIO, "-o", self.path("lit.exr"), *words)
+        return read(self.path("lit.exr"))
+
+    def assert_near(self, a, b, bound):
+        """Relative to the mean."""
+        self.assertEqual(a.shape, b.shape)
+        self.assertLess(numpy.abs(a - b).max() / numpy.abs(b).mean(), bound)
