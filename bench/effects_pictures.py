@@ -6,12 +6,14 @@
 
 Each column is one effect: bakes with and without it, then vmframes at the same light and exposure. Needs oiiotool.
 """
+import math
 import os
 import subprocess
 import sys
 import tempfile
 
 import leaf_cards
+import png
 import scenes
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -32,26 +34,14 @@ def wall(path):
 
 def bumps(path):
     """A normal map of a bumpy hide, in tangent space."""
-    import math
-    import struct
-    import zlib
-
-    size, rows = 512, b""
-    for y in range(size):
-        row = b"\0"
-        for x in range(size):
-            slope = [0.55 * math.cos(2 * math.pi * 24 * x / size) * math.sin(2 * math.pi * 24 * y / size),
-                     -0.55 * math.sin(2 * math.pi * 24 * x / size) * math.cos(2 * math.pi * 24 * y / size), 1]
-            length = scenes.length(slope)
-            row += bytes(round(127.5 + 127.5 * s / length) for s in slope)
-        rows += row
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    def pixel(x, y):
+        across, down = (2 * math.pi * 24 * i / 512 for i in (x, y))
+        slope = [0.55 * math.cos(across) * math.sin(down), -0.55 * math.sin(across) * math.cos(down), 1]
+        length = scenes.length(slope)
+        return [round(127.5 + 127.5 * s / length) for s in slope]
 
     with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0))
-                   + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        file.write(png.encode([[pixel(x, y) for x in range(512)] for y in range(512)]))
 
 
 def columns(folder):

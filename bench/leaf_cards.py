@@ -12,8 +12,8 @@ import math
 import os
 import struct
 import sys
-import zlib
 
+import png
 import scenes
 
 SIDE = 512
@@ -27,12 +27,7 @@ def leaf_alpha(x, y):
 
 
 def png_of_leaf():
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = b"".join(b"\0" + b"".join(bytes((60, 130, 40, leaf_alpha(x, y))) for x in range(SIDE)) for y in range(SIDE))
-    header = struct.pack(">IIBBBBB", SIDE, SIDE, 8, 6, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+    return png.encode([[(60, 130, 40, leaf_alpha(x, y)) for x in range(SIDE)] for y in range(SIDE)])
 
 
 class Buffer:
