@@ -19,8 +19,6 @@ namespace {
 
 using pugi::xml_node;
 
-constexpr int kMaxDepth = 100000; // the deep stack holds twice as many
-
 bool is(const xml_node& element, const char* name)
 {
     return std::strcmp(element.name(), name) == 0;
@@ -38,11 +36,16 @@ std::string target_of(const xml_node& element)
 class NodeCollector : public pugi::xml_tree_walker
 {
 public:
+    explicit NodeCollector(const NodeLimits& limits)
+        : m_limits(limits)
+    {
+    }
+
     bool is_too_deep() const { return m_is_too_deep; }
 
     bool for_each(xml_node& element) override
     {
-        m_is_too_deep |= depth() >= kMaxDepth;
+        m_is_too_deep |= depth() >= m_limits.depth;
         const bool is_visual_scene = is(element, "visual_scene");
         if (is_visual_scene || (is(element, "node") && is(element.parent(), "library_nodes")))
             m_library[element.attribute("id").value()] = element;
@@ -64,7 +67,7 @@ public:
             if (is_under(node, root))
                 for (const char* word : { "id", "name" })
                     in_instanced.emplace(node.attribute(word).value(), node);
-        NodeGraph<const pugi::xml_node_struct*> graph;
+        NodeGraph<const pugi::xml_node_struct*> graph(m_limits);
         for (const xml_node& node : m_nodes)
             for (const xml_node& child : node)
                 if (is(child, "node")) {
@@ -95,6 +98,7 @@ private:
         return result;
     }
 
+    const NodeLimits m_limits;
     bool m_is_too_deep = false;
     std::string m_instanced;
     std::vector<xml_node> m_nodes;
@@ -114,14 +118,14 @@ bool is_collada(const FileHead& head)
     return OIIO::Strutil::starts_with(text, "<") && OIIO::Strutil::icontains(text, "<collada");
 }
 
-Inspection inspect_collada(const std::string& text)
+Inspection inspect_collada(const std::string& text, const NodeLimits& limits)
 {
     Inspection result;
     pugi::xml_document document;
     document.load_buffer(text.data(), text.size()); // of invalid XML, all before the error
-    NodeCollector nodes;
+    NodeCollector nodes(limits);
     document.traverse(nodes);
-    result.error = nodes.is_too_deep() ? format("XML elements are nested more than {} deep", kMaxDepth)
+    result.error = nodes.is_too_deep() ? format("XML elements are nested more than {} deep", limits.depth)
                                        : nodes.hierarchy_error();
     return result;
 }

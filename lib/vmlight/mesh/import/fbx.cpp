@@ -16,9 +16,6 @@
 namespace vmlight {
 namespace {
 
-constexpr int kMaxModelDepth = 5000; // assimp makes up to 18 nodes of each Model
-constexpr size_t kMaxExtraModels = 50000; // copies under several parents, which no exporter is known to write
-
 // The leading digits, as assimp reads them: beyond 64 bits they are 0 or wrap.
 int64_t id_of(const std::string& text)
 {
@@ -49,10 +46,10 @@ public:
         }
     }
 
-    std::string hierarchy_error() const
+    std::string hierarchy_error(const NodeLimits& limits) const
     {
         constexpr int64_t kRoot = 0;
-        NodeGraph<int64_t> graph(m_children_and_parents.size() + kMaxExtraModels, kMaxModelDepth);
+        NodeGraph<int64_t> graph({ m_children_and_parents.size() + limits.nodes, limits.depth });
         for (const auto& [child, parent] : m_children_and_parents)
             if (m_names.count(child) && (parent == kRoot || m_names.count(parent)))
                 graph.add(parent, child);
@@ -85,7 +82,7 @@ bool is_fbx(const FileHead& head)
         || (starts_with(text, ";") && icontains(text.substr(0, 200), "fbx"));
 }
 
-Inspection inspect_fbx(const std::string& bytes)
+Inspection inspect_fbx(const std::string& bytes, const NodeLimits& limits)
 {
     Models models;
     Inspection result;
@@ -94,7 +91,7 @@ Inspection inspect_fbx(const std::string& bytes)
             models.add(list, record, properties);
         });
     if (result.error.empty())
-        result.error = models.hierarchy_error();
+        result.error = models.hierarchy_error(limits);
     return result;
 }
 

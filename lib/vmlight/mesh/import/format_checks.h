@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vmlight/mesh/import/importer.h>
+#include <vmlight/mesh/import/node_graph.h>
 
 #include <Imath/ImathVec.h>
 #include <OpenImageIO/string_view.h>
@@ -29,18 +30,29 @@ bool is_stl(const FileHead& head);
 
 /// Collada: XML, in 8 or 16 bits, with "<collada" near its start, in any case.
 bool is_collada(const FileHead& head);
-/// Refuses elements nested more than 100000 deep, through which assimp recurses; a scene of more than a million nodes
+/// Refuses elements nested deeper than the limit, through which assimp recurses; a scene of more nodes than the limit
 /// once each instance_node is expanded, as assimp 5.2 does, by the names it looks up; a node that is its own ancestor.
 /// Invalid XML is left to assimp: only what comes before the error is checked. Source: Khronos, Collada 1.4.1
 /// specification, `instance_node`.
-Inspection inspect_collada(const std::string& text);
+Inspection inspect_collada(const std::string& text, const NodeLimits& limits);
+inline Inspection inspect_collada(const std::string& text)
+{
+    return inspect_collada(text, {});
+}
 
 /// FBX: starts as a binary file does, or as text does: with a comment or a header that names FBX.
 bool is_fbx(const FileHead& head);
-/// Refuses what read_fbx_records() does; a Model that is its own ancestor; Models more than 5000 deep, or, once each is
-/// expanded under all its parents, as assimp does, more than the connections and 50000. Connections of other objects
-/// (skins, clusters, geometries) may be cyclic and are not checked. All else is left to assimp.
-/// Source: assimp 5.2, FBXDocument.cpp and FBXConverter.cpp.
-Inspection inspect_fbx(const std::string& bytes);
+/// For Models of FBX files: `nodes` is how many more than the connections may come of copies under several parents,
+/// which no exporter is known to write. assimp makes up to 18 nodes of each Model.
+constexpr NodeLimits kFbxLimits { 50000, 5000 };
+/// Refuses what read_fbx_records() does; a Model that is its own ancestor; Models deeper than the limit, or, once each
+/// is expanded under all its parents, as assimp does, more than the connections and the limit. Connections of other
+/// objects (skins, clusters, geometries) may be cyclic and are not checked. All else is left to assimp. Source:
+/// assimp 5.2, FBXDocument.cpp and FBXConverter.cpp.
+Inspection inspect_fbx(const std::string& bytes, const NodeLimits& limits);
+inline Inspection inspect_fbx(const std::string& bytes)
+{
+    return inspect_fbx(bytes, kFbxLimits);
+}
 
 } // namespace vmlight

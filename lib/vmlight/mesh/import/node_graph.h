@@ -8,16 +8,20 @@
 
 namespace vmlight {
 
+/// What importers can be given.
+struct NodeLimits
+{
+    size_t nodes = 1000000; ///< after expansion; assimp needs more than a kilobyte for each
+    int depth = 100000; ///< the deep stack that meshes are read on holds twice this
+};
+
 /// The parents and children that a mesh file declares. Importers copy a node with several parents under each of them,
 /// by recursion: a short file may expand to more than memory holds, or never end.
 template <class Node> class NodeGraph
 {
 public:
-    /// @param max_nodes    after expansion; assimp needs more than a kilobyte for each
-    /// @param max_depth    the deep stack that meshes are read on holds twice the default
-    explicit NodeGraph(size_t max_nodes = 1000000, int max_depth = 100000)
-        : m_max_nodes(max_nodes)
-        , m_max_depth(max_depth)
+    explicit NodeGraph(const NodeLimits& limits = {})
+        : m_limits(limits)
     {
     }
 
@@ -31,8 +35,8 @@ public:
         m_counts.clear();
         m_error.clear();
         const size_t count = count_under(root, 0, name_of);
-        if (m_error.empty() && count > m_max_nodes)
-            m_error = "node instances expand to more than " + std::to_string(m_max_nodes) + " nodes";
+        if (m_error.empty() && count > m_limits.nodes)
+            m_error = "node instances expand to more than " + std::to_string(m_limits.nodes) + " nodes";
         return m_error;
     }
 
@@ -43,8 +47,8 @@ private:
         const auto [known, is_new] = m_counts.emplace(node, kInProgress);
         if (!is_new && known->second == kInProgress)
             m_error = "node " + name_of(node) + " is its own ancestor";
-        else if (depth > m_max_depth)
-            m_error = "nodes are nested more than " + std::to_string(m_max_depth) + " deep";
+        else if (depth > m_limits.depth)
+            m_error = "nodes are nested more than " + std::to_string(m_limits.depth) + " deep";
         if (!is_new || !m_error.empty())
             return known->second;
         size_t sum = 1;
@@ -54,14 +58,13 @@ private:
                 const size_t count = count_under(child, depth + 1, name_of);
                 if (!m_error.empty())
                     return sum;
-                sum = sum + count > m_max_nodes ? m_max_nodes + 1 : sum + count;
+                sum = sum + count > m_limits.nodes ? m_limits.nodes + 1 : sum + count;
             }
         m_counts[node] = sum; // looked up again: `known` is invalid after insertions
         return sum;
     }
 
-    size_t m_max_nodes;
-    int m_max_depth;
+    NodeLimits m_limits;
     std::unordered_map<Node, std::vector<Node>> m_children;
     std::unordered_map<Node, size_t> m_counts;
     std::string m_error;

@@ -21,7 +21,7 @@ Objects::Objects(const std::string& path)
     , m_archive(::Alembic::AbcCoreOgawa::ReadArchive(1, false)(path))
 {
     m_top = { m_archive->getTop(), m_file.top_object() };
-    NodeGraph<uint64_t> graph(kMostNodes, kMostDeep);
+    NodeGraph<uint64_t> graph({ kMostNodes, kMostDeep });
     add_children(graph, m_top, 0);
     const std::string error
         = graph.error(m_top.group, [&](uint64_t group) { return format("\"{}\"", m_names[group]); });
