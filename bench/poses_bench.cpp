@@ -2,11 +2,12 @@
 /// What it saves to bake the poses of a mesh together, as a Markdown table: a flag that waves beside a house on a lawn;
 /// and of MESH, such as tests/data/spot.obj, one that nods, and one that walks.
 ///
-///     poses_bench [MESH [RESOLUTION [SAMPLES [FRAMES [JUDGED]]]]]
+///     poses_bench [MESH [RESOLUTION [SAMPLES [FRAMES [JUDGED [ONLY]]]]]]
 ///
 /// CPU seconds of all threads, which other work on the machine hardly changes, for the scenes and maps of all frames,
 /// files left out: each frame whole, and as a sequence at several errors. Rays are of all frames but the first,
-/// relative to those of plain bakes. RMS of V against 1024 rays a texel, over JUDGED frames (2).
+/// relative to those of plain bakes. RMS of V against 1024 rays a texel, over JUDGED frames (2). ONLY is one of flag,
+/// nodding and walking.
 #include <vmlight/base/format.h>
 #include <vmlight/math/rotation.h>
 #include <vmlight/mesh/import/read_mesh.h>
@@ -208,14 +209,17 @@ int main(int argc, char** argv)
     const int frames = std::max(2, number(4, 24)), judged = std::max(0, number(5, 2));
     std::printf("| mesh | error | kept | rays | RMS of V | CPU s | of it the first frame | scenes | times as fast "
                 "|\n|---|---|---|---|---|---|---|---|---|\n");
-    measure("flag", flag, params, frames, judged);
+    const std::string only = argc > 6 ? argv[6] : "";
+    if (only.empty() || only == "flag")
+        measure("flag", flag, params, frames, judged);
     if (argc > 1 && argv[1][0]) {
         Mesh mesh;
         std::string error;
         if (!read_mesh(mesh, argv[1], {}, error))
             fail(error);
         for (const auto& [name, pose] : { std::pair("nodding", nodding), { "walking", walking } })
-            measure(
-                name, [&mesh, move = pose](double time) { return move(mesh, time); }, params, frames, judged);
+            if (only.empty() || only == name)
+                measure(
+                    name, [&mesh, move = pose](double time) { return move(mesh, time); }, params, frames, judged);
     }
 }
