@@ -34,7 +34,7 @@ std::vector<ModelVariant> make_variants()
             add(model, model.name, 0);
     }
     for (const char* name : kWithSuns)
-        add(*find_model_entry(name), std::string(name) + "+suns", 0, true);
+        add(*find_model_entry(name), with_suns(name), 0, true);
     return variants;
 }
 

@@ -236,3 +236,59 @@ TEST_F(Bounce, ARecipeKeepsIt)
     done("makelightmap corner.vismap sky.exr --albedo white.exr --bounce auto --ground-albedo 0.25 -o b.exr");
     expect_same_pixels("a.exr", "b.exr", 0);
 }
+
+TEST_F(Bounce, TilesOfUdimLightEachOther)
+{
+    // The floor is on the first tile, the wall on the next.
+    write("tiles.obj",
+          "v 0 0 10\nv 1 0 10\nv 1 0 -10\nv 0 0 -10\nv 0 1 10\nv 0 1 -10\n"
+          "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\nvn 0 1 0\nvn 1 0 0\n"
+          "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/2/2 4/3/2 6/6/2 5/5/2\n");
+    done("makevismap tiles.obj --resolution 64 --samples 256 -o 'vm.<UDIM>.exr'");
+    const std::string light = "makelightmap 'vm.<UDIM>.exr' sky.exr --albedo white.exr ";
+    done(light + "--mesh tiles.obj --bounce auto -o 'lit.<UDIM>.exr'");
+    done(light + "-o 'plain.<UDIM>.exr'");
+    // What is off the map sends light in cells of 1/128 of the mesh at least, which is 20 long: not beside the edge.
+    for (const char* tile : { "1001", "1002" })
+        for (int x = 10; x < 64; ++x) {
+            const WhiteCorner wanted((x + 0.5) / 64);
+            const std::string suffix = std::string(".") + tile + ".exr";
+            EXPECT_NEAR(value("lit" + suffix, x) - value("plain" + suffix, x), wanted.bounced, 0.03)
+                << tile << " " << x;
+        }
+}
+
+TEST_F(Bounce, WhatIsTransparentChangesNothing)
+{
+    write("glass.mtl", "newmtl glass\nKd 1 0 0\nd 0\n");
+    write("glass.obj", "mtllib glass.mtl\nusemtl glass\nv .3 0 9\nv .3 0 -9\nv .3 1 -9\nv .3 1 9\nf 1 2 3 4\n");
+    done("makevismap floor.obj --occluder wall.obj --resolution 64 --samples 64 -o vm.exr");
+    done("makevismap floor.obj --occluder wall.obj --occluder glass.obj --resolution 64 --samples 64 -o both.exr");
+    const std::string light = " sky.exr --albedo white.exr --bounce auto --mesh floor.obj --occluder wall.obj";
+    done("makelightmap vm.exr" + light + " -o a.exr");
+    done("makelightmap both.exr" + light + " --occluder glass.obj -o b.exr");
+    expect_same_pixels("a.exr", "b.exr", 0);
+    done("makelightmap vm.exr sky.exr --albedo white.exr -o plain.exr");
+    EXPECT_GT(value("b.exr", 20), value("plain.exr", 20) + 0.02f);
+}
+
+TEST_F(Bounce, ANormalMapIsThatOfTheRecipe)
+{
+    // Leaning away from the wall by 45 degrees: less of it, and some of the floor itself.
+    OIIO::ImageBuf normals(OIIO::ImageSpec(4, 4, 3, OIIO::TypeFloat));
+    for (OIIO::ImageBuf::Iterator<float> p(normals); !p.done(); ++p)
+        p[0] = p[2] = 0.5f + 0.5f * std::sqrt(0.5f), p[1] = 0.5f;
+    ASSERT_TRUE(normals.write(path("lean.exr"))) << normals.geterror();
+    write("lean.vismap",
+          "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 256\nnormal_map = "
+          "\"lean.exr\"\n");
+    const std::string light = " sky.exr --albedo white.exr ";
+    done("makelightmap lean.vismap" + light + "-o plain.exr");
+    done("makelightmap lean.vismap" + light + "--bounce auto --bounce-albedo 0 -o own.exr");
+    // Far from the wall: V of the leaning normal, and that much of what the floor sends back.
+    const double self = (1 - std::sqrt(0.5)) / 2, sky = value("plain.exr", 60);
+    EXPECT_NEAR(value("own.exr", 60) - value("plain.exr", 60), self * sky, 0.02);
+    done("makevismap lean.vismap -o vm.exr");
+    refused(1, "baked with the normal map \"lean.exr\"",
+            "makelightmap vm.exr" + light + "--bounce auto --mesh floor.obj --occluder wall.obj -o c.exr");
+}

@@ -154,3 +154,11 @@ TEST_F(Poses, WhatMakesNoSenseIsRefused)
     write("nan.obj", lidded(0, "nan"));
     refused(1, "\"nan.obj\"", std::string("makevismap lid.0001.obj --pose nan.obj -o x.exr") + kFlags);
 }
+
+#if !VMLIGHT_HAS_ALEMBIC
+TEST_F(Poses, FramesOfAnAlembicFileThatIsNotReadSayWhatToDo)
+{
+    write("walk.abc", std::string("Ogawa\xff\0\1\x10\0\0\0\0\0\0\0", 16) + std::string(8, '\0'));
+    refused(1, "OBJ or PLY, a file for each frame", "makevismap walk.abc --frames 1-2 -o x.#.exr");
+}
+#endif

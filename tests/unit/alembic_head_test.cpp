@@ -26,7 +26,8 @@ TEST_F(MeshFiles, AnAlembicFileIsKnownByItsContent)
 #else
         EXPECT_EQ(said,
                   "an Alembic file, but this vmlight was built without Alembic: build it where the Alembic library is "
-                  "installed (Debian sid: libalembic-graphics-dev), or export the mesh as glTF, OBJ or PLY");
+                  "installed (Debian sid: libalembic-graphics-dev), or export the mesh as glTF, OBJ or PLY, a file "
+                  "for each frame");
 #endif
     }
 }

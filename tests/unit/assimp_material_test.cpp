@@ -124,3 +124,13 @@ TEST(AssimpMaterials, HaveEmbeddedImages)
     EXPECT_EQ(*material.base_color_texture.embedded, "PNG data");
     EXPECT_EQ(material.base_color_texture.path, "");
 }
+
+TEST(AssimpMaterials, HeightsAreKnownToBeThere)
+{
+    for (const aiTextureType type : { aiTextureType_HEIGHT, aiTextureType_DISPLACEMENT, aiTextureType_NORMALS }) {
+        const Material material
+            = material_of([&](aiMaterial& m, aiScene&) { set_text(m, "h.png", AI_MATKEY_TEXTURE(type, 0)); });
+        EXPECT_EQ(material.has_heights, type != aiTextureType_NORMALS);
+        EXPECT_EQ(material.normal_texture.exists(), type == aiTextureType_NORMALS);
+    }
+}

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace vmlight::oracle {
@@ -83,6 +84,25 @@ public:
                 sum += m_albedo(met.triangle) * direct(at + way * met.distance, met.normal, inner);
         }
         return sum / (n * n);
+    }
+
+    /// What the sky and one bounce give where a normal map makes `normal` of `surface`: what it turns into the surface
+    /// meets that, whose albedo is `own`.
+    std::pair<double, double> light_of_mapped(const V3d& at, const V3d& surface, const V3d& normal, double own, int n,
+                                              int inner)
+    {
+        double sky = 0, bounced = 0, itself = 0;
+        for (int i = 0; i < n * n; ++i) {
+            const V3d way = direction(normal, i % n, i / n, n);
+            const Met met = way.dot(surface) > 0 ? nearest(at, way) : Met();
+            if (!(way.dot(surface) > 0))
+                ++itself;
+            else if (met.distance < m_reach)
+                bounced += m_albedo(met.triangle) * direct(at + way * met.distance, met.normal, inner);
+            else
+                sky += m_sky(way);
+        }
+        return { sky / (n * n), (bounced + itself * own * sky / (n * n)) / (n * n) };
     }
 
 private:

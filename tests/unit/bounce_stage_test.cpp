@@ -2,8 +2,10 @@
 // Bounced light through recipes: what a host reads tile by tile is what the executables make.
 #include "stage_scene.h"
 
+#include <vmcost/models.h>
 #include <vmlight/stage/make_stage.h>
 
+#include <algorithm>
 #include <thread>
 
 using namespace vmlight;
@@ -25,6 +27,17 @@ public:
         write("bounced.lightmap",
               "vismap = \"ground.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"paint.exr\"\nbounce = \"auto\"\n"
               "ground_albedo = 0.4\nrotate = [0, 30, 0]\nexposure = 0.7\n");
+    }
+    // And a recipe that is lit by it.
+    void add_sun() const
+    {
+        OIIO::ImageBuf sky(OIIO::ImageSpec(128, 64, 3, OIIO::TypeFloat));
+        for (OIIO::ImageBuf::Iterator<float> p(sky); !p.done(); ++p)
+            p[0] = p[1] = p[2] = p.x() == 40 && p.y() == 14 ? 5e4f : 1.0f;
+        EXPECT_TRUE(sky.write(*this / "sunny.exr")) << sky.geterror();
+        write("sunny.lightmap",
+              "vismap = \"ground.vismap\"\nenvironment = \"sunny.exr\"\nalbedo = \"paint.exr\"\nbounce = \"auto\"\n"
+              "ground_albedo = 0.4\nsuns = \"on\"\nmodel = \"lobe\"\n");
     }
     OIIO::ImageBuf made(const std::string& name, int threads = 0) const
     {
@@ -99,21 +112,57 @@ TEST(BounceStage, WhateverTheAlbedoLightIsFinite)
     }
 }
 
-TEST(BounceStage, WorkCanBeStopped)
+// Each step that there is, one after the other: none may go on without asking.
+TEST(BounceStage, WorkCanBeStoppedAtEveryStep)
 {
     const BounceFolder folder;
-    LightmapRecipe recipe;
-    std::string error;
-    ASSERT_TRUE(read_recipe(recipe, folder / "bounced.lightmap", error)) << error;
-    MakeOptions options;
-    bool was_asked = false;
-    options.progress = [&](const std::string& step, int64_t) {
-        const bool stops = step == "bounce";
-        was_asked |= stops;
-        return Progress([stops](double) { return !stops; });
-    };
-    OIIO::ImageBuf image;
-    EXPECT_FALSE(make_image(image, recipe, options));
-    EXPECT_TRUE(was_asked);
-    EXPECT_NE(image.geterror().find("interrupted"), std::string::npos);
+    folder.add_sun();
+    folder.write("ground.vismap", "mesh = \"spot.obj\"\nresolution = [40, 30]\nsamples = 4\nground = true\n");
+    for (const char* name : { "bounced.lightmap", "sunny.lightmap" }) {
+        LightmapRecipe recipe;
+        std::string error;
+        ASSERT_TRUE(read_recipe(recipe, folder / name, error)) << error;
+        std::vector<std::string> steps, stopped;
+        const auto lit = [&](size_t stop, OIIO::ImageBuf& image) {
+            steps.clear();
+            MakeOptions options;
+            options.chain = { folder / name };
+            options.threads = 1;
+            options.progress = [&, stop](const std::string& step, int64_t texels) {
+                const bool stops = texels > 0 && steps.size() == stop;
+                if (texels > 0) // the others are names of steps alone
+                    steps.push_back(step);
+                return Progress([stops](double) { return !stops; });
+            };
+            return make_image(image, recipe, options);
+        };
+        for (OIIO::ImageBuf image; !lit(stopped.size(), image); image.clear()) {
+            EXPECT_NE(image.geterror().find("interrupted"), std::string::npos) << steps.back() << image.geterror();
+            ASSERT_EQ(steps.size(), stopped.size() + 1) << "goes on after " << steps.back();
+            stopped.push_back(steps.back());
+        }
+        EXPECT_GE(std::count(stopped.begin(), stopped.end(), "bounce"), 3) << name; // traced, lit, summed up
+        EXPECT_EQ(std::count(stopped.begin(), stopped.end(), "bounce points"), name[0] == 's' ? 2 : 1);
+    }
+}
+
+// Names are those of vmcost. A header that is read before the light takes it that there is a sun.
+TEST(BounceStage, TheModelIsNamedWithItsSuns)
+{
+    const BounceFolder folder;
+    folder.add_sun();
+    const auto model = [](const OIIO::ImageSpec& spec) { return spec.get_string_attribute("vmlight:model"); };
+    const std::string name = model(folder.made("sunny.lightmap").spec());
+    EXPECT_EQ(name, "lobe+suns");
+    EXPECT_NE(cost::find_variant(name), nullptr);
+    EXPECT_EQ(model(OIIO::ImageInput::open(folder / "sunny.lightmap")->spec()), "lobe+suns");
+    for (const char* plain : { "bounced.lightmap", "plain.lightmap" }) {
+        const std::string made = model(folder.made(plain).spec());
+        EXPECT_EQ(made.find('+'), std::string::npos) << made;
+        EXPECT_EQ(model(OIIO::ImageInput::open(folder / plain)->spec()), made);
+    }
+    // Without a sun to be found.
+    folder.write("cloudy.lightmap",
+                 "vismap = \"ground.vismap\"\nenvironment = \"studio.exr\"\nsuns = \"on\"\nmodel = \"paper\"\n");
+    EXPECT_EQ(model(folder.made("cloudy.lightmap").spec()), "paper");
 }

@@ -8,23 +8,12 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
 
 namespace vmlight {
-
-struct Drawn
-{
-    DrawnScene scene;
-    DrawnLight light;
-
-    explicit Drawn(uint32_t seed)
-        : scene(seed)
-        , light(seed, scene)
-    {
-    }
-};
 
 inline std::string text_of(const Drawn& drawn)
 {
@@ -43,7 +32,9 @@ inline std::string text_of(const Drawn& drawn)
                  params.samples, params.max_distance, params.margin, params.channels.size())
         + format("; environment {}x{}, albedo {}x{}, model {}{}{}, exposure {}", env.width, env.height, albedo.width,
                  albedo.height, drawn.light.params.model, drawn.light.suns ? ", suns" : "",
-                 drawn.light.params.rotate.empty() ? "" : ", rotated", drawn.light.params.exposure);
+                 drawn.light.params.rotate.empty() ? "" : ", rotated", drawn.light.params.exposure)
+        + (drawn.light.bounce ? ", bounce" : "")
+        + std::array { "", "; the same again", "; its first occluder moves", "; its vertices move" }[drawn.pose.kind];
 }
 
 /// Takes away what a failure does not need: what is left still `fails`, and is printed.
@@ -61,6 +52,8 @@ inline std::string shrunk(Drawn drawn, const std::function<bool(const Drawn&)>& 
     for (size_t i = 0; i <= drawn.scene.occluders.size(); ++i)
         fails_without([&](Drawn& less) { less.scene.all_meshes()[i]->opacity = nullptr; });
     const VismapParams plain;
+    fails_without([](Drawn& less) { less.pose.kind = DrawnPose::none; });
+    fails_without([](Drawn& less) { less.light.bounce = false; });
     fails_without([](Drawn& less) { less.scene.normal_map.clear(); });
     fails_without([](Drawn& less) { less.scene.params.ground = false; });
     fails_without([&](Drawn& less) { less.scene.params.max_distance = plain.max_distance; });

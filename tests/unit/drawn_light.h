@@ -21,7 +21,7 @@ namespace vmlight {
 struct DrawnLight
 {
     OIIO::ImageBuf environment, albedo; ///< albedo: not initialized: none
-    bool suns = false;
+    bool suns = false, bounce = false, ground_reflects = false;
     CfemParams cfem;
     LightmapParams params;
 
@@ -57,6 +57,8 @@ struct DrawnLight
             params.env_rotate = angles();
         if (one_of(4) == 0)
             params.exposure = number(-5, 5);
+        bounce = one_of(2) == 0;
+        ground_reflects = one_of(2) == 0;
     }
 
 private:

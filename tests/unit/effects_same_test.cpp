@@ -25,18 +25,16 @@ VismapParams proving(int side, int samples)
 TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
 {
     int64_t open = 0, covered = 0, culled = 0, fewer = 0, grounds = 0, mixed = 0, transparent = 0, bumpy = 0, suns = 0,
-            one_color = 0, ones = 0, lookups = 0, all_lookups = 0;
+            bounces = 0, poses = 0, one_color = 0, ones = 0, lookups = 0, all_lookups = 0;
     for (uint32_t seed = 0; seed < 200; ++seed) {
         const Drawn drawn(seed);
         const LightWork start = LightWork::so_far();
-        const DrawnPicture a(drawn.scene, drawn.light, "auto");
+        const DrawnPicture a(drawn, "auto");
         const LightWork middle = LightWork::so_far();
-        const DrawnPicture b(drawn.scene, drawn.light, "all");
+        const DrawnPicture b(drawn, "all");
         const LightWork end = LightWork::so_far();
         ASSERT_EQ(a.difference(b), "") << "seed " << seed << ", and so does " << shrunk(drawn, [](const Drawn& less) {
-            return !DrawnPicture(less.scene, less.light, "auto")
-                        .difference(DrawnPicture(less.scene, less.light, "all"))
-                        .empty();
+            return !DrawnPicture(less, "auto").difference(DrawnPicture(less, "all")).empty();
         });
         EXPECT_EQ(b.report.open, 0);
         EXPECT_LE(a.report.rays, b.report.rays);
@@ -52,6 +50,10 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
         transparent += a.cutouts.transparent > 0;
         bumpy += drawn.scene.normal_map.initialized();
         suns += a.suns > 0;
+        bounces += a.bounce_rays > 0;
+        EXPECT_EQ(a.bounce_rays, b.bounce_rays);
+        poses += a.kept > 0;
+        EXPECT_EQ(b.kept, 0);
         one_color += middle.filter_passes - start.filter_passes < end.filter_passes - middle.filter_passes;
         ones += middle.multiplied - start.multiplied < end.multiplied - middle.multiplied;
     }
@@ -66,6 +68,8 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
     EXPECT_GT(transparent, 30);
     EXPECT_GT(bumpy, 40);
     EXPECT_GT(suns, 5);
+    EXPECT_GT(bounces, 30);
+    EXPECT_GT(poses, 15);
     EXPECT_GT(one_color, 40);
     EXPECT_GT(ones, 20);
 }

@@ -209,3 +209,25 @@ TEST_F(MeshFiles, AGltfWithoutNormalsIsFlat)
     EXPECT_EQ(mesh.normals_from, "smooth");
     EXPECT_EQ(mesh.positions.size(), 4u) << "shared again";
 }
+
+TEST_F(MeshFiles, GltfAnimationsAreNotPlayedAndAWarningSaysSo)
+{
+    GltfFile file = triangle_file();
+    const std::vector<V3d> still = read("a.gltf", file.text()).positions;
+    const size_t times = file.add_accessor<float>({ 0, 1 }, "SCALAR");
+    const size_t places = file.add_accessor<float>({ 5, 5, 5, 6, 6, 6 }, "VEC3");
+    const auto channel
+        = nlohmann::json { { "sampler", 0 }, { "target", { { "node", 0 }, { "path", "translation" } } } };
+    const auto animation = nlohmann::json { { "channels", { channel } },
+                                            { "samplers", { { { "input", times }, { "output", places } } } } };
+    file.root["animations"] = { animation };
+    const Mesh mesh = read("b.gltf", file.text());
+    expect_near(mesh.positions, still);
+    EXPECT_THAT(mesh.warnings,
+                testing::ElementsAre("1 animation is not played: nodes stay as they are; bake other poses from a file "
+                                     "each, or from Alembic"));
+    for (const nlohmann::json& none : { nlohmann::json("none"), nlohmann::json::array() }) {
+        file.root["animations"] = none;
+        EXPECT_TRUE(read("c.gltf", file.text()).warnings.empty());
+    }
+}

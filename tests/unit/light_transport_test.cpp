@@ -1,114 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bounced light against closed forms and brute force.
-#include "bounce_oracle.h"
-#include "scenes.h"
+#include "bounced_map.h"
 
-#include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/reference/reference.h>
-#include <vmlight/vismap/light_transport.h>
-#include <vmlight/vismap/point_visibility.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
-#include <gtest/gtest.h>
-
 using namespace vmlight;
 using namespace vmlight::scenes;
-
-namespace {
-
-VismapParams bounce_map_of(int width, int height = 0)
-{
-    VismapParams map;
-    map.resolution = { width, height ? height : width };
-    map.margin = 0;
-    map.samples = 1024;
-    return map;
-}
-
-// A map of a scene lit by a sky of 1, of which V is the light, and what bounces.
-class Bounced
-{
-public:
-    Bounced(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& the_map,
-            TransportParams params = {}, int nthreads = 0)
-        : map(the_map)
-        , m_nthreads(nthreads)
-    {
-        std::string error;
-        OIIO::ImageBuf image;
-        auto built = std::make_shared<BakeScene>();
-        EXPECT_TRUE(built->build(std::make_shared<Mesh>(mesh), occluders, nthreads, error,
-                                 SceneChoice::within(map.max_distance)))
-            << error;
-        scene = built;
-        EXPECT_TRUE(make_vismap(image, mesh, occluders, map, nullptr, nthreads)) << image.geterror();
-        visibility.resize(size_t(image.spec().image_pixels()));
-        OIIO::ROI first = image.roi();
-        first.chend = 1;
-        EXPECT_TRUE(image.get_pixels(first, OIIO::TypeFloat, visibility.data()));
-        EXPECT_TRUE(transport.prepare(scene, map, visibility, params, error, nthreads)) << error;
-    }
-
-    // With `albedo` of the map, and of each of the points off it.
-    std::vector<float> gather(float albedo, const std::function<float(const LightPoint&)>& of_point = {}) const
-    {
-        std::vector<float> own, baked, points, light;
-        for (const float v : visibility)
-            own.insert(own.end(), 3, albedo * v);
-        EXPECT_TRUE(bake_points(baked, *scene, map, transport.surfaces(), m_nthreads));
-        const size_t channels = point_channels(map).size();
-        for (size_t i = 0; i < transport.points().size(); ++i)
-            points.insert(points.end(), 3, (of_point ? of_point(transport.points()[i]) : albedo) * baked[i * channels]);
-        EXPECT_TRUE(transport.gather(light, own, points, m_nthreads));
-        return light;
-    }
-
-    VismapParams map;
-    BakeScenePointer scene;
-    std::vector<float> visibility;
-    LightTransport transport;
-
-private:
-    int m_nthreads;
-};
-
-// A floor and a wall, each 1 wide and 80 long, that meet at a right angle.
-Mesh corner()
-{
-    Mesh mesh;
-    mesh.name = "corner";
-    add_quad(mesh, V3d(0, -40, 0), V3d(1, -40, 0), V3d(1, 40, 0), V3d(0, 40, 0), V2f(0, 0), V2f(0.5f, 1));
-    add_quad(mesh, V3d(0, 40, 0), V3d(0, 40, 1), V3d(0, -40, 1), V3d(0, -40, 0), V2f(0.5f, 0), V2f(1, 1));
-    return mesh;
-}
-
-// Root mean square of what the oracle and the library differ by, relative to the mean of the light that is there in
-// all: of the sky, and bounced.
-double error_of(const std::vector<float>& light, const std::vector<float>& visibility,
-                const std::vector<oracle::Place>& places, oracle::Bounce truth, double albedo, int step)
-{
-    double squares = 0, all = 0, count = 0;
-    for (size_t i = 0; i < places.size(); i += size_t(step)) {
-        if (!places[i].exists)
-            continue;
-        const double wanted = truth.bounced(places[i].position, places[i].normal, 28, 6);
-        squares += std::pow(double(light[3 * i]) - wanted, 2);
-        all += double(visibility[i]) + wanted;
-        ++count;
-    }
-    EXPECT_GT(count, 50);
-    EXPECT_GT(albedo, 0);
-    return std::sqrt(squares / count) / (all / count);
-}
-
-double constant_sky(const V3d&)
-{
-    return 1;
-}
-
-} // namespace
 
 // Radiosity in two dimensions: what a strip sees of another that stands on its edge.
 TEST(LightTransport, AWhiteCornerLightsItself)
@@ -154,52 +54,6 @@ TEST(LightTransport, AFurnaceGivesTheFirstTermOfItsSeries)
         for (size_t i = 0; i < places.size(); ++i)
             ASSERT_NEAR(light[3 * i], places[i].exists ? rho : 0, 1e-5f * rho);
     }
-}
-
-TEST(LightTransport, WhereNothingIsInTheWayNoRayIsTraced)
-{
-    const int64_t before = work_counts().bounce_rays;
-    for (const Mesh& mesh : { floor_facing_z(1), box(V3d(-1), V3d(1), false) }) {
-        const Bounced bounced(mesh, {}, bounce_map_of(32));
-        EXPECT_EQ(bounced.transport.rays(), 0);
-        EXPECT_TRUE(bounced.transport.points().empty());
-        for (const float value : bounced.gather(1))
-            ASSERT_EQ(value, 0);
-    }
-    EXPECT_EQ(work_counts().bounce_rays, before);
-}
-
-TEST(LightTransport, OtherLightNeedsNoRay)
-{
-    const Bounced bounced(corner(), { rectangle(V3d(0.2, -40, 0.5), V3d(0, 80, 0), V3d(0.3, 0, 0.1)) },
-                          bounce_map_of(32));
-    EXPECT_TRUE(bounced.transport.is_kept());
-    EXPECT_GT(bounced.transport.rays(), 0);
-    const int64_t before = work_counts().bounce_rays;
-    const std::vector<float> once = bounced.gather(1), half = bounced.gather(0.5f);
-    EXPECT_EQ(work_counts().bounce_rays, before);
-    for (size_t i = 0; i < once.size(); ++i)
-        ASSERT_NEAR(half[i], 0.5f * once[i], 1e-6f);
-}
-
-TEST(LightTransport, ShortMemoryAndThreadsChangeNoBit)
-{
-    const std::vector<Mesh> occluders { rectangle(V3d(0.2, -40, 0.5), V3d(0, 80, 0), V3d(0.3, 0, 0.1)) };
-    VismapParams map = bounce_map_of(150, 90);
-    map.margin = 3;
-    map.samples = 64;
-    map.ground = true;
-    map.ground_height = -60;
-    TransportParams params;
-    params.ground = true;
-    const std::vector<float> one = Bounced(corner(), occluders, map, params, 1).gather(0.7f);
-    EXPECT_EQ(Bounced(corner(), occluders, map, params, 4).gather(0.7f), one);
-    params.most_bytes = 0;
-    const Bounced unkept(corner(), occluders, map, params, 4);
-    const int64_t before = work_counts().bounce_rays;
-    EXPECT_FALSE(unkept.transport.is_kept());
-    EXPECT_EQ(unkept.gather(0.7f), one);
-    EXPECT_GT(work_counts().bounce_rays, before);
 }
 
 TEST(LightTransport, OccludersLightWhatTheyHide)
@@ -306,22 +160,4 @@ TEST(LightTransport, MirroredUvsAreNoMatter)
     const Bounced bounced(mesh, {}, bounce_map_of(32));
     const oracle::Bounce truth({ mesh }, constant_sky, [](size_t) { return 0.5; });
     EXPECT_LT(error_of(bounced.gather(0.5f), bounced.visibility, oracle::places(mesh, 32, 32), truth, 0.5, 13), 0.01);
-}
-
-TEST(LightTransport, RefusesWhatItCannotTrace)
-{
-    const Mesh floor = floor_facing_z(1);
-    std::string error;
-    auto scene = std::make_shared<BakeScene>();
-    ASSERT_TRUE(scene->build(non_owning(floor), {}, 0, error)) << error;
-    LightTransport transport;
-    TransportParams params;
-    params.rays = 500;
-    EXPECT_FALSE(transport.prepare(scene, bounce_map_of(16), {}, params, error));
-    EXPECT_EQ(error, "500 rays; 8 to 248 are allowed");
-    params.rays = 8;
-    EXPECT_FALSE(transport.prepare(scene, bounce_map_of(16), {}, params, error, 1, [](double) { return false; }));
-    EXPECT_EQ(error, "interrupted");
-    EXPECT_TRUE(transport.prepare(scene, bounce_map_of(16), {}, params, error)) << error;
-    EXPECT_EQ(transport.rays(), 16 * 16 * 8); // nothing is known of what is open
 }

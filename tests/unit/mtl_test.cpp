@@ -133,3 +133,11 @@ TEST(Mtl, OnlyNormIsANormalMap)
     for (const char* heights : { "map_Bump h.png", "map_bump h.png", "bump h.png" })
         EXPECT_FALSE(material_of(heights).normal_texture.exists()) << heights;
 }
+
+TEST(Mtl, HeightsAreKnownToBeThere)
+{
+    for (const char* heights : { "map_Bump -bm 2 h.png", "bump h.png", "disp h.png", "map_disp h.png" })
+        EXPECT_TRUE(material_of(heights).has_heights) << heights;
+    for (const char* none : { "norm n.png", "map_Kd a.png", "bump", "map_Bump -bm 2" })
+        EXPECT_FALSE(material_of(none).has_heights) << none;
+}

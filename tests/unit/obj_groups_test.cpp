@@ -172,3 +172,19 @@ TEST_F(ObjGroups, AMissingMaterialFileIsWarnedOf)
     EXPECT_EQ(opened, (std::vector<std::string> { folder / "b.obj", folder / "two.mtl" }));
     EXPECT_EQ(again.materials.at(0).base_color.a, 0.5f) << "found beside the mesh";
 }
+
+TEST_F(ObjGroups, BumpMapsOfMaterialsInUseAreWarnedOf)
+{
+    folder.write("two.mtl", "newmtl a\nmap_Bump h.png\nnewmtl b\nbump h.png\nnewmtl c\ndisp h.png\nnewmtl d\nd .5\n");
+    const auto warnings = [&](const char* first, const char* second) {
+        return read("a.obj", "mtllib two.mtl\n" + peak(first, second, "")).warnings;
+    };
+    EXPECT_EQ(warnings("usemtl d\n", ""), std::vector<std::string> {});
+    EXPECT_EQ(
+        warnings("usemtl d\n", "usemtl b\n"),
+        std::vector<std::string> { "1 material (\"b\") has a bump or displacement map, which is not read: bake it "
+                                   "to a normal map" });
+    EXPECT_EQ(warnings("usemtl c\n", "usemtl b\n"),
+              std::vector<std::string> { "2 materials (\"b\", ...) have a bump or displacement map, which is not read: "
+                                         "bake it to a normal map" });
+}

@@ -86,7 +86,9 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
         shader.use_albedo(opened, params.skip_identities);
     }
 
-    const ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, model.name);
+    ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, model.name);
+    if (suns && !suns->suns.empty())
+        spec.attribute("vmlight:model", with_suns(model.name));
     const bool is_light = std::any_of(cfem.begin(), cfem.end(), [&](const ImageBuf& level) { return &dst == &level; });
     const bool is_input = &dst == &vismap || is_light || &dst == albedo;
     ImageBuf apart;

@@ -63,8 +63,8 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 ///                 of (1/pi) Int L(R w) vis(w) max(0, n.w) dw, the radiance that leaves a Lambertian surface. 0 where V
 ///                 <= 0. Where B gives no direction (no component reaches 1e-6 V), C is the mean of the CFEM over the
 ///                 sphere. Light of one colour is looked up nowhere: by every model it gives V times that colour.
-///                 `vmlight:model` is the model that was used. Memory of `dst` that fits is reused. May be one
-///                 of the inputs
+///                 `vmlight:model` is the model that was used, "lobe+suns" where suns were added. Memory of `dst` that
+///                 fits is reused. May be one of the inputs
 /// @param vismap   channels `visibility`, `direction.x`, `direction.y`, `direction.z`, found by name, in any order; for
 ///                 the model `ao` also `normal.x`, `normal.y`, `normal.z`; for `sh`, `mask` and `cells` those of the
 ///                 basis

@@ -55,6 +55,9 @@ const ModelEntry* find_model_entry(const std::string& name);
 /// Whether the model of that name reads the unfiltered environment, so that filter settings have no effect.
 bool reads_radiance(const std::string& model);
 
+/// The name of a model that lights an environment without its suns, which are traced: "lobe+suns".
+std::string with_suns(const std::string& model);
+
 /// A model, chosen for one visibility map.
 struct ShadingModel
 {

@@ -76,6 +76,11 @@ bool reads_radiance(const std::string& model)
     return entry && entry->light == ModelLight::radiance;
 }
 
+std::string with_suns(const std::string& model)
+{
+    return model + "+suns";
+}
+
 bool choose_model(ShadingModel& dst, const LightmapParams& params, const OIIO::ImageSpec& vismap, bool has_stack,
                   std::string& error)
 {

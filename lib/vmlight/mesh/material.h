@@ -54,6 +54,8 @@ struct Material
     MaterialTexture opacity_texture;
     MaterialTexture normal_texture;
     float normal_scale = 1;
+    /// Names a bump or displacement map, which is not read.
+    bool has_heights = false;
     MaterialTexture occlusion_texture;
     float occlusion_strength = 1;
     bool is_double_sided = false;

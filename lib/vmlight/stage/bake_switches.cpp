@@ -51,6 +51,12 @@ SceneChoice scene_choice(const VismapRecipe& recipe)
     return choice;
 }
 
+void trace_all_occluders(VismapRecipe& recipe)
+{
+    if (switches_of(recipe.effects, VismapRecipe::kStage).of("occluders") == Switch::automatic)
+        recipe.effects += ",+occluders";
+}
+
 std::string switched_off(const std::string& effects, const char* stage)
 {
     const EffectSwitches switches = switches_of(effects, stage);

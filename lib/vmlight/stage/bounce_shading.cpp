@@ -62,6 +62,17 @@ bool any_between(const std::vector<float>& visibility)
     return std::any_of(visibility.begin(), visibility.end(), [](float v) { return v > 0 && v < 1; });
 }
 
+Progress points_progress(const MakeOptions& options, const LightTransport& transport)
+{
+    return options.step("bounce points", int64_t(transport.points().size()), 1);
+}
+
+bool interrupted(std::string& error)
+{
+    error = "interrupted";
+    return false;
+}
+
 } // namespace
 
 bool has_bounce(const LightmapRecipe& recipe)
@@ -109,8 +120,10 @@ bool BounceShading::prepare(const std::vector<float>& visibility, const MakeOpti
                              options.step("bounce", map.size().width, map.size().height), m_scene->normal_map()))
         return false;
     const VismapParams samples = point_params(map);
-    if (!bake_points(m_points, *m_scene->scene(), samples, m_transport.surfaces(), options.threads)
-        || !m_albedo.read(*m_scene, m_transport.points(), m_recipe, m_space, options, error))
+    if (!bake_points(m_points, *m_scene->scene(), samples, m_transport.surfaces(), options.threads,
+                     points_progress(options, m_transport)))
+        return interrupted(error);
+    if (!m_albedo.read(*m_scene, m_transport.points(), m_recipe, m_space, options, error))
         return false;
     options.report(format(
         "bounce: {} in {:.3f} s, and {} off the map; {}", count_text(m_transport.rays(), "ray", "rays"), timer(),
@@ -143,8 +156,8 @@ bool BounceShading::light_points(std::vector<float>& dst, const ImageBuf& vismap
         for (const Sun& sun : own->suns) // the inverse of a rotation is its transpose
             discs.push_back({ rotate(rotation.transposed(), sun.disc.direction), sun.disc.half_angle });
         if (!trace_points(own->visibility, *m_scene->scene(), m_scene->params(), m_transport.surfaces(), discs,
-                          options.threads))
-            return false;
+                          options.threads, points_progress(options, m_transport)))
+            return interrupted(error);
         shader.use_suns(own);
     }
     if (!shader.prepare(cfem, params, model, error))
@@ -193,7 +206,8 @@ bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<
     LightmapParams unexposed = params;
     unexposed.exposure = 0;
     ImageBuf first;
-    if (!make_lightmap(first, vismap, cfem, suns, unexposed, nullptr, options.threads, {})) {
+    const auto step = [&] { return options.step("bounce", dst.roi.width(), dst.roi.height()); };
+    if (!make_lightmap(first, vismap, cfem, suns, unexposed, nullptr, options.threads, step())) {
         error = first.geterror();
         return false;
     }
@@ -203,12 +217,7 @@ bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<
     const auto* texel = static_cast<const float*>(first.localpixels());
     for (size_t i = 0; i < reflected.size(); ++i)
         reflected[i] *= texel[i];
-    if (!m_transport.gather(dst.light, reflected, points, options.threads,
-                            options.step("bounce", dst.roi.width(), dst.roi.height()))) {
-        error = "interrupted";
-        return false;
-    }
-    return true;
+    return m_transport.gather(dst.light, reflected, points, options.threads, step()) || interrupted(error);
 }
 
 } // namespace vmlight

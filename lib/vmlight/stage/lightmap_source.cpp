@@ -63,6 +63,8 @@ public:
             error = with_location(m_recipe, "output_colorspace", chain, error);
             return false;
         }
+        if (m_images.suns) // which the light has, as far as a header can know
+            m_spec.attribute("vmlight:model", with_suns(m_model.name));
         if (m_images.bounce)
             m_images.bounce->tag(m_spec);
         m_output.tag(m_spec);
@@ -304,12 +306,13 @@ private:
             return false;
         if (!m_images.no_suns.empty())
             options.report_warning("suns stay in the environment, with soft shadows: " + m_images.no_suns);
-        const std::string suns = dst.suns && !dst.suns->list.empty() ? "+suns" : "";
+        const bool has_suns = dst.suns && !dst.suns->list.empty();
+        const std::string model = has_suns ? with_suns(m_model.name) : m_model.name;
         if (m_recipe.lightmap_params.model == "auto")
             options.report(
                 filtered && m_model.light == ModelLight::cfem
-                    ? format("model: paper{}, because the CFEM is not a stack (makecfem --stack makes one)", suns)
-                    : format("model: {}{}, the best that this visibility map supports", m_model.name, suns));
+                    ? format("model: {}, because the CFEM is not a stack (makecfem --stack makes one)", model)
+                    : format("model: {}, the best that this visibility map supports", model));
         dst.light = light;
         return true;
     }

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/recipe/udim.h>
 
@@ -75,7 +76,14 @@ bool MapScene::read(const MakeOptions& options, std::string& error)
 {
     BakeScenePointer scene;
     std::string at;
-    if (!share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error, options.steps())) {
+    const auto share
+        = [&] { return share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error, options.steps()); };
+    bool is_shared = share();
+    if (is_shared && has_bounce(m_recipe) && scene->leaves_out()) {
+        trace_all_occluders(m_mesh);
+        is_shared = stamp_scene(m_stamps, m_mesh, at, error) && share();
+    }
+    if (!is_shared) {
         error = with_location(m_recipe, at, options.chain, error);
         return false;
     }

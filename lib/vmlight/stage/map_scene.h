@@ -25,7 +25,7 @@ public:
     /// @param recipe   with its UDIM tile resolved
     /// @param vismap   the header of the visibility map
     /// @returns nullptr, with the location and reason in `error`, if a file is missing, or the map is only a part of
-    /// one
+    ///          one
     static std::shared_ptr<MapScene> open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
                                           std::string& error, const RecipeChain& chain);
 

@@ -160,6 +160,13 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
     return true;
 }
 
+bool BakeScene::leaves_out() const
+{
+    return m_choice.occluders && std::any_of(m_reach.begin(), m_reach.end(), [&](const CasterReach& caster) {
+               return !caster.is_traced(m_choice);
+           });
+}
+
 size_t BakeScene::bytes() const
 {
     // Embree needs about 100 bytes per triangle.

@@ -59,6 +59,8 @@ public:
     /// What is traced of the meshes given, and each occluder with the reason.
     const SceneChoice& choice() const { return m_choice; }
     const std::vector<CasterReach>& reach() const { return m_reach; }
+    /// Whether occluders are left out because no ray of a texel can meet them. They may shade what texels see.
+    bool leaves_out() const;
     /// Of the box around the mesh and its occluders, in mesh units.
     double diagonal() const { return m_diagonal; }
     /// Least y of the whole mesh, in mesh units.

@@ -19,6 +19,9 @@
 
 namespace vmlight {
 
+struct TransportMap;
+struct TransportTile;
+
 struct TransportParams
 {
     /// Rays per texel, 8 to 248.
@@ -37,10 +40,10 @@ public:
 
     /// Trace the rays of all texels that something blocks the view of.
     ///
-    /// @param scene    built; its occluders reflect light on both sides, and so does the mesh
+    /// @param scene    built, with SceneChoice::cull off where that leaves out occluders, which may shade what texels
+    ///                 see. Occluders reflect light on both sides, and so does the mesh
     /// @param map      size, UDIM tile, maximum distance, ground, margin, measure and seed, as for the visibility map
-    /// of
-    ///                 the same texels
+    ///                 of the same texels
     /// @param visibility   V of that map, one float a texel. Texels with V >= 1 trace no ray, and those of the measure
     ///                 `cosine` take 1 - V for what is blocked; empty: all of it is found by rays
     /// @returns false, with the reason in `error`, if a parameter is out of range, memory does not suffice, or
@@ -74,17 +77,18 @@ public:
     size_t bytes() const;
 
 private:
-    struct Setup;
-    struct Tile;
-    struct Worker;
-    void trace(int tile, Worker& worker) const;
-    void add(Tile& dst, Worker& worker) const;
+    void clear();
+    bool check_memory(const VismapParams& map, OIIO::cspan<float> visibility, const TransportParams& params,
+                      std::string& error);
+    bool trace_all(std::string& error, int nthreads, const Progress& progress);
     void number_points();
+    std::vector<Imath::V3f> light_of(OIIO::cspan<float> map, OIIO::cspan<float> points, int nthreads) const;
 
-    std::unique_ptr<Setup> m_setup;
-    std::vector<Tile> m_tiles;
+    std::unique_ptr<TransportMap> m_map;
+    std::vector<TransportTile> m_tiles;
     std::vector<LightPoint> m_points;
     std::vector<SurfacePoint> m_surfaces;
+    std::vector<uint32_t> m_first_point; // of each cell, and the end
     bool m_is_kept = false;
     mutable int64_t m_rays = 0;
 };

@@ -150,6 +150,23 @@ void NormalMap::attach(std::shared_ptr<const Mesh> mesh)
         m_tangents = make_tangents(*m_mesh);
 }
 
+bool NormalMap::is_same_image(const NormalMap& other) const
+{
+    return m_is_object_space == other.m_is_object_space && m_normals == other.m_normals;
+}
+
+bool NormalMap::is_turned(const NormalMap& base, uint32_t triangle, const Rotation& turn, bool exactly) const
+{
+    constexpr double kRounding = 1e-5; // of tangents from positions in float
+    for (size_t k = 0; k < 3 && !m_tangents.empty(); ++k) {
+        const CornerTangent &before = base.m_tangents[triangle][k], &after = m_tangents[triangle][k];
+        if (before.sign != after.sign || (exactly && before.tangent != after.tangent)
+            || !((rotate(turn, V3d(before.tangent)) - V3d(after.tangent)).length() <= kRounding))
+            return false;
+    }
+    return true;
+}
+
 void NormalMap::apply(SurfacePoint& point, uint32_t triangle, float weight1, float weight2, int x, int y) const
 {
     if (m_is_flat)

@@ -2,6 +2,7 @@
 /// Normal maps: the shading normals of texels, finer than the mesh has them.
 #pragma once
 
+#include <vmlight/math/rotation.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/mesh/tangents.h>
 #include <vmlight/trace/surface.h>
@@ -24,10 +25,9 @@ public:
     /// Decode an image.
     ///
     /// @param image    R and G, or R, G and B, by name or else the first channels; more are ignored. Integers and
-    /// floats
-    ///                 in [0, 1] hold (n + 1) / 2, floats with a value below 0 n itself. Without B, of unit length.
-    ///                 Never converted as colour. Resized to `size` by a triangle filter as the components of n, if its
-    ///                 size differs
+    ///                 floats in [0, 1] hold (n + 1) / 2, floats with a value below 0 n itself. Without B, of unit
+    ///                 length. Never converted as colour. Resized to `size` by a triangle filter as the components of
+    ///                 n, if its size differs
     /// @param warnings set to what is doubtful, one sentence each
     /// @returns false, with the reason in `error`, if the image has one channel (a bump map), a pixel is not finite, or
     ///          most of it are no directions: shorter than 0.7 or longer than 1.3
@@ -51,6 +51,13 @@ public:
 
     /// Make the tangents of `mesh`, if the map needs them. Call before map_normal().
     void attach(std::shared_ptr<const Mesh> mesh);
+
+    /// Whether both give every texel the same normal on the same mesh.
+    bool is_same_image(const NormalMap& other) const;
+    /// Whether the normals of a triangle are those that `base` has in another pose of the mesh, turned: tangents also
+    /// turn with neighbours. Both are attached.
+    /// @param exactly  to the last bit, as what stands still
+    bool is_turned(const NormalMap& base, uint32_t triangle, const Rotation& turn, bool exactly) const;
 
     /// Set the normal of `point`, the centre of texel (x, y), where weights are those of the triangle's second and
     /// third corners. It stays where the map gives no direction.

@@ -170,6 +170,11 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
     std::vector<uint8_t> same;
     if (by_proof)
         same = prove_same_view(poses.motion, poses.baker.params(), error <= 0, nthreads);
+    if (by_proof && poses.pose.normal_map)
+        for (uint32_t t = 0; t < same.size(); ++t)
+            same[t] = same[t]
+                && poses.pose.normal_map->is_turned(*poses.base.normal_map, t, poses.motion.turn(t),
+                                                    poses.motion.stands_still() && poses.motion.body(t) == 0);
     Probing probing(poses, may_keep, nthreads, waiting);
     const double limit = kProbeShare * error;
     PoseGrid coarse(kCoarse, probing.raster()), fine(kFine, probing.raster());

@@ -36,6 +36,11 @@ std::string area_fault(const Mesh& base, const Mesh& pose)
     return "";
 }
 
+bool have_same_normals(const NormalMapPointer& base, const NormalMapPointer& pose)
+{
+    return base && pose ? base->is_same_image(*pose) : base == pose;
+}
+
 // Puts a pose's texels together: those that are kept from the base, and those that are traced.
 class Texels
 {
@@ -179,6 +184,8 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     m_last.why = triangles_fault(before, after);
     if (m_last.why.empty())
         m_last.why = area_fault(before, after);
+    if (m_last.why.empty() && !have_same_normals(m_base.normal_map, job.normal_map))
+        m_last.why = "its normal map is another";
     std::optional<PoseMotion> motion;
     if (m_last.why.empty())
         m_last.why = motion.emplace(*m_base.scene, *job.scene).fault();

@@ -35,8 +35,7 @@ class PoseSequence
 {
 public:
     /// @param error    by how much V of a kept texel may be off, in at least 99 of 100 texels (see PosePlan); 0: only
-    /// what
-    ///                 is proven is kept
+    ///                 what is proven is kept
     explicit PoseSequence(double error)
         : m_error(error)
     {
@@ -47,8 +46,7 @@ public:
     /// Bake a pose.
     ///
     /// @param dst      as make_vismap() makes it. If texels were kept, the metadata have `vmlight:pose_base`, the name
-    /// of
-    ///                 the base, and `vmlight:pose_error`; else the bytes are those of make_vismap()
+    ///                 of the base, and `vmlight:pose_error`; else the bytes are those of make_vismap()
     /// @param name     of the pose
     /// @returns as make_vismap()
     bool bake(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report);

@@ -15,8 +15,7 @@ class TexelTurn
 {
 public:
     /// Whether maps of these parameters can be turned by any rotation, by those that prepared() knows, or by none at
-    /// all
-    /// (`mask`, `cells`, suns).
+    /// all (`mask`, `cells`, suns).
     enum class Kind
     {
         any,

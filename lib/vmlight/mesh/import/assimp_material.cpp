@@ -68,6 +68,8 @@ Material material_of(const aiScene& imported, const aiMaterial& source, const st
         material.base_color_texture = texture(aiTextureType_DIFFUSE);
     material.opacity_texture = texture(aiTextureType_OPACITY);
     material.normal_texture = texture(aiTextureType_NORMALS);
+    for (const aiTextureType heights : { aiTextureType_HEIGHT, aiTextureType_DISPLACEMENT })
+        material.has_heights |= texture(heights).exists();
     if (opacity < 1 || material.opacity_texture.exists())
         material.alpha_mode = AlphaMode::blend;
     if (material.opacity_texture.path == material.base_color_texture.path && !material.opacity_texture.embedded)

@@ -156,7 +156,24 @@ bool MeshBuilder::finish(std::string& error)
     if (!m_has_uvs)
         m_mesh.uvs.clear();
     compute_normals();
+    warn_of_heights();
     return true;
+}
+
+void MeshBuilder::warn_of_heights()
+{
+    std::vector<bool> is_used(m_mesh.materials.size());
+    for (const uint32_t material : m_mesh.triangle_materials)
+        if (material < is_used.size())
+            is_used[material] = true;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < is_used.size(); ++i)
+        if (is_used[i] && m_mesh.materials[i].has_heights)
+            names.push_back(m_mesh.materials[i].name);
+    if (!names.empty())
+        warn(format("{} (\"{}\"{}) {} a bump or displacement map, which is not read: bake it to a normal map",
+                    count_text(int64_t(names.size()), "material", "materials"), names[0],
+                    names.size() > 1 ? ", ..." : "", plural(int64_t(names.size()), "has", "have")));
 }
 
 } // namespace vmlight

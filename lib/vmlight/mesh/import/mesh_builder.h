@@ -65,7 +65,8 @@ public:
     /// The positions are the file's own, without rounding to float.
     void set_exact_positions() { m_mesh.has_exact_positions = true; }
 
-    /// Compute the normals that are missing or asked for, say so in Mesh::normals_from, and merge equal vertices.
+    /// Compute the normals that are missing or asked for, say so in Mesh::normals_from, and warn of what the materials
+    /// in use have that is not read.
     /// @returns false, with the reason in `error`, if there is no triangle, a vertex is not finite or beyond 1e70 (the
     ///          first is named), or a triangle has a vertex that does not exist
     bool finish(std::string& error);
@@ -74,6 +75,7 @@ private:
     Mesh& m_mesh;
     const MeshParams& m_params;
     void compute_normals();
+    void warn_of_heights();
 
     std::string m_part, m_error;
     Imath::M44d m_to_object, m_normals_to_object;

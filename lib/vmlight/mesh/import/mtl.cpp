@@ -126,6 +126,8 @@ void read_statement(Written& dst, const Statement& statement, const std::string&
         const Map map = parse_map(arguments, folder);
         dst.material.normal_texture = map.texture;
         dst.material.normal_scale = map.multiplier;
+    } else if (is("bump") || is("map_bump") || is("disp") || is("map_disp")) {
+        dst.material.has_heights = parse_map(arguments, folder).texture.exists();
     }
 }
 

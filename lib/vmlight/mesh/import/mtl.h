@@ -16,7 +16,7 @@ namespace vmlight {
 ///
 /// `Kd` is linear. Opacity is `d`, or 1 - `Tr` where there is no `d`; with less than 1, or `map_d`, the material
 /// blends. Where `map_d` is the image of `map_Kd`, opacity is that image's alpha. Only `norm` is a normal map:
-/// `map_Bump` and `bump` are heights. A texture without `Kd`, or with a black one, is as it is.
+/// `map_Bump`, `bump` and `disp` are heights. A texture without `Kd`, or with a black one, is as it is.
 /// @param folder   of the file, where the paths of textures start
 void add_mtl_materials(std::vector<Material>& materials, const std::string& text, const std::string& folder);
 

@@ -34,8 +34,7 @@ struct GeomParam
 ///
 /// @param blended  interpolate between samples, where faces and indices stay the same
 /// @param fault    set to what is wrong if the values are for other faces, which happens where they change over time:
-/// it
-///                 then has none
+///                 it then has none
 /// Throws Error if an index is out of range.
 GeomParam read_geom_param(const AbcA::CompoundPropertyReaderPtr& parent, const std::string& name, int extent,
                           const Faces& faces, Moment& moment, bool blended, std::string& fault);

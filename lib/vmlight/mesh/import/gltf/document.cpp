@@ -151,6 +151,8 @@ void Document::parse(const std::string& text)
     for (json* object : objects_of(root, "images"))
         m_images.push_back({ member(*object, "uri", std::string()), int(member(*object, "bufferView", int64_t(-1))) });
     m_cameras = cameras_of(root);
+    if (const auto found = root.find("animations"); found != root.end() && found->is_array())
+        m_animations = found->size();
     for (json* view : objects_of(root, "bufferViews")) {
         m_strides.push_back(member(*view, "byteStride", size_t(0)));
         view->erase("byteStride"); // tinygltf refuses those that are no multiple of 4

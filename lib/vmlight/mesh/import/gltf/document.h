@@ -38,6 +38,8 @@ public:
     /// Whether an accessor has a buffer view: without one it is zeros.
     bool has_view(int accessor) const { return m_has_view[size_t(accessor)]; }
     const std::vector<CameraShape>& cameras() const { return m_cameras; }
+    /// How many there are, none of which is read.
+    size_t animations() const { return m_animations; }
     /// Set where the image is in `texture`. If there is no such image, warns, and says so in
     /// `texture.missing`.
     void find_image(MaterialTexture& texture, int index);
@@ -70,6 +72,7 @@ private:
     std::vector<Buffer> m_buffers;
     std::vector<Image> m_images;
     std::vector<CameraShape> m_cameras;
+    size_t m_animations = 0;
     std::vector<size_t> m_strides;
     std::vector<bool> m_has_view;
     std::vector<std::unique_ptr<std::vector<uint8_t>>> m_decompressed; // by view

@@ -166,6 +166,9 @@ bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& erro
         Document document(request, dst);
         add_materials(document);
         Walk(document).append_all();
+        if (document.animations() > 0)
+            dst.warn(format("{} not played: nodes stay as they are; bake other poses from a file each, or from Alembic",
+                            count_text(int64_t(document.animations()), "animation is", "animations are")));
         return true;
     } catch (const gltf::Error& reason) {
         error = shortened_line(OIIO::Strutil::strip(reason.what()));
