@@ -81,6 +81,10 @@ TEST_F(Suns, AutoIsWhereTheMeshIsKnown)
                 HasSubstr("WARNING: suns stay in the environment, with soft shadows: \"vm.exr\" does not say where its "
                           "mesh is; set --mesh"));
     EXPECT_EQ(pixels("soft.exr").values, pixels("same.exr").values);
+    EXPECT_THAT(attribute("same.exr", "vmlight:no_suns"), testing::StartsWith("\"vm.exr\" does not say"));
+    EXPECT_EQ(attribute("soft.exr", "vmlight:no_suns"), "");
+    done("makelightmap '" + path("vm.exr") + "' sunny.exr --suns auto -o same.exr");
+    EXPECT_THAT(attribute("same.exr", "vmlight:no_suns"), testing::StartsWith("\"vm.exr\" does not say"));
     // A light that was filtered before has them or not, whatever the mesh.
     done("makecfem sunny.exr --stack -o whole.exr");
     done("makelightmap vm.exr whole.exr --suns auto -o same.exr");
@@ -173,6 +177,10 @@ TEST_F(Suns, AMapCanStoreWhatItSeesOfThem)
     done("makelightmap hero.vismap sunny.exr --suns auto -o traced.exr");
     EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto -o lit.exr"),
                 HasSubstr("suns: from the visibility map"));
+    EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto --explain -o lit.exr"),
+                HasSubstr("the map stores what texels see of them, and no ray is traced"));
+    EXPECT_THAT(done("makelightmap hero.vismap sunny.exr --suns auto --explain -o traced.exr"),
+                HasSubstr("one ray or more for each texel that faces them"));
     for (const int x : { 3, 10, 20, 28, 36, 50, 60 })
         EXPECT_NEAR(red("lit.exr", x), red("traced.exr", x), 0.1 + 0.02 * red("traced.exr", x)) << x;
     refused(1, "the suns are not among those", "makelightmap vm.exr sunny.exr --suns auto --rotate 0,20,0 -o c.exr");

@@ -173,6 +173,21 @@ TEST(Suns, TwoSunsStayTwoAndKeepTheirColours)
     }
 }
 
+// Lamps of one room are split off together; beside a sun, or alone, one of them stays.
+TEST(Suns, FurtherLightsMayBeWeaker)
+{
+    const double all = 4 * M_PI; // of the gray sky, about
+    const Light sun { at_angles(0, 50), 0.3, V3d(all), 0 }, lamp { at_angles(90, 40), 1, V3d(0.05 * all), 0 };
+    Sky room { gray_sky, { lamp } };
+    for (const double azimuth : { 150.0, 200.0, 250.0 })
+        room.lights.push_back({ at_angles(azimuth, 30), 1, V3d(0.015 * all), 0 });
+    EXPECT_EQ(split_of(room.environment(512)).suns().size(), 4u);
+    room.lights[0] = sun;
+    EXPECT_EQ(split_of(room.environment(512)).suns().size(), 1u);
+    room.lights.erase(room.lights.begin());
+    EXPECT_TRUE(split_of(room.environment(512)).suns().empty());
+}
+
 TEST(Suns, SkiesWithoutSunsStayAsTheyAre)
 {
     const auto none = [](double) { return V3d(0); };

@@ -16,6 +16,8 @@ using latlong::pi;
 
 /// Of all light: a weaker sun is below the models' error on the rest.
 constexpr double kLeastShare = 1.0 / 32;
+/// A further one: of all light, and of the suns before it, beside which a weaker one's shadows hardly count.
+constexpr double kLeastFurtherShare = 1.0 / 128, kLeastOfOthers = 1.0 / 16;
 /// A seed that gains less than this part of it will not become a sun on its way.
 constexpr double kHopeless = 0.125;
 /// Seeds that come so near each other are one; and so far does the best one move in the end.
@@ -32,6 +34,7 @@ public:
     std::vector<SunSplit::Cut> run()
     {
         std::vector<SunSplit::Cut> cuts;
+        double taken = 0;
         while (cuts.size() < SunSplit::kMostSuns && m_map.least_radius < SunMap::kMostRadius && m_map.all > 0) {
             SunCandidate best;
             for (const V3d& seed : seeds()) {
@@ -39,12 +42,15 @@ public:
                 if (found.gain > best.gain)
                     best = found;
             }
+            const double least = cuts.empty() ? kLeastShare * m_map.all
+                                              : std::max(kLeastFurtherShare * m_map.all, kLeastOfOthers * taken);
             // What is looked at closely gains more, but not that much.
-            if (best.gain < 0.75 * kLeastShare * m_map.all)
+            if (best.gain < 0.75 * least)
                 break;
             best = settle(best.direction, kStill, true).found;
-            if (best.gain < kLeastShare * m_map.all)
+            if (best.gain < least)
                 break;
+            taken += best.gain;
             cut_out(best.cut);
             cuts.push_back(best.cut);
         }

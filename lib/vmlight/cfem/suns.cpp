@@ -101,14 +101,6 @@ double energy_of(const OIIO::ImageBuf& map)
 
 } // namespace
 
-double SunSplit::Cut::share(const V3d& direction, double height) const
-{
-    const double edge = std::max(kSoftEdge, 0.5 * height);
-    const double chord = 0.5 * (direction - centre).length();
-    // No arc sine far away: most pixels are.
-    return chord > radius + edge ? 0 : share_at(2 * std::asin(std::min(1.0, chord)), height);
-}
-
 double SunSplit::Cut::share_at(double angle, double height) const
 {
     const double edge = std::max(kSoftEdge, 0.5 * height);
@@ -118,7 +110,7 @@ double SunSplit::Cut::share_at(double angle, double height) const
 std::array<double, 3> SunSplit::Cut::apply(float* rgb, const V3d& direction, double height) const
 {
     std::array<double, 3> taken {};
-    const double part = share(direction, height);
+    const double part = share_at(2 * std::asin(std::min(1.0, 0.5 * (direction - centre).length())), height);
     for (size_t c = 0; c < 3 && part > 0; ++c)
         if (const float whole = rgb[c]; whole > background[c]) {
             // A difference of floats is exact in double, unless one is 2^29 times the other.

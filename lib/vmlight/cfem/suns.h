@@ -41,7 +41,9 @@ class SunSplit
 public:
     /// Find the suns of `env`. There is nothing to choose: a light is split off if it is narrow (a disc's half angle
     /// of 10 degrees counts nothing, of 5 degrees half) and carries, so weighted, at least a thirty-second of all
-    /// light: less than the models' own error on what remains. At most kMostSuns, the strongest first. Each is cut out
+    /// light: less than the models' own error on what remains. Where there is one, as in a room with lamps, further
+    /// lights are too, down to a 128th of all light and a sixteenth of what was split off before: beside a strong sun a
+    /// weaker light's shadows hardly count. At most kMostSuns, the strongest first. Each is cut out
     /// by a cap of 1.5 to 12 degrees: what is brighter than the median around the cap, channel by channel, is the
     /// sun's. A disc has the energy and the first moment (by the mean of R, G and B) of what was cut out.
     ///
@@ -71,11 +73,10 @@ public:
         double radius = 0; ///< radians
         std::array<float, 3> background {};
 
-        /// How much of the pixel in the middle of `direction`, `height` radians high, is the cap's.
-        double share(const Imath::V3d& direction, double height) const;
-        /// The same of a pixel whose middle is at `angle` radians from the centre.
+        /// How much of a pixel, `height` radians high, whose middle is at `angle` radians from the centre is the cap's.
         double share_at(double angle, double height) const;
-        /// Take its light above the background from a pixel of R, G, B. Returns what was taken.
+        /// Take its light above the background from a pixel of R, G, B whose middle is in `direction`. Returns what was
+        /// taken.
         std::array<double, 3> apply(float* rgb, const Imath::V3d& direction, double height) const;
     };
 

@@ -62,6 +62,7 @@ struct LightFacts
     std::string no_suns {}; ///< why they cannot be traced, or ""
     int suns = 0; ///< that the light has, if they are asked for and can be traced
     double sun_share = 0; ///< of all light
+    bool has_stored_suns = false; ///< the map stores what texels see of them, as they are turned
     std::string no_bounce {}; ///< why it cannot be traced, or ""
 };
 

@@ -76,10 +76,13 @@ void decide_suns(std::vector<EffectDecision>& dst, const Effect& effect, const E
                            !light.wants_suns            ? std::string("not asked for: --suns auto adds them")
                                : !light.no_suns.empty() ? light.no_suns
                                : !called                ? std::string("the light has no small strong source")
-                                         : format("{} with {} of the light; one ray or more for each texel that "
-                                                  "faces them, at each rotation",
-                                                  count_text(light.suns, "sun", "suns"), percent_text(light.sun_share)),
-                           0.15));
+                                         : format("{} with {} of the light; {}", count_text(light.suns, "sun", "suns"),
+                                                  percent_text(light.sun_share),
+                                                  light.has_stored_suns
+                                                      ? "the map stores what texels see of them, and no ray is traced"
+                                                      : "one ray or more for each texel that faces them, at each "
+                                                        "rotation"),
+                           light.has_stored_suns ? 0.02 : 0.15));
     if (!light.wants_suns || !light.no_suns.empty())
         dst.back().impossible = dst.back().reason;
 }

@@ -7,6 +7,7 @@
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/stored_suns.h>
 #include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_shading.h>
 
@@ -45,7 +46,7 @@ void measure_visibility(LightFacts& dst, const OIIO::ImageBuf& vismap)
 
 // Of the light as it is without the switches.
 bool find_sun_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRecipe& recipe,
-                    const MakeOptions& options, std::string& error)
+                    const Rotation& rotation, const MakeOptions& options, std::string& error)
 {
     dst.wants_suns = recipe.suns != "off" || inputs.suns;
     if (!dst.wants_suns)
@@ -54,12 +55,13 @@ bool find_sun_facts(LightFacts& dst, const LightmapInputs& inputs, const Lightma
     if (inputs.suns) {
         suns = inputs.suns->list;
     } else {
-        dst.no_suns = recipe.cfem.empty() ? why_no_suns(recipe, inputs.vismap.spec())
+        dst.no_suns = recipe.cfem.empty() ? why_no_suns(recipe, inputs.vismap.spec(), recipe.vismap)
                                           : format("\"{}\" was filtered with its suns, if it has any", recipe.cfem);
         if (dst.no_suns.empty() && !suns_of_light(suns, recipe, error, options.chain))
             return false;
     }
     dst.suns = int(suns.size());
+    dst.has_stored_suns = !stored_suns(inputs.vismap.spec()).channels_of(discs_in_object_space(suns, rotation)).empty();
     dst.sun_share = inputs.cfem.empty() ? 0 : sun_share(suns, inputs.cfem[0], inputs.suns != nullptr);
     return true;
 }
@@ -91,9 +93,9 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     }
     dst.wants_bounce = recipe.bounce_params.bounce != "off";
     dst.bounce_rays = recipe.bounce_params.bounce_rays;
-    dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec()) : "";
+    dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec(), recipe.vismap) : "";
     measure_visibility(dst, inputs.vismap);
-    return find_sun_facts(dst, inputs, recipe, options, error);
+    return find_sun_facts(dst, inputs, recipe, rotation, options, error);
 }
 
 struct Difference

@@ -12,7 +12,7 @@
 
 namespace vmlight {
 
-/// The recipe without what its switches of effects leave out: the albedo, the bounce, or the rotation.
+/// The recipe without what its switches of effects leave out: the albedo, the bounce, the suns or the rotation.
 VMLIGHT_API LightmapRecipe with_switches(const LightmapRecipe& recipe);
 
 /// A lightmap as the user asked for it, and as it is made: with the switches of effects applied.

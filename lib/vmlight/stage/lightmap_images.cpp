@@ -57,7 +57,7 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
     LightmapRecipe recipe = given;
     dst.vismap = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, chain);
     if (dst.vismap && recipe.suns == "auto" && recipe.cfem.empty()) { // without its suns, a CFEM is too dark
-        dst.no_suns = why_no_suns(recipe, dst.vismap->spec());
+        dst.no_suns = why_no_suns(recipe, dst.vismap->spec(), recipe.vismap);
         recipe.suns = dst.no_suns.empty() ? "auto" : "off";
     }
     if (dst.vismap)

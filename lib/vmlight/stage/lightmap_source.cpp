@@ -19,8 +19,11 @@
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/stage/stored_image.h>
+#include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_shading.h>
-#include <vmlight/stage/sun_source.h>
+#include <vmlight/stage/traced_light.h>
+
+#include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
 #include <array>
@@ -67,6 +70,7 @@ public:
             m_spec.attribute("vmlight:model", with_suns(m_model.name));
         if (m_images.bounce)
             m_images.bounce->tag(m_spec);
+        tag_no_suns(m_spec, no_suns_text());
         m_output.tag(m_spec);
         tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
@@ -135,9 +139,11 @@ public:
             dst.map = map;
         }
         dst.color = (m_images.light.conversion ? m_images.light.note : std::string()) + m_output.note();
-        dst.finish = [output = m_output, threads = options.threads](OIIO::ImageBuf& lightmap) {
-            output.apply(lightmap, threads);
-        };
+        dst.finish
+            = [output = m_output, no_suns = no_suns_text(), threads = options.threads](OIIO::ImageBuf& lightmap) {
+                  tag_no_suns(lightmap.specmod(), no_suns);
+                  output.apply(lightmap, threads);
+              };
         // Frames share the points of the mesh that rays start from.
         if (!m_images.suns) {
             dst.suns = nullptr;
@@ -179,79 +185,19 @@ private:
                 return false;
             }
         m_images.light.convert(cfem, 1);
-        if (!light_suns(error))
+        TracedLight traced(m_recipe, m_images);
+        if (!traced.add_suns(m_shader, error))
             return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
             return false;
         }
-        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes())
-            + (m_suns ? sizeof(float) * m_suns->visibility.size() + m_images.suns->bytes() : 0);
         const AlbedoReader* albedo = m_images.albedo ? m_images.albedo->reader(error) : nullptr;
         if (albedo)
             m_shader.use_albedo({ m_images.albedo, albedo }, m_recipe.lightmap_params.skip_identities);
-        return error.empty() && (!m_images.bounce || light_bounce(cfem, *albedo, error));
-    }
-
-    // Bounced light, whole: each texel gets it from anywhere.
-    bool light_bounce(const std::vector<OIIO::ImageBuf>& cfem, const AlbedoReader& albedo, std::string& error)
-    {
-        auto light = std::make_shared<BounceLight>();
-        OIIO::ImageBuf map;
-        if (!read_all(map, *m_images.vismap, error)
-            || !m_images.bounce->light(*light, map, cfem, m_suns && !m_suns->suns.empty() ? m_suns.get() : nullptr,
-                                       m_recipe.lightmap_params, albedo, {}, error))
+        if (!error.empty() || !traced.add_bounce(m_shader, cfem, albedo, error))
             return false;
-        m_bytes += sizeof(float) * light->light.size() + m_images.bounce->bytes();
-        if (!light->light.empty())
-            m_shader.use_bounce(light);
-        return true;
-    }
-
-    // The suns of the light, in its colour.
-    bool find_suns(std::vector<Sun>& dst, std::string& error) const
-    {
-        std::string text;
-        dst.clear();
-        if (!m_images.suns)
-            return true;
-        if (!vmlight::find_suns(text, *m_images.cfem, error) || !parse_suns(dst, text, error)) {
-            error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
-            return false;
-        }
-        for (Sun& sun : dst)
-            if (m_images.light.conversion) {
-                std::array<float, 3> rgb;
-                std::copy(sun.color.begin(), sun.color.end(), rgb.begin());
-                m_images.light.conversion(rgb.data(), 1);
-                std::copy(rgb.begin(), rgb.end(), sun.color.begin());
-            }
-        return true;
-    }
-
-    // Their shadows, whole: tiles share rays and margins.
-    bool light_suns(std::string& error)
-    {
-        std::vector<Sun> suns;
-        if (!find_suns(suns, error))
-            return false;
-        if (!m_images.suns)
-            return true;
-        auto light = std::make_shared<SunLight>();
-        const auto read = [&](int channel, std::vector<float>& plane, std::string& reason) {
-            OIIO::ImageBuf map;
-            if (!read_all(map, *m_images.vismap, reason))
-                return false;
-            const auto* texel = static_cast<const float*>(map.localpixels());
-            plane.resize(size_t(map.spec().image_pixels()));
-            for (size_t i = 0; i < plane.size(); ++i)
-                plane[i] = texel[i * size_t(map.nchannels()) + size_t(channel)];
-            return true;
-        };
-        if (!m_images.suns->light(*light, suns, m_recipe.lightmap_params, read, {}, error))
-            return false;
-        m_suns = light;
-        m_shader.use_suns(light);
+        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes()) + traced.bytes();
         return true;
     }
 
@@ -266,6 +212,19 @@ private:
         for (const std::string& line : warnings)
             options.report_warning(format("\"{}\": {}", m_recipe.vismap, line));
         return true;
+    }
+
+    // Why suns that were asked for stay in the environment, without folders; or "". A reader cannot warn.
+    std::string no_suns_text() const
+    {
+        return m_images.no_suns.empty()
+            ? ""
+            : why_no_suns(m_recipe, m_images.vismap->spec(), OIIO::Filesystem::filename(m_recipe.vismap));
+    }
+    static void tag_no_suns(OIIO::ImageSpec& lightmap, const std::string& text)
+    {
+        if (!text.empty())
+            lightmap.attribute("vmlight:no_suns", text);
     }
 
     // The images of a stack that the model reads.
@@ -302,7 +261,7 @@ private:
                 return false;
             }
         }
-        if (dst.suns && !find_suns(dst.suns->list, error))
+        if (dst.suns && !find_suns(dst.suns->list, m_recipe, m_images, error))
             return false;
         if (!m_images.no_suns.empty())
             options.report_warning("suns stay in the environment, with soft shadows: " + m_images.no_suns);
@@ -325,7 +284,6 @@ private:
     OutputColor m_output;
     RunOnce m_prepare;
     LightmapShader m_shader;
-    std::shared_ptr<const SunLight> m_suns; // nullptr without
     std::atomic<size_t> m_bytes { 0 };
 };
 

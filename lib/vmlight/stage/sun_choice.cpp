@@ -4,33 +4,39 @@
 #include <vmlight/base/format.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/stage/lightmap_images.h>
+#include <vmlight/stage/stored_suns.h>
 #include <vmlight/stage/sun_source.h>
-#include <vmlight/vismap/sun_visibility.h>
 
 #include <algorithm>
 
 namespace vmlight {
 
-std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap)
+namespace {
+
+std::string why_no_mesh(const LightmapRecipe& recipe, const std::string& name)
 {
-    if (recipe_stage(recipe.vismap) != VismapRecipe::kStage && recipe.mesh.empty())
-        return format("\"{}\" does not say where its mesh is; set --mesh, and --occluder for all else that occluded it",
-                      recipe.vismap);
-    if (OIIO::get_roi(vismap) != OIIO::get_roi_full(vismap))
-        return format("\"{}\" is only a part of a map", recipe.vismap);
-    return "";
+    return recipe_stage(recipe.vismap) == VismapRecipe::kStage || !recipe.mesh.empty()
+        ? ""
+        : format("\"{}\" does not say where its mesh is; set --mesh, and --occluder for all else that occluded it",
+                 name);
 }
 
-std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap)
+std::string why_no_part(const OIIO::ImageSpec& vismap, const std::string& name)
 {
-    const std::vector<std::string> stored = sun_channels(vismap.get_string_attribute("vmlight:sun_directions"));
-    const bool has_stored = !stored.empty() && std::all_of(stored.begin(), stored.end(), [&](const std::string& name) {
-        return vismap.channelindex(name) >= 0;
-    });
-    LightmapRecipe known = recipe;
-    if (has_stored && recipe.mesh.empty())
-        known.mesh = "its own channels";
-    return why_no_trace(known, vismap);
+    return OIIO::get_roi(vismap) == OIIO::get_roi_full(vismap) ? "" : format("\"{}\" is only a part of a map", name);
+}
+
+} // namespace
+
+std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name)
+{
+    const std::string reason = why_no_mesh(recipe, name);
+    return reason.empty() ? why_no_part(vismap, name) : reason;
+}
+
+std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name)
+{
+    return stored_suns(vismap).empty() ? why_no_trace(recipe, vismap, name) : why_no_part(vismap, name);
 }
 
 bool suns_of_light(std::vector<Sun>& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain)

@@ -13,10 +13,10 @@
 
 namespace vmlight {
 
-/// Why nothing can be traced on the map with this header, in a clause, or "".
-std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap);
-/// The same of suns, whose visibility the map may hold.
-std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap);
+/// Why nothing can be traced on the map with this header, in a clause that begins with `name`, of the map; or "".
+std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);
+/// The same of suns, whose visibility the map may store.
+std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);
 
 /// Set `dst` to the suns that the light of `recipe` has, whatever its key `suns` is; none if it is filtered with them.
 /// False, with the reason in `error`, if an input cannot be read.

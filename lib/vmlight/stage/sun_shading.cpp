@@ -7,9 +7,6 @@
 #include <vmlight/cfem/suns.h>
 #include <vmlight/stage/sun_source.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace vmlight {
 
 std::shared_ptr<SunShading> SunShading::open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
@@ -18,13 +15,7 @@ std::shared_ptr<SunShading> SunShading::open(const LightmapRecipe& recipe, const
 {
     auto suns = std::make_shared<SunShading>();
     suns->m_recipe = recipe;
-    std::string ignored;
-    const std::string text = vismap.get_string_attribute("vmlight:sun_directions");
-    parse_sun_directions(suns->m_stored, text, ignored);
-    for (const std::string& channel : sun_channels(text))
-        suns->m_channels.push_back(vismap.channelindex(channel));
-    if (std::count(suns->m_channels.begin(), suns->m_channels.end(), -1))
-        suns->m_stored.clear();
+    suns->m_stored = stored_suns(vismap);
     if (!scene->has_mesh() && suns->m_stored.empty()) {
         error = with_location(recipe, "suns", chain,
                               format("\"{}\": a visibility map in a file does not say where its mesh is, which suns "
@@ -41,24 +32,14 @@ std::shared_ptr<SunShading> SunShading::open(const LightmapRecipe& recipe, const
 bool SunShading::prepare(const MakeOptions& options, std::string& error)
 {
     return m_scene->prepare(options, error)
-        && m_tracer.prepare(m_scene->scene(), m_scene->params(), error, options.threads, {}, m_scene->normal_map());
+        && m_tracer.prepare(m_scene->scene(), m_scene->params(), error, options.threads,
+                            options.step("suns", m_scene->roi().width(), m_scene->roi().height()),
+                            m_scene->normal_map());
 }
 
-bool SunShading::read_stored(std::vector<float>& dst, const std::vector<Disc>& discs, const ReadChannel& read,
-                             bool& matches, std::string& error) const
+bool SunShading::read_stored(std::vector<float>& dst, const std::vector<int>& channels, const ReadChannel& read,
+                             std::string& error) const
 {
-    constexpr double kTolerance = latlong::pi / 720; // a quarter of a degree
-    std::vector<int> channels;
-    for (const Disc& disc : discs)
-        for (size_t k = 0; k < m_stored.size(); ++k)
-            if ((m_stored[k].direction - disc.direction).length() < kTolerance
-                && std::abs(m_stored[k].half_angle - disc.half_angle) < std::max(kTolerance, 0.25 * disc.half_angle)) {
-                channels.push_back(m_channels[k]);
-                break;
-            }
-    matches = channels.size() == discs.size();
-    if (!matches)
-        return true;
     std::vector<float> plane;
     dst.resize(size_t(m_scene->roi().width()) * m_scene->roi().height() * channels.size());
     for (size_t k = 0; k < channels.size(); ++k) {
@@ -80,13 +61,10 @@ bool SunShading::light(SunLight& dst, const std::vector<Sun>& suns, const Lightm
         return false;
     if (suns.empty())
         return true;
-    std::vector<Disc> discs;
-    for (const Sun& sun : suns) // the inverse of a rotation is its transpose
-        discs.push_back({ rotate(rotation.transposed(), sun.disc.direction), sun.disc.half_angle });
-    bool is_stored = false;
-    if (!read_stored(dst.visibility, discs, read, is_stored, error))
-        return false;
-    if (is_stored) {
+    const std::vector<Disc> discs = discs_in_object_space(suns, rotation);
+    if (const std::vector<int> channels = m_stored.channels_of(discs); !channels.empty()) {
+        if (!read_stored(dst.visibility, channels, read, error))
+            return false;
         options.report("suns: from the visibility map");
         return true;
     }
@@ -94,7 +72,7 @@ bool SunShading::light(SunLight& dst, const std::vector<Sun>& suns, const Lightm
         error = with_location(m_recipe, "vismap", options.chain,
                               format("\"{}\": the suns are not among those that it was baked for, {}; they are "
                                      "\"{}\": set --mesh to trace them, or bake the map with these --sun-directions",
-                                     m_recipe.vismap, sun_directions_text(m_stored), sun_directions_text(discs)));
+                                     m_recipe.vismap, sun_directions_text(m_stored.discs), sun_directions_text(discs)));
         return false;
     }
     if (!m_prepare.run([&](std::string& reason) { return prepare(options, reason); }, error))

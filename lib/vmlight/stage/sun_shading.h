@@ -8,6 +8,7 @@
 #include <vmlight/stage/map_scene.h>
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/stored_suns.h>
 #include <vmlight/vismap/sun_visibility.h>
 
 #include <OpenImageIO/imageio.h>
@@ -36,8 +37,8 @@ public:
     /// Reads a channel of the visibility map: one float for each pixel. False, with the reason in `error`, on failure.
     using ReadChannel = std::function<bool(int channel, std::vector<float>& dst, std::string& error)>;
 
-    /// Trace `suns` at the rotation of `params`; or take their visibility from the channels `sun.N` of the map if it
-    /// has them all, within a quarter of a degree. Traces nothing if there are none.
+    /// Trace `suns` at the rotation of `params`; or take their visibility from the map if it stores them all. Traces
+    /// nothing if there are none.
     ///
     /// @param dst      set to their light; memory is reused
     /// @returns false, with the location and reason in `error`, if the mesh cannot be read or is not the one that was
@@ -49,14 +50,13 @@ public:
     size_t bytes() const { return m_tracer.bytes(); }
 
 private:
-    bool read_stored(std::vector<float>& dst, const std::vector<Disc>& discs, const ReadChannel& read, bool& matches,
+    bool read_stored(std::vector<float>& dst, const std::vector<int>& channels, const ReadChannel& read,
                      std::string& error) const;
     bool prepare(const MakeOptions& options, std::string& error);
 
     LightmapRecipe m_recipe;
     std::shared_ptr<MapScene> m_scene; ///< what to trace on
-    std::vector<Disc> m_stored; ///< the discs of channels `sun.N`
-    std::vector<int> m_channels; ///< and their indices
+    StoredSuns m_stored;
     std::string m_key;
     RunOnce m_prepare;
     SunTracer m_tracer;

@@ -128,10 +128,10 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
     Occluder::count(query.cutouts());
 }
 
-uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length) const
+uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length, bool is_near) const
 {
     const embree::FlushDenormals flush;
-    embree::Query query(reject_hits_behind_origin);
+    embree::Query query(is_near ? reject_hits_behind_origin : nullptr);
     RTCRay8 rays;
     alignas(32) int valid[kPacketSize];
     for (int lane = 0; lane < kPacketSize; ++lane) {

@@ -80,9 +80,11 @@ public:
     ///                 triangle: recheck the side of each hit in double. Hits that Embree misses stay missed
     void clear_blocked(RayFan& fan, const Imath::V3f& origin, float length, bool is_near = false) const;
 
-    /// Which of the first `count` of kPacketSize rays are blocked within `length`: bit k for ray k. Rechecks hits as
-    /// for `is_near`.
-    uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length) const;
+    /// Which of the first `count` of kPacketSize rays are blocked within `length`: bit k for ray k. For rays that run
+    /// side by side.
+    /// @param is_near  as for clear_blocked(): one of the origins is
+    uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length,
+                         bool is_near = true) const;
 
     /// What the first `count` of kPacketSize rays meet first within their lengths (in scene units), from origins that
     /// are off the surface. The same triangles block rays as for find_blocked().

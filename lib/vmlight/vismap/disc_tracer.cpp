@@ -62,8 +62,12 @@ std::vector<std::string> sun_channels(const std::string& text)
 
 namespace {
 
-// In a penumbra. Of a wide disc, the first ones: if they all agree, the texel is not in the penumbra.
-constexpr int kLeastRays = 16, kProbes = 16;
+// In a penumbra.
+constexpr int kLeastRays = 16, kMostRays = 32;
+// The first ones: if they all agree, the texel is not in the penumbra. Of a narrow disc six at the rim, where straight
+// edges come in, and two inside: an edge that none of them sees cuts off less than 8 % of the disc.
+constexpr int kProbes = 16, kFewProbes = 8;
+constexpr int kFew[kFewProbes] = { 1, 3, 5, 7, 9, 11, 0, 8 };
 
 } // namespace
 
@@ -72,7 +76,7 @@ int disc_rays(double half_angle)
     // As many as half degrees fit in the disc, side by side.
     const double half_degrees = half_angle * 360 / latlong::pi;
     int rays = kLeastRays;
-    while (rays < 64 && rays < half_degrees * half_degrees)
+    while (rays < kMostRays && rays < half_degrees * half_degrees)
         rays *= 2;
     return rays;
 }
@@ -81,30 +85,25 @@ DiscTracer::DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSam
                        int seed, const GroundPlane& ground)
     : m_occluder(occluder)
     , m_samples(samples)
-    , m_direction(disc.direction)
-    , m_sine(std::sin(disc.half_angle))
+    , m_horizon(disc, ground)
     , m_mean_length(disc_mean_length(disc.half_angle))
     , m_rays_each(rays)
     , m_length(length)
     , m_seed(uint32_t(seed))
-    , m_ground(ground)
 {
     m_texels.reserve(kPacketSize + 1);
 }
 
 bool DiscTracer::place(Texel& dst, const SurfacePoint& point, int x, int y) const
 {
-    const V3d normal(point.normal), geometric(point.geometric_normal);
-    const double facing = normal.dot(m_direction), above = geometric.dot(m_direction);
-    const float lowest = m_ground.lowest_ray(point);
-    if (facing <= -m_sine || above <= -m_sine || m_direction.y + m_sine < double(lowest))
+    const DiscHeight height = m_horizon.height(point);
+    if (height == DiscHeight::below)
         return false;
-    const bool is_whole = facing >= m_sine && above >= m_sine && m_direction.y - m_sine >= double(lowest);
-    // What a normal map adds is in front of the surface or behind it, and not left out.
-    const double counted = (1 + V3d(point.mesh_normal).dot(geometric)) / 2;
-    const double scale = (is_whole ? facing * m_mean_length : 1.0 / m_rays_each) / counted;
+    const bool is_whole = height == DiscHeight::whole;
+    const double facing = V3d(point.normal).dot(m_horizon.direction);
+    const double scale = (is_whole ? facing * m_mean_length : 1.0 / m_rays_each) / DiscHorizon::counted(point);
     const uint32_t hash = texel_hash(uint32_t(x), uint32_t(y), m_seed).u;
-    dst = { dst.dst, point, hash, scale, is_whole, is_whole && m_rays_each > kProbes, lowest, 0, 0, 0 };
+    dst = { dst.dst, point, hash, scale, is_whole, is_whole, m_horizon.ground.lowest_ray(point), 0, 0, 0 };
     return true;
 }
 
@@ -114,18 +113,7 @@ void DiscTracer::add(const SurfacePoint& point, int x, int y, float* dst)
     Texel texel {};
     texel.dst = dst;
     if (place(texel, point, x, y))
-        start(texel, texel.is_probe ? kProbes : m_rays_each);
-}
-
-bool DiscTracer::add_one(const SurfacePoint& point, int x, int y, float* dst)
-{
-    Texel texel {};
-    texel.dst = dst;
-    if (!place(texel, point, x, y) || !texel.is_whole)
-        return false;
-    texel.is_probe = true;
-    start(texel, 1);
-    return true;
+        start(texel, !texel.is_probe ? m_rays_each : m_rays_each > kLeastRays ? kProbes : kFewProbes);
 }
 
 void DiscTracer::start(const Texel& texel, int rays)
@@ -134,9 +122,8 @@ void DiscTracer::start(const Texel& texel, int rays)
     m_texels.back().rays_left = rays;
     for (int ray = 0; ray < rays; ++ray) {
         Texel& own = m_texels.back();
-        const V3f& direction = rays == 1 ? m_samples.probe(own.hash / 4, own.hash % 4 != 0) // three of four at the rim
-            : own.is_probe               ? m_samples.probe(own.hash, ray)
-                                         : m_samples.at(own.hash, ray, rays);
+        const V3f& direction = own.is_probe ? m_samples.probe(own.hash, rays == kFewProbes ? kFew[ray] : ray)
+                                            : m_samples.at(own.hash, ray, rays);
         const double cosine = double(direction.dot(own.point.normal));
         if (!(cosine > 0 && direction.dot(own.point.geometric_normal) > 0 && direction.y >= own.lowest)) {
             if (--own.rays_left == 0)
@@ -144,6 +131,7 @@ void DiscTracer::start(const Texel& texel, int rays)
             continue;
         }
         own.all += cosine;
+        m_is_near = m_is_near || own.point.is_near;
         m_origins[size_t(m_count)] = own.point.origin;
         m_directions[size_t(m_count)] = direction;
         m_cosines[size_t(m_count)] = cosine;
@@ -177,7 +165,8 @@ void DiscTracer::trace()
         m_origins[size_t(i)] = m_origins[0];
         m_directions[size_t(i)] = m_directions[0];
     }
-    const uint8_t blocked = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length);
+    const uint8_t blocked
+        = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length, m_is_near);
     for (int i = 0; i < m_count; ++i) {
         Texel& texel = m_texels[m_owner[size_t(i)]];
         texel.seen += blocked >> i & 1 ? 0 : m_cosines[size_t(i)];
@@ -186,6 +175,7 @@ void DiscTracer::trace()
     }
     m_rays += m_count;
     m_count = 0;
+    m_is_near = false;
     // The last may have rays to come.
     std::swap(m_texels.front(), m_texels.back());
     m_texels.erase(m_texels.begin() + 1, m_texels.end());

@@ -2,6 +2,7 @@
 #include <vmlight/vismap/sun_visibility.h>
 
 #include <vmlight/base/parallel.h>
+#include <vmlight/vismap/disc_look.h>
 #include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/penumbra.h>
 
@@ -63,45 +64,47 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
         int64_t rays = 0;
     };
     std::vector<Worker> workers(size_t(worker_count(nthreads)));
-    // Call work(tracer, tile, points, k) for each tile and disc.
+    // Call work(tile, points, k) for each tile and disc; it returns the rays that it traced.
     const auto each = [&](const auto& work, const Progress& part) {
         const auto trace_tile = [&](int64_t tile, int index) {
             Worker& worker = workers[size_t(index)];
             const std::vector<MapPoint>& points = map.of_tile(int(tile), worker.scratch);
-            for (size_t k = 0; k < count && !points.empty(); ++k) {
-                const Disc& disc = discs[ptrdiff_t(k)];
-                DiscTracer tracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length,
-                                  params.seed, ground);
-                work(tracer, int(tile), points, k);
-                worker.rays += tracer.rays();
-            }
+            for (size_t k = 0; k < count && !points.empty(); ++k)
+                worker.rays += work(int(tile), points, k);
         };
         return parallel_items(map.tiles(), nthreads, trace_tile, part);
     };
     const auto value
         = [&](int tile, const MapPoint& point, size_t k) -> float& { return dst[map.texel(tile, point) * count + k]; };
-    // One ray each, but for texels that the horizon of the surface cuts the disc of: these need all.
-    const auto look = [&](DiscTracer& tracer, int tile, const std::vector<MapPoint>& points, size_t k) {
-        std::array<uint64_t, kTileSize> whole {};
-        for (const MapPoint& point : points) {
-            const int x = map.left(tile) + point.x, y = map.top(tile) + point.y;
-            if (tracer.add_one(point.surface, x, y, &value(tile, point, k)))
-                whole[point.y] |= uint64_t(1) << point.x;
-            else
-                tracer.add(point.surface, x, y, &value(tile, point, k));
-        }
-        tracer.flush();
+    const auto tracer_of = [&](size_t k) {
+        const Disc& disc = discs[ptrdiff_t(k)];
+        return DiscTracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length, params.seed,
+                          ground);
+    };
+    // One ray each, but for texels that a horizon cuts the disc of: these need all.
+    const auto look = [&](int tile, const std::vector<MapPoint>& points, size_t k) {
+        DiscLook one(map.scene().occluder(), discs[ptrdiff_t(k)], samples[k], length, params.seed, ground,
+                     looked[size_t(tile) * count + k]);
+        DiscTracer all = tracer_of(k);
+        const int left = map.left(tile), top = map.top(tile);
         for (const MapPoint& point : points)
-            if (whole[point.y] >> point.x & 1)
-                looked[size_t(tile) * count + k].set(point.x, point.y, value(tile, point, k) > 0);
+            if (one.add(point.surface, left, top, point.x, point.y, &value(tile, point, k)) == DiscHeight::cut)
+                all.add(point.surface, left + point.x, top + point.y, &value(tile, point, k));
+        one.flush();
+        all.flush();
+        return one.rays() + all.rays();
     };
     // And all where a shadow has its edge.
-    const auto refine = [&](DiscTracer& tracer, int tile, const std::vector<MapPoint>& points, size_t k) {
+    const auto refine = [&](int tile, const std::vector<MapPoint>& points, size_t k) {
         const std::array<uint64_t, kTileSize> edge = penumbra(around(looked, map.raster(), tile, k, count));
+        if (std::all_of(edge.begin(), edge.end(), [](uint64_t row) { return row == 0; }))
+            return int64_t(0);
+        DiscTracer tracer = tracer_of(k);
         for (const MapPoint& point : points)
             if (edge[point.y] >> point.x & 1)
                 tracer.add(point.surface, map.left(tile) + point.x, map.top(tile) + point.y, &value(tile, point, k));
         tracer.flush();
+        return tracer.rays();
     };
     const auto part = [&](double from) {
         return progress ? Progress([&progress, from](double done) { return progress(from + 0.5 * done); }) : Progress();

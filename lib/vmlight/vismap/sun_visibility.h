@@ -7,6 +7,7 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/ground_plane.h>
 #include <vmlight/trace/surface.h>
+#include <vmlight/vismap/disc_look.h>
 #include <vmlight/vismap/map_points.h>
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/vismap.h>
@@ -21,7 +22,8 @@
 
 namespace vmlight {
 
-/// Rays for a texel in the penumbra of a disc: 16, or for discs wider than 4 degrees more, up to 64. A power of 2.
+/// Rays for a texel in the penumbra of a disc: 16, or 32 if its half angle is above 2 degrees. A power of 2. Half as
+/// many find out before whether it is there.
 int disc_rays(double half_angle);
 
 /// The discs of VismapParams::sun_directions. Returns false, with the reason in `error`, if the text is none.
@@ -49,9 +51,6 @@ public:
     /// the geometric surface g are left out, and the result is divided by the share of the cosine above it, (1 + n.g)
     /// / 2. A texel whose horizon is above the disc gets 0 and traces no ray.
     void add(const SurfacePoint& point, int x, int y, float* dst);
-    /// The same with one ray, as if the whole disc were alike. False, having done nothing, if it cannot be: a horizon
-    /// cuts the disc, or is above it.
-    bool add_one(const SurfacePoint& point, int x, int y, float* dst);
     /// Trace what is left.
     void flush();
 
@@ -77,15 +76,15 @@ private:
 
     const Occluder& m_occluder;
     const DiscSamples& m_samples;
-    const Imath::V3d m_direction;
-    const double m_sine, m_mean_length;
+    const DiscHorizon m_horizon;
+    const double m_mean_length;
     const int m_rays_each;
     const float m_length;
     const uint32_t m_seed;
-    const GroundPlane m_ground;
     int64_t m_rays = 0;
     // Rays that wait for their packet to fill.
     int m_count = 0;
+    bool m_is_near = false; // one of them is
     std::array<Imath::V3f, kPacketSize> m_origins, m_directions;
     std::array<double, kPacketSize> m_cosines {};
     std::array<size_t, kPacketSize> m_owner {};
