@@ -26,7 +26,7 @@ namespace vmlight {
 constexpr float kLeastCosine = 0.2f;
 constexpr int kBeforePacked = 7; // floats of V, B and n, before the packed numbers
 
-// What a texel sees: sums of moments, and the solid angle in `SolidAngle` units.
+// What a texel sees: sums of moments, and the solid angle in units of `kAngle`.
 struct CellSums
 {
     int64_t lanes[kMomentLanes] = { 0, 0, 0, 0 };

@@ -223,8 +223,8 @@ HWY_INLINE V Even(D d, const CellLight& light, V weight, size_t i, const float* 
 }
 
 template <class Model>
-HWY_INLINE bool ShadeCells(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels,
-                           float* rgb)
+HWY_INLINE bool ShadeTexels(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels,
+                            float* rgb)
 {
     constexpr int kFloats = kBeforePacked + Model::kFloats;
     const hn::CappedTag<float, 16> d;

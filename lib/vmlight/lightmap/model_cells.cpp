@@ -20,7 +20,7 @@ bool ShadeCells(const CellLight& light, const ShadeSetup& setup, const float* vi
 #if HWY_TARGET == HWY_SCALAR
     return shade_cells_scalar(light, setup, vismap, texels, rgb);
 #else
-    return ShadeCells<CellsModel>(light, setup, vismap, texels, rgb);
+    return ShadeTexels<CellsModel>(light, setup, vismap, texels, rgb);
 #endif
 }
 

@@ -20,7 +20,7 @@ bool ShadeMask(const CellLight& light, const ShadeSetup& setup, const float* vis
 #if HWY_TARGET == HWY_SCALAR
     return shade_mask_scalar(light, setup, vismap, texels, rgb);
 #else
-    return ShadeCells<MaskModel>(light, setup, vismap, texels, rgb);
+    return ShadeTexels<MaskModel>(light, setup, vismap, texels, rgb);
 #endif
 }
 
