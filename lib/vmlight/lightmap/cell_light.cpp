@@ -18,8 +18,7 @@ using latlong::pi;
 
 namespace {
 
-using Moments = std::array<double, kMomentFloats>;
-using Grid = std::vector<Moments>; // kColumns times kSlices
+using Grid = std::vector<CellMoments>; // kColumns times kSlices
 
 // The share of [middle - half, middle + half], in units of cells, that is in cell `k`.
 double share(double middle, double half, int k)
@@ -39,7 +38,7 @@ void add_patch(Grid& grid, const V3d& w, double size, const double* color, doubl
     const int first = std::max(0, int(slice - half_slice)), last = std::min(kSlices - 1, int(slice + half_slice));
     for (int c = int(std::floor(column - half_column)); c < column + half_column; ++c) {
         const double part = solid_angle * share(column, half_column, c);
-        Moments* cells = &grid[size_t((c % kColumns + kColumns) % kColumns * kSlices)];
+        CellMoments* cells = &grid[size_t((c % kColumns + kColumns) % kColumns * kSlices)];
         for (int s = first; s <= last && part > 0; ++s) {
             const double weight = part * share(slice, half_slice, s);
             for (int k = 0; k < 4; ++k) {
@@ -51,20 +50,43 @@ void add_patch(Grid& grid, const V3d& w, double size, const double* color, doubl
     }
 }
 
-void set_triples(CellLight& dst)
+// Running sums over the slices of a column: kSlices + 1 edges.
+std::vector<CellMoments> running_sums(const Grid& grid, int column)
 {
-    const auto band = [&](int cell, int k) {
-        const int column = cell % kColumns, edge = cell / kColumns * kSlicesPerBand;
-        const float* at = &dst.running[size_t(column * (kSlices + 1) + edge) * kMomentFloats + size_t(k)];
-        return at[kSlicesPerBand * kMomentFloats] - at[0];
-    };
-    dst.triples.resize(size_t(kTriples) * kTripleCodes * kMomentFloats);
-    float* sum = dst.triples.data();
-    for (int triple = 0; triple < kTriples; ++triple)
-        for (int code = 0; code < kTripleCodes; ++code)
-            for (int k = 0; k < kMomentFloats; ++k)
-                *sum++ = float(code >> 4) * band(3 * triple, k) + float(code >> 2 & 3) * band(3 * triple + 1, k)
-                    + float(code & 3) * band(3 * triple + 2, k);
+    std::vector<CellMoments> sums(kSlices + 1, CellMoments {});
+    for (int slice = 0; slice < kSlices; ++slice)
+        for (size_t k = 0; k < sums[0].size(); ++k)
+            sums[size_t(slice) + 1][k] = sums[size_t(slice)][k] + grid[size_t(column * kSlices + slice)][k];
+    return sums;
+}
+
+// The moments of cells, band by band.
+std::vector<CellMoments> band_sums(const Grid& grid)
+{
+    std::vector<CellMoments> cells(kCells, CellMoments {});
+    for (int cell = 0; cell < kCells; ++cell)
+        for (int slice = 0; slice < kSlicesPerBand; ++slice) {
+            const size_t from = size_t(cell % kColumns * kSlices + cell / kColumns * kSlicesPerBand + slice);
+            for (size_t k = 0; k < cells[0].size(); ++k)
+                cells[size_t(cell)][k] += grid[from][k];
+        }
+    return cells;
+}
+
+// Sums of `grid`, each at most `largest` times, must fit the fixed point.
+void set_units(CellLight& dst, double* per_unit, const Grid& grid, double largest)
+{
+    for (int lane = 0; lane < kMomentLanes; ++lane) {
+        double most = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            double sum = 0;
+            for (const CellMoments& cell : grid)
+                sum += std::abs(cell[size_t(4 * axis + lane)]);
+            most = std::max(most, sum);
+        }
+        per_unit[lane] = most > 0 ? (kMomentBias - kMomentSlack) / (most * largest) : 0;
+        dst.unit[lane] = float(most > 0 ? 1 / per_unit[lane] : 0);
+    }
 }
 
 // How pixels are cut into nearly square patches, at most a cell high.
@@ -81,7 +103,7 @@ Parts parts_of(const CfemLookup& map)
     return { std::max(1, (2 * map.height * down + map.width - 1) / map.width), down };
 }
 
-void measure(CellLight& dst, const CfemLookup& map)
+void measure(EnvironmentBounds& dst, const CfemLookup& map)
 {
     for (int c = 0; c < 3; ++c) {
         double mean = 0;
@@ -102,8 +124,8 @@ void measure(CellLight& dst, const CfemLookup& map)
 
 } // namespace
 
-bool build_cell_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, bool triples,
-                      std::string& error)
+bool bin_environment(std::vector<CellMoments>& cells, EnvironmentBounds& bounds, const OIIO::ImageBuf& radiance,
+                     const Rotation& to_object, std::string& error)
 {
     constexpr int kMostWidth = 256;
     OIIO::ImageBuf reduced;
@@ -114,10 +136,10 @@ bool build_cell_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rota
     if ((large && !make_radiance(reduced, radiance, small, error))
         || !prepare_cfem(map, large ? reduced : radiance, error))
         return false;
-    measure(dst, map);
-    find_brightest_light(dst.brightest, large ? reduced : radiance);
+    measure(bounds, map);
+    find_brightest_light(bounds.brightest, large ? reduced : radiance);
 
-    Grid grid(size_t(kColumns) * kSlices, Moments {});
+    cells.assign(size_t(kColumns) * kSlices, CellMoments {});
     const Parts parts = parts_of(map);
     const int width = map.width * parts.across, height = map.height * parts.down;
     const double size = pi / height;
@@ -126,22 +148,67 @@ bool build_cell_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rota
         for (int x = 0; x < width; ++x) {
             const V3d w = rotate(to_object, latlong::direction((x + 0.5) / width, (y + 0.5) / height));
             const float* rgb = map.at(x / parts.across, y / parts.down);
-            const double color[4] = { double(rgb[0]) - double(dst.mean[0]), double(rgb[1]) - double(dst.mean[1]),
-                                      double(rgb[2]) - double(dst.mean[2]), 1 };
-            add_patch(grid, w, size, color, solid_angle);
+            const double color[4] = { double(rgb[0]) - double(bounds.mean[0]), double(rgb[1]) - double(bounds.mean[1]),
+                                      double(rgb[2]) - double(bounds.mean[2]), 1 };
+            add_patch(cells, w, size, color, solid_angle);
         }
     }
-    dst.running.assign(size_t(kColumns) * (kSlices + 1) * kMomentFloats, 0.0f);
-    float* running = dst.running.data() + kMomentFloats;
-    for (int column = 0; column < kColumns; ++column, running += kMomentFloats) {
-        Moments sum {};
-        for (int slice = 0; slice < kSlices; ++slice)
-            for (int k = 0; k < kMomentFloats; ++k)
-                *running++ = float(sum[size_t(k)] += grid[size_t(column * kSlices + slice)][size_t(k)]);
+    return true;
+}
+
+bool build_mask_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, std::string& error)
+{
+    constexpr int kEdges = kSlices + 1, kDensities = kMaskCodes / kEdges;
+    Grid grid;
+    double per_unit[kMomentLanes];
+    if (!bin_environment(grid, dst, radiance, to_object, error))
+        return false;
+    set_units(dst, per_unit, grid, kDensities - 1);
+    dst.moments.assign(size_t(kColumns) * kMaskStride, {});
+    dst.plain.assign(size_t(kColumns) * kEdges * 4, 0.0f);
+    for (int column = 0; column < kColumns; ++column) {
+        const std::vector<CellMoments> sums = running_sums(grid, column);
+        PackedMoments* entry = &dst.moments[size_t(column) * kMaskStride];
+        for (int edge = 0; edge < kEdges; ++edge) {
+            for (int density = 0; density < kDensities; ++density) {
+                CellMoments part;
+                for (size_t k = 0; k < part.size(); ++k)
+                    part[k] = density * sums[size_t(edge)][k];
+                *entry++ = pack_moments(part.data(), per_unit);
+            }
+            for (size_t c = 0; c < 3; ++c)
+                dst.plain[size_t(column * kEdges + edge) * 4 + c] = float(sums[size_t(edge)][12 + c]);
+        }
     }
-    dst.triples.clear();
-    if (triples)
-        set_triples(dst);
+    return true;
+}
+
+bool build_cells_light(CellLight& dst, const OIIO::ImageBuf& radiance, const Rotation& to_object, std::string& error)
+{
+    Grid grid;
+    double per_unit[kMomentLanes];
+    if (!bin_environment(grid, dst, radiance, to_object, error))
+        return false;
+    set_units(dst, per_unit, grid, 3);
+    const std::vector<CellMoments> cells = band_sums(grid);
+    dst.moments.assign(size_t(kCellsParts) * kCellsStride, {});
+    for (int part = 0; part < kCellsParts; ++part)
+        for (int code = 0; code < kCellsCodes; ++code) {
+            CellMoments sum {};
+            for (int cell = 0; cell < 4; ++cell)
+                for (size_t k = 0; k < 12; ++k)
+                    sum[k] += (code >> (6 - 2 * cell) & 3) * cells[size_t(4 * part + cell)][k];
+            dst.moments[size_t(part * kCellsStride + code)] = pack_moments(sum.data(), per_unit);
+        }
+    dst.plain.assign(size_t(kTriples) * kTripleCodes * 4, 0.0f);
+    for (int triple = 0; triple < kTriples; ++triple)
+        for (int code = 0; code < kTripleCodes; ++code)
+            for (size_t c = 0; c < 3; ++c) {
+                double sum = 0;
+                for (int cell = 0; cell < 3; ++cell)
+                    sum += (code >> (4 - 2 * cell) & 3) * cells[size_t(3 * triple + cell)][12 + c];
+                dst.plain[size_t(triple * kTripleCodes + code) * 4 + c] = float(sum);
+            }
     return true;
 }
 

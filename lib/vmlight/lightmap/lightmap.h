@@ -81,7 +81,7 @@ VMLIGHT_API bool lightmap_rotation(Rotation& dst, const LightmapParams& params, 
 ///          for float; or `progress` stopped the work ("interrupted"). Not checked: that `cfem` was filtered with a
 ///          cosine, unless its `vmlight:stage` says otherwise.
 /// Cost: about 3 ns per texel on one thread for `paper`, 1.9 to 2.4 times that of moving the bytes; `lobe` takes 1.3
-/// times as long, `sh` 2 to 6 times, `mask` and `cells` 18 times (docs/accuracy.md).
+/// times as long, `sh` 2 to 6 times, `mask` and `cells` 8 times (docs/accuracy.md).
 VMLIGHT_API bool make_lightmap(OIIO::ImageBuf& dst, const OIIO::ImageBuf& vismap, const OIIO::ImageBuf& cfem,
                                const LightmapParams& params = {}, const OIIO::ImageBuf* albedo = nullptr,
                                int nthreads = 0, const Progress& progress = {});

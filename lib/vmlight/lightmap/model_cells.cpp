@@ -2,24 +2,48 @@
 #include <vmlight/lightmap/model_cells.h>
 
 #include <vmlight/image/channels.h>
-#include <vmlight/lightmap/cell_sums.h>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vmlight/lightmap/model_cells.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once for each instruction set.
+#include <hwy/highway.h>
+
+#include <vmlight/lightmap/cell_vectors-inl.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace vmlight {
-namespace {
+namespace HWY_NAMESPACE {
+
+bool ShadeCells(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels, float* rgb)
+{
+#if HWY_TARGET == HWY_SCALAR
+    return shade_cells_scalar(light, setup, vismap, texels, rgb);
+#else
+    return ShadeTexels<CellsModel>(light, setup, vismap, texels, rgb);
+#endif
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vmlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vmlight {
+
+HWY_EXPORT(ShadeCells);
 
 bool shade_cells(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels, float* rgb)
 {
-    constexpr int kTriplesPerFloat = kCellsPerFloat / 3;
-    constexpr size_t kTable = size_t(kTripleCodes) * kMomentFloats;
-    const float* triples = light.triples.data();
-    return shade_cell_sums<kCellsFloats>(light, setup, vismap, texels, rgb, [&](CellSums& sums, const uint32_t* codes) {
-        const float* table = triples;
-        for (int i = 0; i < kCellsFloats; ++i)
-            for (int k = kTriplesPerFloat - 1; k >= 0; --k, table += kTable)
-                if (const uint32_t code = codes[i] >> (6 * k) & 63)
-                    sums.add(table + code * kMomentFloats);
-    });
+    return HWY_DYNAMIC_DISPATCH(ShadeCells)(light, setup, vismap, texels, rgb);
 }
+
+bool shade_cells_scalar(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels, float* rgb)
+{
+    return shade_cells_one_by_one<CellsCodes>(light, setup, vismap, texels, rgb);
+}
+
+namespace {
 
 struct CellsShader : ModelShader
 {
@@ -53,9 +77,10 @@ std::unique_ptr<ModelShader> prepare_cells(const ModelInput& input, std::string&
     auto shader = std::make_unique<CellsShader>();
     shader->setup = input.setup;
     const Rotation to_object = input.to_environment.transposed();
-    if (!build_cell_light(shader->light, input.light[0], to_object, true, error))
+    if (!build_cells_light(shader->light, input.light[0], to_object, error))
         return nullptr;
     return shader;
 }
 
 } // namespace vmlight
+#endif

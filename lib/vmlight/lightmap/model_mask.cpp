@@ -2,25 +2,48 @@
 #include <vmlight/lightmap/model_mask.h>
 
 #include <vmlight/image/channels.h>
-#include <vmlight/lightmap/cell_sums.h>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vmlight/lightmap/model_mask.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once for each instruction set.
+#include <hwy/highway.h>
+
+#include <vmlight/lightmap/cell_vectors-inl.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace vmlight {
-namespace {
+namespace HWY_NAMESPACE {
+
+bool ShadeMask(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels, float* rgb)
+{
+#if HWY_TARGET == HWY_SCALAR
+    return shade_mask_scalar(light, setup, vismap, texels, rgb);
+#else
+    return ShadeTexels<MaskModel>(light, setup, vismap, texels, rgb);
+#endif
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vmlight
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vmlight {
+
+HWY_EXPORT(ShadeMask);
 
 bool shade_mask(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels, float* rgb)
 {
-    constexpr int kEdges = direction_grid::kSlices + 1;
-    const float* running = light.running.data();
-    return shade_cell_sums<kMaskFloats>(light, setup, vismap, texels, rgb, [&](CellSums& sums, const uint32_t* codes) {
-        for (int column = 0; column < direction_grid::kColumns; ++column) {
-            const MaskColumn view = unpack_mask(codes, column);
-            if (view.density == 0)
-                continue;
-            const float* edges = running + column * kEdges * kMomentFloats;
-            sums.add_between(edges + view.low * kMomentFloats, edges + view.high * kMomentFloats, float(view.density));
-        }
-    });
+    return HWY_DYNAMIC_DISPATCH(ShadeMask)(light, setup, vismap, texels, rgb);
 }
+
+bool shade_mask_scalar(const CellLight& light, const ShadeSetup& setup, const float* vismap, size_t texels, float* rgb)
+{
+    return shade_cells_one_by_one<MaskCodes>(light, setup, vismap, texels, rgb);
+}
+
+namespace {
 
 struct MaskShader : ModelShader
 {
@@ -54,9 +77,10 @@ std::unique_ptr<ModelShader> prepare_mask(const ModelInput& input, std::string& 
     auto shader = std::make_unique<MaskShader>();
     shader->setup = input.setup;
     const Rotation to_object = input.to_environment.transposed();
-    if (!build_cell_light(shader->light, input.light[0], to_object, false, error))
+    if (!build_mask_light(shader->light, input.light[0], to_object, error))
         return nullptr;
     return shader;
 }
 
 } // namespace vmlight
+#endif
