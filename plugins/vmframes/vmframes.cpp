@@ -74,6 +74,8 @@ int main(int argc, const char** argv)
                  store_models(request.sheet.wipe));
     stage.option("side_by_side", "A,B,...", "Show several models side by side, such as ao,paper,lobe,reference",
                  store_models(request.sheet.side_by_side));
+    stage.option("explain", "", "Say before the light which effects it simulates and why",
+                 [&](auto, auto&) { return request.explains = true; });
     stage.option("exposure", "-64..64|auto",
                  "Exposure in stops; auto: brings the mean luminance of the objects in the first frame to 0.18 [0]",
                  [&](OIIO::string_view text, std::string& error) {

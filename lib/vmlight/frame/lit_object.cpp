@@ -203,7 +203,7 @@ bool LitObject::light_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& 
 {
     const SunLight* suns = nullptr;
     const BounceLight* bounce = nullptr;
-    if (m_recipe.trace.has_any()) {
+    if (m_recipe.trace.has_any() || options.explain) {
         std::unique_ptr<TracedLight>& traced = m_traced[m_basis][udim];
         if (!prepare_scene(options, error))
             return false;

@@ -2,6 +2,7 @@
 #include <vmlight/frame/traced_light.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/frame/explain_light.h>
 #include <vmlight/frame/layers.h>
 #include <vmlight/frame/surface_color.h>
 #include <vmlight/frame/texel_albedo.h>
@@ -117,7 +118,6 @@ bool TracedLight::add_bounce(const ImageBuf& map, const SceneLight& light, const
 {
     const auto otherwise = float(m_params.bounce.bounce_albedo);
     if (!m_bounce_shading) {
-        m_albedo = texel_albedo(m_surface, map, m_udim, otherwise, options.threads);
         m_bounce_shading = BounceShading::of(m_params.bounce, m_scene, [this, otherwise](const LightPoint& point) {
             SeenPoint seen;
             seen.surface = &m_others[size_t(point.caster)];
@@ -140,11 +140,18 @@ bool TracedLight::light(const ImageBuf& map, const SceneLight& light, const Ligh
 {
     if (!m_scene)
         m_scene = MapScene::of(m_bake, map.spec(), m_udim);
+    const bool has_bounce = m_params.bounce.bounce != "off";
+    if (has_bounce && !m_albedo.initialized())
+        m_albedo = texel_albedo(m_surface, map, m_udim, float(m_params.bounce.bounce_albedo), options.threads);
+    if (options.explain
+        && !explain_traced(m_surface.mesh->name, m_params, map, light, params, has_bounce ? &m_albedo : nullptr,
+                           options, error))
+        return false;
     const bool has_suns = m_params.suns != "off" && !light.suns.empty();
     if (!has_suns)
         m_suns.suns.clear();
     return (!has_suns || trace_suns(map, light, params, options, error))
-        && (m_params.bounce.bounce == "off" || add_bounce(map, light, params, options, error));
+        && (!has_bounce || add_bounce(map, light, params, options, error));
 }
 
 bool TracedLight::failed() const

@@ -49,6 +49,7 @@ public:
     /// Add light, three floats a texel of the map's size, to the next relight() of a slot and those after it, until
     /// there is no map or one of another size; nothing if it is empty.
     void add_light(int slot, std::vector<float> rgb);
+    bool has_added() const { return !m_added[0].empty() || !m_added[1].empty(); }
     bool has_texture(int slot) const { return bool(m_lit[size_t(slot)].texture()); }
     /// R, G, B of a texture, times weight, and the weight.
     std::vector<float> read_texture(int slot) const { return m_lit[size_t(slot)].read(); }

@@ -170,6 +170,21 @@ bool Viewport::wanted_models(std::array<std::string, 2>& dst, const ViewState& s
     return !dst[0].empty() || !dst[1].empty();
 }
 
+void Viewport::drop_added()
+{
+    if (m_trace_job.is_running()) {
+        m_trace_job.stop();
+        m_tracer.reset(); // one that was stopped would not start again
+        m_tracer_key.clear();
+    }
+    m_added_key.clear();
+    if (!m_renderer.has_added())
+        return;
+    m_renderer.add_light(0, {});
+    m_renderer.add_light(1, {});
+    ++m_added_count;
+}
+
 // Take what is traced, and trace what is wanted now once the job is free: a job that is stopped at each movement of the
 // mouse would never end.
 void Viewport::refresh_added(const ViewState& state)
@@ -192,13 +207,7 @@ void Viewport::refresh_added(const ViewState& state)
     if (!(has_suns || (has_all && state.trace.bounce.bounce != "off"))
         || !untraceable_reason(m_renderer.map()->image.spec()).empty() || !wanted_models(models, state)
         || !light_params(params, state.light, state.turn, m_problem)) {
-        if (!m_added_key.empty()) {
-            m_trace_job.stop();
-            m_renderer.add_light(0, {});
-            m_renderer.add_light(1, {});
-            ++m_added_count;
-            m_added_key.clear();
-        }
+        drop_added();
         return;
     }
     const std::string of = format("{}|{}|{}|", m_generation, state.trace.suns, m_is_white) + key_of(state.trace.bounce);

@@ -74,6 +74,7 @@ private:
     // Light that is added to both textures.
     using AddedPair = std::array<std::vector<float>, 2>;
     void refresh_added(const ViewState& state);
+    void drop_added();
     bool wanted_models(std::array<std::string, 2>& dst, const ViewState& state);
     bool refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model);
     bool start_relight(int index, const LightmapParams& params);
