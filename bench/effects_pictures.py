@@ -32,6 +32,15 @@ def wall(path):
     mesh.write(path)
 
 
+def painted(path):
+    """The gazebo in one colour."""
+    stem = os.path.splitext(path)[0]
+    with open(stem + ".mtl", "w", encoding="utf-8") as file:
+        file.write("newmtl paint\nKd 0.9 0.35 0.2\n")
+    with open(path, "w", encoding="utf-8") as file, open(GAZEBO, encoding="utf-8") as plain:
+        file.write(f"mtllib {os.path.basename(stem)}.mtl\nusemtl paint\n" + plain.read())
+
+
 def bumps(path):
     """A normal map of a bumpy hide, in tangent space."""
     def pixel(x, y):
@@ -52,8 +61,7 @@ def columns(folder):
     scenes.well_stairs().write(made("well_stairs.obj"))
     wall(made("wall.obj"))
     bumps(made("bumps.png"))
-    subprocess.run(["oiiotool", "--create", "64x64", "3", "--fill:color=0.85,0.35,0.2", "64x64", "--attrib",
-                    "oiio:ColorSpace", "ACEScg", "-d", "float", "-o", made("paint.exr")], check=True)
+    painted(made("painted.obj"))
     subprocess.run([sys.executable, leaf_cards.__file__, folder], check=True)
     leaves = [made("leaf_cards.gltf"), STUDIO, "--uv-set", "1", "--white", "--elevation", "15", "--exposure", "-1.5"]
     return {
@@ -64,28 +72,25 @@ def columns(folder):
         "normal-map": ([SPOT, STUDIO, "--white", "--exposure", "-1.5"], [], ["--normal-map", made("bumps.png")]),
         "max-distance": ([made("well_stairs.obj"), STUDIO, "--elevation", "75", "--exposure", "-1"], [], ["--max-distance", "0.3"]),
         "suns": ([GAZEBO, SUNNY, "--elevation", "20", "--model", "lobe"], [], ["--suns", "auto"]),
-        "bounce": ([GAZEBO, STUDIO, "--elevation", "-10", "--exposure", "-0.5", "--albedo", made("paint.exr")], [],
-                   ["--bounce", "auto"]),
+        "bounce": ([made("painted.obj"), STUDIO, "--elevation", "-10", "--exposure", "-0.5"], [], ["--bounce", "auto"]),
     }
 
 
 TO_MAP = ("--effects", "--occluder", "--bake-ground", "--normal-map", "--max-distance")
 TO_BOTH = ("--uv-set", "--cutouts")
-TO_LIGHT = ("--suns", "--bounce", "--albedo", "--model")
 SWITCHES = ("--white", "--bake-ground")
 
 
 def sorted_words(words):
-    """The flags of makevismap, of makelightmap and of vmframes."""
-    bake, light, frame, i = [], [], [], 0
+    """The flags of makevismap and of vmframes."""
+    bake, frame, i = [], [], 0
     while i < len(words):
         flag, step = words[i], 1 if words[i] in SWITCHES else 2
         part = ["--ground"] if flag == "--bake-ground" else words[i:i + step]
         bake += part if flag in TO_MAP + TO_BOTH else []
-        light += part if flag in TO_LIGHT else []
-        frame += part if flag not in TO_MAP + TO_LIGHT else []
+        frame += part if flag not in TO_MAP else []
         i += step
-    return bake, light, frame
+    return bake, frame
 
 
 def picture(binaries, folder, words, name):
@@ -96,15 +101,10 @@ def picture(binaries, folder, words, name):
         return os.path.join(folder, f"{name}{kind}.exr")
 
     mesh, environment = words[:2]
-    bake, light, frame = sorted_words(words[2:])
+    bake, frame = sorted_words(words[2:])
     run("makevismap", mesh, "--resolution", "512", "-o", made("_vismap"), *bake)
-    shown = [environment, "--vismap", made("_vismap")]
-    if light:
-        traced = ["--mesh", mesh] if "--suns" in light or "--bounce" in light else []
-        run("makelightmap", made("_vismap"), environment, "--colorconfig", CONFIG, "-o", made("_lit"), *light, *traced)
-        shown = ["--texture", made("_lit")]
-    run("vmframes", mesh, *shown, "--size", str(SIDE), "--background", "0.18,0.18,0.18", "--colorconfig", CONFIG, "-o",
-        made(""), *frame)
+    run("vmframes", mesh, environment, "--vismap", made("_vismap"), "--size", str(SIDE), "--background", "0.18,0.18,0.18",
+        "--colorconfig", CONFIG, "-o", made(""), *frame)
     return made("")
 
 

@@ -71,11 +71,20 @@ std::string unused_light(const Request& request, const std::string& name)
         return "there is no environment";
     if (OIIO::Strutil::starts_with(name, filter))
         return unused_reason(request.filter, name.substr(filter.size()));
-    if (is_any({ "model", "env_rotate", "turn_environment", "colorspace", "layer", "layout" }, name)
+    const bool is_traced = is_any(param_names(TraceParams()), name);
+    if ((is_traced || is_any({ "model", "env_rotate", "turn_environment", "colorspace", "layer", "layout" }, name))
         && request.environment.empty())
         return "there is no environment";
-    if (name == "model" && is_shown_alone)
+    if ((is_traced || name == "model") && is_shown_alone)
         return "the texture is shown as it is";
+    const std::vector<std::string> models = request.models();
+    if (name == "suns" && size_t(std::count(models.begin(), models.end(), kReferenceModel)) == models.size())
+        return "the model reference traces the whole environment";
+    if (is_traced) {
+        LightmapRecipe lit;
+        lit.bounce_params = request.object.trace.bounce;
+        return unused_reason(lit, name);
+    }
     if (name == "model" && (!request.sheet.wipe.empty() || !request.sheet.side_by_side.empty()))
         return "the models are those that are compared";
     return "";

@@ -85,6 +85,7 @@ struct Request
     std::vector<int> frames { 1 };
     bool has_frames = false;
     bool is_auto_exposed = false;
+    bool explains = false;
     std::string output;
 
     /// The models that one picture shows: that of `light`, or those of a comparison.

@@ -56,6 +56,7 @@ public:
 
     bool run(std::string& error)
     {
+        m_options.explain = m_request.explains;
         if (!check_display(error) || !m_shot.open(m_options, error) || !find_exposure(error))
             return false;
         for (size_t i = 0; i < m_request.frames.size(); ++i) {
@@ -63,7 +64,7 @@ public:
             if (!make_frame(frame, i, error) || !finish_frame(frame, i, error))
                 return false;
             if (i == 0)
-                m_options.say = [](const std::string&) {}; // the rest have nothing new to say
+                m_options.say = [](const std::string&) {}, m_options.explain = false; // the rest say nothing new
         }
         const double frames = double(m_request.frames.size());
         m_stage.say(format("render: {} of {}x{}; a frame took {:.3f} s to light and {:.3f} s to render",

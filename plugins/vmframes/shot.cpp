@@ -35,14 +35,6 @@ std::string camera_text(const Camera& camera)
                   text(-camera.forward), camera.half_height);
 }
 
-std::vector<Mesh> copies(const std::vector<const Mesh*>& meshes)
-{
-    std::vector<Mesh> result;
-    for (const Mesh* mesh : meshes)
-        result.push_back(*mesh);
-    return result;
-}
-
 } // namespace
 
 bool Shot::open_light(const MakeOptions& options, std::string& error)
@@ -52,6 +44,7 @@ bool Shot::open_light(const MakeOptions& options, std::string& error)
     const std::vector<std::string> models = m_request.models();
     CfemRecipe filter = m_request.filter;
     filter.stack = needs_stack(models);
+    filter.suns = m_trace.suns == "off" ? "off" : "auto";
     const bool is_traced = std::find(models.begin(), models.end(), kReferenceModel) != models.end();
     const bool is_seen = m_request.stage.background == "environment";
     if (!m_light.open(m_request.environment, filter, is_traced || is_seen, options, error))
@@ -75,6 +68,7 @@ bool Shot::open_objects(const MakeOptions& options, std::string& error)
         recipes.push_back(recipe);
     }
     for (ObjectRecipe& recipe : recipes) {
+        recipe.trace = m_trace;
         if (m_request.stage.white) // as materials are left out
             recipe.map.cutout_params.cutouts = "off";
         m_objects.push_back(std::make_unique<LitObject>());
@@ -105,7 +99,7 @@ bool Shot::open_ground(const MakeOptions& options, std::string& error)
     params.resolution = { kGroundTexels, kGroundTexels };
     params.width = params.height = 0;
     m_ground = std::make_unique<LitObject>();
-    m_ground->open(make_ground_mesh(m_subject, m_pose, has_texture ? ground : ""), params);
+    m_ground->open(make_ground_mesh(m_subject, m_pose, has_texture ? ground : ""), params, m_trace);
     m_ground->surface().catches_shadows = ground == "shadow";
     fade_out(m_ground->surface());
     return !has_texture || m_ground->read_materials(m_light.space, m_request.filter.colorconfig, options, error);
@@ -147,25 +141,21 @@ bool Shot::open(const MakeOptions& options, std::string& error)
 {
     if (!object_pose(m_pose, m_request.light, error))
         return false;
-    if (!open_light(options, error) || !open_objects(options, error) || !open_ground(options, error)
-        || !open_background(options, error) || !place(error))
+    m_trace = m_request.object.trace;
+    // Before the environment is split into suns and the rest: all objects are lit by one or the other.
+    if (!choose_trace(m_trace, m_request.object.vismap, options, error) || !open_light(options, error)
+        || !open_objects(options, error) || !open_ground(options, error) || !open_background(options, error)
+        || !place(error))
         return false;
-    std::vector<const Mesh*> all;
-    for (const auto& object : m_objects)
-        all.push_back(&object->mesh());
-    if (m_ground)
-        m_ground->set_occluders(copies(all));
-    for (size_t i = 0; i < m_objects.size(); ++i) {
-        std::vector<const Mesh*> others = all;
-        others.erase(others.begin() + std::ptrdiff_t(i));
-        if (m_ground)
-            others.push_back(&m_ground->mesh());
-        m_objects[i]->set_occluders(copies(others));
-    }
     for (const auto& object : m_objects)
         m_scene.surfaces.push_back(object->surface());
     if (m_ground)
         m_scene.surfaces.push_back(m_ground->surface());
+    for (size_t i = 0; i < m_scene.surfaces.size(); ++i) {
+        std::vector<FrameSurface> others = m_scene.surfaces;
+        others.erase(others.begin() + std::ptrdiff_t(i));
+        (i < m_objects.size() ? *m_objects[i] : *m_ground).set_occluders(std::move(others));
+    }
     return m_scene.build(options.threads, error);
 }
 

@@ -61,6 +61,7 @@ private:
     LightmapParams light_at(size_t index) const;
 
     const Request& m_request;
+    TraceParams m_trace; // the request's, or what of it can be
     SceneLight m_light;
     std::vector<std::unique_ptr<LitObject>> m_objects;
     std::unique_ptr<LitObject> m_ground;

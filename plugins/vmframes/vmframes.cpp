@@ -18,6 +18,7 @@ constexpr const char* kExamples
       "  vmframes shoe.glb studio.hdr -o shoe.####.png --frames 1-48 --turntable --ground white\n"
       "  vmframes hero.obj studio.hdr --vismap hero_vismap.exr --layers albedo,lit,depth -o hero.exr\n"
       "  vmframes hero.obj --texture 'hero_lit.<UDIM>.exr' -o hero.png\n"
+      "  vmframes hero.obj sunny.hdr --ground white --suns auto --bounce auto -o hero.png\n"
       "  vmframes hero.obj sky.hdr --side-by-side ao,paper,lobe,reference -o compared.png";
 
 StageMain::Take store_models(std::vector<std::string>& dst)
@@ -73,6 +74,8 @@ int main(int argc, const char** argv)
                  store_models(request.sheet.wipe));
     stage.option("side_by_side", "A,B,...", "Show several models side by side, such as ao,paper,lobe,reference",
                  store_models(request.sheet.side_by_side));
+    stage.option("explain", "", "Say before the light which effects it simulates and why",
+                 [&](auto, auto&) { return request.explains = true; });
     stage.option("exposure", "-64..64|auto",
                  "Exposure in stops; auto: brings the mean luminance of the objects in the first frame to 0.18 [0]",
                  [&](OIIO::string_view text, std::string& error) {
@@ -80,6 +83,8 @@ int main(int argc, const char** argv)
                      return request.is_auto_exposed || set_param(request.light, "exposure", text, error);
                  });
     stage.params("Light:", request.light);
+    stage.params("Light:", request.object.trace);
+    stage.drop("ground_albedo"); // the ground here is a mesh, as white or coloured as others
     stage.params("Light:", request.display);
     add_environment_options(stage, request.filter);
     stage.params("Light:", request.filter.cfem_params, "cfem_");

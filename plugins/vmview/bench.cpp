@@ -7,6 +7,7 @@
 #include "gl/headless.h"
 #include "render/lighting.h"
 #include "render/picture.h"
+#include "scene/added_light.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace vmlight::view {
@@ -42,13 +45,19 @@ bool bench_frames(const Assets& assets, const Request& request, StageMain& stage
     sum.start(size.width, size.height, 1, request.render.filter);
     std::vector<double> times;
     double relight = 0, draw = 0; // of all frames
+    std::optional<AddedLight> added;
+    if (assets.light && assets.trace.has_any() && is_light(request.view.show))
+        added.emplace(assets.trace, assets.mesh, request.view.white, assets.map, assets.light);
     // One more than asked for: the first compiles.
     for (int i = 0; i <= request.view.bench; ++i) {
         const Stopwatch timer;
         const double turn = 360.0 * i / request.view.bench;
         LightmapParams light;
-        if (!light_params(light, request.light, turn, error)
-            || !show_surface(renderer, 0, request.view.show, light, error)
+        std::vector<float> rgb;
+        if (!light_params(light, request.light, turn, error) || (added && !added->trace(rgb, light, {}, error)))
+            return false;
+        renderer.add_light(0, std::move(rgb));
+        if (!show_surface(renderer, 0, request.view.show, light, error)
             || !lightmap_rotation(params.to_environment, light, error))
             return false;
         glFinish();

@@ -6,6 +6,7 @@
 #include "gl/headless.h"
 #include "render/lighting.h"
 #include "render/picture.h"
+#include "scene/added_light.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
@@ -21,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace vmlight::view {
 namespace {
@@ -40,6 +42,19 @@ bool frame_object(PictureParams& dst, const MeshAsset& mesh, const Request& requ
     else if (!find_camera(camera, request.camera, *mesh.mesh, aspect, error))
         return false;
     dst.view.camera = camera_for(camera, pose);
+    return true;
+}
+
+bool add_traced_light(Renderer& renderer, const Assets& assets, const Request& request, const LightmapParams& light,
+                      std::string& error)
+{
+    if (!assets.light || !assets.trace.has_any() || !is_light(request.view.show))
+        return true;
+    std::vector<float> rgb;
+    AddedLight added(assets.trace, assets.mesh, request.view.white, assets.map, assets.light);
+    if (!added.trace(rgb, light, {}, error))
+        return false;
+    renderer.add_light(0, std::move(rgb));
     return true;
 }
 
@@ -70,7 +85,8 @@ bool render_headless(OIIO::ImageBuf& dst, const Assets& assets, const Request& r
     const bool has_background = request.view.background == "environment";
     if (!renderer.build(error) || !renderer.set_mesh(assets.mesh, !request.view.white, error)
         || !renderer.set_map(assets.map, error) || !renderer.set_light(assets.light, error)
-        || !light_params(light, request.light, 0, error) || !show_surface(renderer, 0, request.view.show, light, error)
+        || !light_params(light, request.light, 0, error) || !add_traced_light(renderer, assets, request, light, error)
+        || !show_surface(renderer, 0, request.view.show, light, error)
         || !frame_object(params, *assets.mesh, request, error))
         return false;
     if (has_background && !assets.light->panorama) {

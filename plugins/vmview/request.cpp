@@ -38,6 +38,11 @@ std::string unused_reason(const Request& request, const std::string& name)
         return unused_reason(request.filter, name.substr(filter.size()));
     if (request.has_window())
         return "";
+    if (is_one_of(param_names(TraceParams()))) {
+        LightmapRecipe lit;
+        lit.bounce_params = request.trace.bounce;
+        return request.environment.empty() ? "there is no environment" : unused_reason(lit, name);
+    }
     if (is_one_of(param_names(VismapParams())) && !request.vismap.empty())
         return "the visibility map is made already";
     if (name == "background_blur" && request.view.background != "environment")

@@ -4,6 +4,7 @@
 
 #include <vmlight/frame/camera.h>
 #include <vmlight/frame/render.h>
+#include <vmlight/frame/traced_light.h>
 #include <vmlight/image/display.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/stage/recipe/recipe.h>
@@ -52,6 +53,7 @@ struct Request
     std::string environment; ///< "": none
     CfemRecipe filter;
     LightmapParams light;
+    TraceParams trace;
     CameraParams camera;
     RenderParams render;
     ViewParams view;

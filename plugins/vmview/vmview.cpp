@@ -61,6 +61,7 @@ int main(int argc, const char** argv)
                      return request.is_auto_exposed || set_param(request.light, "exposure", text, error);
                  });
     stage.params("Light:", request.light);
+    stage.params("Light:", request.trace);
     add_environment_options(stage, request.filter);
     stage.params("Light:", request.filter.cfem_params, "cfem_");
     stage.params("Visibility map:", request.mesh.vismap_params);

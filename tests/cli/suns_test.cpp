@@ -119,6 +119,42 @@ TEST_F(Suns, AreARowOfTheEffects)
     refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --effects +suns -o a.exr");
 }
 
+// Of what frames keep, makelightmap makes the same light.
+TEST_F(Suns, FramesHaveThem)
+{
+    const std::string size = " --size 32 --spp 4 --resolution 64 --samples 16 --cfem-resolution 32";
+    const std::string line = "vmframes floor.obj sunny.exr --object wall.obj --white --bounce auto" + size;
+    const std::string text = done(line + " --suns on --explain --keep kept -o a.exr");
+    EXPECT_THAT(text, HasSubstr("suns: 1 with"));
+    EXPECT_THAT(text, HasSubstr("effects: floor.obj:"));
+    EXPECT_THAT(text, HasSubstr("1 sun with"));
+    done("makelightmap kept/floor_vismap.exr sunny.exr --suns on --mesh floor.obj --occluder wall.obj -o b.exr "
+         "--cfem-resolution 32");
+    done("vmframes floor.obj sunny.exr --object wall.obj --white --suns on --keep plain -o c.exr" + size);
+    expect_same_pixels("plain/floor_lightmap.exr", "b.exr", 0);
+    EXPECT_GT(pixels("kept/floor_lightmap.exr").values[3 * (32 * 64 + 60)], red("b.exr", 60));
+    // Turned, and by frames that are all lit by one trace of the bounce.
+    done(line + " --suns auto --frames 1-2 --turntable -o 'd.#.exr'");
+    done(line + " --suns auto --rotate 0,180,0 --azimuth 0 -o e.exr");
+    expect_same_pixels("a.exr", "d.1.exr", 1);
+    // A split sky serves with its suns; and shadows on a ground show them.
+    done("makecfem sunny.exr --suns auto --stack --resolution 32 -o split.exr");
+    done("vmframes floor.obj split.exr --object wall.obj --white --suns on --keep split -o f.exr --size 32 --spp 4 "
+         "--resolution 64 --samples 16");
+    expect_same_pixels("split/floor_lightmap.exr", "b.exr", 1e-3f);
+    done("vmframes wall.obj sunny.exr --ground shadow --suns auto -o shadow.exr" + size);
+    expect_finite("shadow.exr");
+    // A map with a normal map leaves them in the sky, or is refused.
+    OIIO::ImageBuf flat(OIIO::ImageSpec(4, 4, 3, OIIO::TypeFloat));
+    for (OIIO::ImageBuf::Iterator<float> p(flat); !p.done(); ++p)
+        p[0] = 0.7f, p[1] = 0.5f, p[2] = 0.9f;
+    ASSERT_TRUE(flat.write(path("bumps.exr")));
+    done("makevismap floor.obj --resolution 64 --samples 16 --normal-map bumps.exr -o bumpy.exr");
+    const std::string bumpy = "vmframes floor.obj sunny.exr --vismap bumpy.exr --size 16 -o g.exr ";
+    EXPECT_THAT(done(bumpy + "--suns auto"), HasSubstr("suns stay in the environment, with soft shadows"));
+    refused(1, "\"bumpy.exr\": the visibility map was baked with a normal map", bumpy + "--suns on");
+}
+
 TEST_F(Suns, AFilteredSkyCarriesThemInItsMetadata)
 {
     for (const char* model : { "paper", "lobe" }) {

@@ -77,6 +77,10 @@ TEST_F(Vmframes, FlagsThatCannotChangeThePictureAreRefused)
     refused(2, "--samples 4: the visibility map is made already", line + "--vismap v.exr --samples 4");
     refused(2, "--samples 4: the texture is shown as it is", texture + "--samples 4");
     refused(2, "--model paper: there is no environment", texture + "--model paper");
+    refused(2, "--suns auto: there is no environment", texture + "--suns auto");
+    refused(2, "--bounce-albedo 0.1: no bounced light is asked for", line + "--bounce-albedo 0.1");
+    refused(2, "--suns on: the model reference traces the whole environment", line + "--model reference --suns on");
+    refused(2, "unknown flag \"--ground-albedo\"", line + "--ground-albedo 0.1");
     refused(2, "--cfem-sanitize: there is no environment", texture + "--cfem-sanitize");
     refused(2, "--cfem-order 5: only the filter sh uses it", line + "--cfem-order 5");
     refused(2, "--model ao: the models are those that are compared", line + "--wipe ao,paper --model ao");
@@ -105,7 +109,10 @@ TEST_F(Vmframes, InputsOfTheWrongKindAreRefused)
     refused(1, "--background environment needs the environment itself",
             "vmframes quad.obj cfem.exr --background environment -o a.png" + small);
     done("makecfem {sky} --suns auto --stack -o split.exr --resolution 16");
-    refused(1, "\"split.exr\": its suns were split off", "vmframes quad.obj split.exr -o a.png" + small);
+    refused(
+        1,
+        "\"split.exr\": its suns were split off (makecfem --suns auto), and without them it is too dark; set --suns on",
+        "vmframes quad.obj split.exr -o a.png" + small);
     refused(1, "the model reference needs the environment itself",
             "vmframes quad.obj cfem.exr --model reference -o a.png" + small);
 }

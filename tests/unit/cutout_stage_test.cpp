@@ -286,7 +286,7 @@ TEST_F(CutoutStage, TheTracedReferenceAndFramesSeeThemToo)
         object.map.mesh
             = folder.write("roof.obj", std::string(kFloor).substr(0, std::string(kFloor).find("usemtl")) + kRoof);
         ASSERT_TRUE(roof.open(object, {}, error)) << error;
-        floor.set_occluders({ roof.mesh() });
+        floor.set_occluders({ roof.surface() });
         ASSERT_TRUE(floor.light(light, paper, {}, {}, error)) << error;
         float rgb[3];
         ASSERT_TRUE(floor.surface().light->lookup({ Imath::V2d(0.5, 0.5) }, rgb, error));

@@ -127,7 +127,9 @@ TEST(LitObject, OccludersAreInItsWay)
     const auto floor = held(scenes::floor_facing_z(1));
     open.open(floor, map_params(16));
     covered.open(floor, map_params(16));
-    covered.set_occluders({ scenes::floor_facing_z(1e5, V3d(0, 0, 0.01)) });
+    FrameSurface roof;
+    roof.mesh = held(scenes::floor_facing_z(1e5, V3d(0, 0, 0.01)));
+    covered.set_occluders({ roof });
     std::string error, used;
     const SceneLight light = constant_light({ 1, 2, 3 });
     ASSERT_TRUE(open.light(light, model("paper"), {}, {}, error, &used)) << error;

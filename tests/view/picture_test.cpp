@@ -62,7 +62,15 @@ OIIO::ImageBuf traced(const Assets& assets, const Request& request)
     LightmapParams light;
     EXPECT_TRUE(light_params(light, request.light, 0, error)) << error;
     OIIO::ImageBuf lightmap, picture;
-    EXPECT_TRUE(make_lightmap(lightmap, assets.map->image, assets.light->filtered(), light)) << lightmap.geterror();
+    FrameSurface white;
+    white.mesh = mesh.mesh;
+    white.materials = mesh.materials;
+    white.material_uvs = mesh.material_uvs;
+    TracedLight added(request.trace, mesh.scene, mesh.recipe.vismap_params.udim, white, {});
+    EXPECT_TRUE(added.light(assets.map->image, assets.light->light, light, {}, error)) << error;
+    EXPECT_TRUE(make_lightmap(lightmap, assets.map->image, assets.light->filtered(), added.suns(), added.bounce(),
+                              light, nullptr, 0, {}))
+        << lightmap.geterror();
     const auto texture = std::make_shared<TileTexture>(3);
     texture->set(mesh.recipe.vismap_params.udim,
                  TexturePyramid(lightmap.spec().width, lightmap.spec().height, 3,
@@ -240,6 +248,30 @@ TEST_F(Picture, QuickIsNearlyExact)
     while (!sum.is_complete())
         sum.add(renderer, params);
     EXPECT_LT(relative_rmse(read_image_of(sum.mean_framebuffer()), exact), 0.02);
+}
+
+// Suns and the bounce are added to what shaders and make_lightmap() find.
+TEST_F(HeadlessPicture, TracedLightIsAdded)
+{
+    Request request = request_for("gazebo.obj", "kloppenheim_05.hdr");
+    request.mesh.vismap_params.resolution = { 64, 64 };
+    request.light.rotate = { 0, 40, 0 };
+    for (const char* model : { "lobe", "mask" }) {
+        request.light.model = model;
+        request.trace = {};
+        const Assets plain = loaded(request);
+        const OIIO::ImageBuf without = drawn(plain, request);
+        EXPECT_TRUE(plain.light->light.suns.empty());
+        request.trace.suns = "on";
+        const Assets split = loaded(request);
+        EXPECT_FALSE(split.light->light.suns.empty());
+        EXPECT_LT(relative_rmse(drawn(split, request), traced(split, request)), 1e-3) << model;
+        EXPECT_GT(relative_rmse(drawn(split, request), without), 0.05) << model;
+        request.trace.bounce.bounce = "auto";
+        const Assets bounced = loaded(request);
+        EXPECT_LT(relative_rmse(drawn(bounced, request), traced(bounced, request)), 1e-3) << model;
+        EXPECT_GT(relative_rmse(drawn(bounced, request), drawn(split, request)), 0.01) << model;
+    }
 }
 
 // Other models are lit by make_lightmap().

@@ -24,7 +24,7 @@ std::vector<float> relit(const OIIO::ImageBuf& map, const std::vector<OIIO::Imag
     std::string error;
     const std::vector<float> everywhere(map.spec().image_pixels(), 1.0f);
     EXPECT_TRUE(pass.build(error) && textures.load(map, everywhere, error) && light.load(stack, error)
-                && pass.run(lit, textures, light, &stack.back(), params, error))
+                && pass.run(lit, textures, light, &stack.back(), nullptr, params, error))
         << error;
     const std::vector<float> rgba = lit.read();
     std::vector<float> rgb;

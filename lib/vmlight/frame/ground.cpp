@@ -2,8 +2,11 @@
 #include <vmlight/frame/ground.h>
 
 #include <vmlight/image/channels.h>
+#include <vmlight/lightmap/sun_light.h>
+#include <vmlight/math/disc.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vmlight {
 namespace {
@@ -16,6 +19,24 @@ double half_side(const Subject& subject)
 {
     const V3d size = subject.high() - subject.low();
     return kGroundReach * std::max(0.5 * std::hypot(size.x, size.z), 0.25 * size.y);
+}
+
+// What a plane with nothing in its way sees of suns: SunLight::visibility of one texel.
+std::vector<float> open_suns(const std::vector<Sun>& suns, const V3d& normal)
+{
+    std::vector<float> seen;
+    for (const Sun& sun : suns) {
+        const double up = normal.dot(sun.disc.direction);
+        double mean = std::max(0.0, up) * disc_mean_length(sun.disc.half_angle);
+        if (std::abs(up) < std::sin(sun.disc.half_angle)) { // the horizon cuts it
+            const DiscSamples samples(sun.disc);
+            mean = 0;
+            for (uint32_t i = 0; i < DiscSamples::kCount; ++i)
+                mean += std::max(0.0, normal.dot(V3d(samples.at(i, 0, 1)))) / DiscSamples::kCount;
+        }
+        seen.push_back(float(mean));
+    }
+    return seen;
 }
 
 } // namespace
@@ -65,7 +86,11 @@ bool find_unshadowed(float& dst, const Mesh& ground, const SceneLight& light, co
     LightmapParams any = params;
     any.model = "paper"; // where nothing is in the way, it is exact, and traced light has its limit there
     float rgb[3];
-    if (!make_lightmap(lit, open, light.filtered, any)) {
+    Rotation rotation;
+    if (!lightmap_rotation(rotation, any, error))
+        return false;
+    const SunLight suns { light.suns, open.roi(), open_suns(light.suns, rotate(rotation, V3d(n))) };
+    if (!make_lightmap(lit, open, light.filtered, light.suns.empty() ? nullptr : &suns, any, nullptr, 0, {})) {
         error = lit.geterror();
         return false;
     }

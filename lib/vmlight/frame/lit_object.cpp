@@ -75,9 +75,10 @@ bool LitObject::show_texture(const std::string& name, std::string& error)
     return true;
 }
 
-void LitObject::open(std::shared_ptr<const Mesh> mesh, const VismapParams& params)
+void LitObject::open(std::shared_ptr<const Mesh> mesh, const VismapParams& params, const TraceParams& trace)
 {
     m_recipe.map.vismap_params = params;
+    m_recipe.trace = trace;
     m_mesh = std::move(mesh);
     m_surface.mesh = m_mesh;
 }
@@ -93,7 +94,10 @@ bool LitObject::prepare_scene(const MakeOptions& options, std::string& error)
     if (m_scene)
         return true;
     auto scene = std::make_shared<BakeScene>();
-    if (!scene->build(m_mesh, m_occluders, options.threads, error))
+    std::vector<Mesh> occluders;
+    for (const FrameSurface& surface : m_occluders)
+        occluders.push_back(*surface.mesh);
+    if (!scene->build(m_mesh, occluders, options.threads, error))
         return false;
     m_scene = std::move(scene);
     return true;
@@ -193,6 +197,47 @@ const std::vector<float>& LitObject::weights(int udim, const OIIO::ImageBuf& map
     return weights;
 }
 
+// By a model, with what is traced besides.
+bool LitObject::light_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& map, const SceneLight& light,
+                           const LightmapParams& params, const MakeOptions& options, std::string& error)
+{
+    const SunLight* suns = nullptr;
+    const BounceLight* bounce = nullptr;
+    if (m_recipe.trace.has_any() || options.explain) {
+        std::unique_ptr<TracedLight>& traced = m_traced[m_basis][udim];
+        if (!prepare_scene(options, error))
+            return false;
+        if (!traced)
+            traced = std::make_unique<TracedLight>(m_recipe.trace, m_scene, udim, m_surface, m_occluders);
+        if (!traced->light(map, light, params, options, error))
+            return false;
+        suns = traced->suns();
+        bounce = traced->bounce();
+    }
+    if (!make_lightmap(dst, map, light.filtered, suns, bounce, params, nullptr, options.threads, {}))
+        error = dst.geterror();
+    return error.empty();
+}
+
+bool LitObject::trace_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& map, const SceneLight& light,
+                           const LightmapParams& params, const ReferenceParams& reference, const MakeOptions& options,
+                           std::string& error)
+{
+    VismapParams size = m_recipe.map.vismap_params;
+    size.width = map.spec().width;
+    size.height = map.spec().height;
+    size.udim = udim;
+    LightmapParams turned = params;
+    turned.model = "auto";
+    ReferenceParams same = reference;
+    if (m_recipe.trace.bounce.bounce != "off")
+        same.bounce_albedo = m_recipe.trace.bounce.bounce_albedo;
+    if (!make_reference(dst, *m_scene, light.environment, size, turned, same, options.threads,
+                        options.step("trace", size.width, size.height)))
+        error = dst.geterror();
+    return error.empty();
+}
+
 bool LitObject::light(const SceneLight& light, const LightmapParams& params, const ReferenceParams& reference,
                       const MakeOptions& options, std::string& error, std::string* used)
 {
@@ -209,23 +254,9 @@ bool LitObject::light(const SceneLight& light, const LightmapParams& params, con
     for (const auto& [udim, map] : m_maps[m_basis]) {
         OIIO::ImageBuf& lightmap = m_lightmaps[udim];
         const OIIO::ImageSpec& spec = map.spec();
-        bool made = false;
-        if (is_traced) {
-            VismapParams size = m_recipe.map.vismap_params;
-            size.width = spec.width;
-            size.height = spec.height;
-            size.udim = udim;
-            LightmapParams turned = params;
-            turned.model = "auto";
-            made = make_reference(lightmap, *m_scene, light.environment, size, turned, reference, options.threads,
-                                  options.step("trace", spec.width, spec.height));
-        } else {
-            made = make_lightmap(lightmap, map, light.filtered, params, nullptr, options.threads);
-        }
-        if (!made) {
-            error = lightmap.geterror();
+        if (!(is_traced ? trace_tile(lightmap, udim, map, light, params, reference, options, error)
+                        : light_tile(lightmap, udim, map, light, params, options, error)))
             return false;
-        }
         std::array<int, 3> index;
         if (!find_color_channels(lightmap.spec(), index, error))
             return false;

@@ -4,6 +4,7 @@
 
 #include <vmlight/frame/frame_scene.h>
 #include <vmlight/frame/scene_light.h>
+#include <vmlight/frame/traced_light.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/stage/make_options.h>
@@ -31,6 +32,8 @@ struct ObjectRecipe
     /// Light that is there: looked up as it is, and no map is needed; "" for none. A sequence, with #, is opened by
     /// show_texture() only.
     std::string texture;
+    /// What is traced of its light besides.
+    TraceParams trace;
 };
 
 /// The visibility maps of an object, by UDIM tile.
@@ -48,21 +51,23 @@ public:
     /// `error`, if it cannot be opened.
     bool show_texture(const std::string& name, std::string& error);
     /// A mesh in memory, with UVs.
-    void open(std::shared_ptr<const Mesh> mesh, const VismapParams& params);
+    void open(std::shared_ptr<const Mesh> mesh, const VismapParams& params, const TraceParams& trace = {});
 
     const Mesh& mesh() const { return *m_mesh; }
     const FrameSurface& surface() const { return m_surface; }
     FrameSurface& surface() { return m_surface; }
 
-    /// What is in the way of its light besides its own mesh; before the first light().
-    void set_occluders(std::vector<Mesh> occluders) { m_occluders = std::move(occluders); }
+    /// What is in the way of its light besides its own mesh, and sends light back to it; before the first light().
+    void set_occluders(std::vector<FrameSurface> occluders) { m_occluders = std::move(occluders); }
 
     /// Look up materials in the space of the light: see read_materials().
     bool read_materials(const std::string& light_space, const std::string& colorconfig, const MakeOptions& options,
                         std::string& error);
 
     /// Light the object with a model, `auto` or kReferenceModel: bakes or reads the maps that the model needs, unless
-    /// an earlier call did.
+    /// an earlier call did. Suns and the bounce are traced on the object and its occluders, whatever a map that was
+    /// read was baked with. The reference has the environment's own suns, and the bounce of a white object among white
+    /// ones only.
     ///
     /// @param used     nullptr, or set to the model that was used
     /// @returns false, with the reason in `error`, as make_lightmap() or make_reference() would
@@ -88,13 +93,19 @@ private:
     bool read_maps(const MakeOptions& options, std::string& error);
     bool bake_maps(TileMaps& dst, const std::string& basis, const MakeOptions& options, std::string& error);
     const std::vector<float>& weights(int udim, const OIIO::ImageBuf& map, int nthreads);
+    bool light_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& map, const SceneLight& light,
+                    const LightmapParams& params, const MakeOptions& options, std::string& error);
+    bool trace_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& map, const SceneLight& light,
+                    const LightmapParams& params, const ReferenceParams& reference, const MakeOptions& options,
+                    std::string& error);
 
     ObjectRecipe m_recipe;
     std::shared_ptr<const Mesh> m_mesh;
-    std::vector<Mesh> m_occluders;
+    std::vector<FrameSurface> m_occluders;
     BakeScenePointer m_scene;
     std::map<std::string, TileMaps> m_maps; // by basis
     std::string m_basis;
+    std::map<std::string, std::map<int, std::unique_ptr<TracedLight>>> m_traced; // by basis and tile
     TileMaps m_lightmaps;
     std::map<int, std::vector<float>> m_weights;
     std::shared_ptr<TileTexture> m_light;

@@ -8,6 +8,7 @@
 #include <vmlight/stage/light_color.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/sun_source.h>
 
 namespace vmlight {
 namespace {
@@ -26,12 +27,17 @@ bool read_cfem(SceneLight& dst, const std::string& name, const CfemRecipe& recip
         || !make_input(dst.filtered, *source, { 0, source->subimages() }, light, "cfem", name, options, error))
         return false;
     if (dst.filtered[0].spec().find_attribute(kSunsAttribute)) {
-        error = format("\"{}\": its suns were split off (makecfem --suns auto), and frames do not trace them; give the "
-                       "environment itself",
-                       name);
-        return false;
+        std::string text;
+        error = recipe.suns != "off" ? ""
+                                     : "its suns were split off (makecfem --suns auto), and without them it is too "
+                                       "dark; set --suns on, or give the environment itself";
+        if (!error.empty() || !find_suns(text, *source, error) || !parse_suns(dst.suns, text, error)) {
+            error = format("\"{}\": {}", name, error);
+            return false;
+        }
     }
     color.convert(dst.filtered, options.threads);
+    color.convert(dst.suns);
     for (const std::string& warning : color.warnings)
         options.report_warning(warning);
     return true;
@@ -42,6 +48,7 @@ bool read_cfem(SceneLight& dst, const std::string& name, const CfemRecipe& recip
 bool SceneLight::open(const std::string& name, CfemRecipe recipe, bool keep_environment, const MakeOptions& options,
                       std::string& error)
 {
+    suns.clear();
     if (image_stage(name) == kCfemStage) {
         if (!read_cfem(*this, name, recipe, options, error))
             return false;
@@ -53,6 +60,9 @@ bool SceneLight::open(const std::string& name, CfemRecipe recipe, bool keep_envi
             error = with_filter_prefix(error);
             return false;
         }
+        const std::string text = filtered[0].spec().get_string_attribute(kSunsAttribute);
+        if (!text.empty() && !parse_suns(suns, text, error))
+            return false;
     }
     space = filtered[0].spec().get_string_attribute("colorInteropID");
     return true;

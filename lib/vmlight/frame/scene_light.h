@@ -2,6 +2,7 @@
 /// The light of a frame: an environment, filtered once for all objects, models and rotations.
 #pragma once
 
+#include <vmlight/cfem/suns.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
@@ -23,11 +24,15 @@ struct SceneLight
     /// Interop id of the working space.
     std::string space;
 
+    /// The suns that were split off `filtered`, in the working space; none if it has its suns.
+    std::vector<Sun> suns;
+
     /// Read and filter.
     ///
     /// @param name     a lat-long image, or a CFEM or stack, or the recipe of one
     /// @param recipe   colour space, layer and layout of the image, and how it is filtered: `stack` for models that
-    ///                 read more than a CFEM
+    ///                 read more than a CFEM; `suns` where they are traced. A CFEM without its suns is refused if they
+    ///                 are not
     /// @param keep_environment     whether `environment` is needed
     /// @returns false, with the reason in `error`, if it cannot be read or filtered
     bool open(const std::string& name, CfemRecipe recipe, bool keep_environment, const MakeOptions& options,

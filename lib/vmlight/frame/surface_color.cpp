@@ -39,11 +39,15 @@ TextureFootprint material_footprint(const SeenPoint& seen, int uv_set, const Ima
     return at;
 }
 
-// Set `texel` to what a texture has there; nothing where the point has no uvs.
+// Set `texel` to what a texture has there; nothing where the point has no uvs. `reach` as for look_up_albedo().
 bool look_up(float* texel, const SeenPoint& seen, const TexturePyramid& texture, int uv_set,
-             const Imath::M33d& transform)
+             const Imath::M33d& transform, double reach = 0)
 {
-    const TextureFootprint at = material_footprint(seen, uv_set, transform);
+    TextureFootprint at = material_footprint(seen, uv_set, transform);
+    if (reach > 0) {
+        at.dx = V2d(reach, 0);
+        at.dy = V2d(0, reach);
+    }
     if (!std::isfinite(at.st.x + at.st.y + at.dx.x + at.dx.y + at.dy.x + at.dy.y))
         return false;
     texture.lookup(at, texel);
@@ -59,7 +63,33 @@ double fade(const FrameSurface& surface, const V3d& position)
     return x * x * (3 - 2 * x);
 }
 
+// nullptr: white.
+const SurfaceMaterial* material_of(const SeenPoint& seen)
+{
+    const std::vector<uint32_t>& numbers = seen.surface->mesh->triangle_materials;
+    return seen.surface->materials.empty() || numbers.empty() ? nullptr
+                                                              : &seen.surface->materials[numbers[seen.triangle]];
+}
+
 } // namespace
+
+bool look_up_albedo(Imath::C3f& dst, const SeenPoint& seen, double reach)
+{
+    const SurfaceMaterial* material = material_of(seen);
+    if (!material || (!material->texture && material->color == Imath::C3f(1, 1, 1)))
+        return false;
+    SeenPoint at = seen;
+    if (!seen.surface->mesh->uvs.empty())
+        at.uv = seen.point.footprint(mesh_uvs(*seen.surface->mesh, seen.triangle));
+    dst = material->color;
+    std::array<float, 4> texel {};
+    if (material->texture
+        && look_up(texel.data(), at, *material->texture, material->uv_set, material->uv_transform, reach))
+        dst *= Imath::C3f(texel[0], texel[1], texel[2]);
+    for (int c = 0; c < 3; ++c)
+        dst[c] = std::max(0.0f, dst[c]);
+    return true;
+}
 
 void look_up_material(SeenPoint& seen)
 {
@@ -67,9 +97,10 @@ void look_up_material(SeenPoint& seen)
     if (!mesh.uvs.empty())
         seen.uv = seen.point.footprint(mesh_uvs(mesh, seen.triangle));
     seen.alpha = seen.surface->opacity * fade(*seen.surface, seen.point.position);
-    if (seen.surface->materials.empty() || mesh.triangle_materials.empty())
+    const SurfaceMaterial* found = material_of(seen);
+    if (!found)
         return;
-    const SurfaceMaterial& material = seen.surface->materials[mesh.triangle_materials[seen.triangle]];
+    const SurfaceMaterial& material = *found;
     seen.albedo = material.color;
     float alpha = material.alpha;
     std::array<float, 4> texel {};

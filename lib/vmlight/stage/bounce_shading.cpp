@@ -102,6 +102,16 @@ std::shared_ptr<BounceShading> BounceShading::open(const LightmapRecipe& recipe,
     return bounce;
 }
 
+std::shared_ptr<BounceShading> BounceShading::of(const BounceParams& params, std::shared_ptr<MapScene> scene,
+                                                 CasterColor color)
+{
+    auto bounce = std::make_shared<BounceShading>();
+    bounce->m_recipe.bounce_params = params;
+    bounce->m_scene = std::move(scene);
+    bounce->m_color = std::move(color);
+    return bounce;
+}
+
 void BounceShading::tag(OIIO::ImageSpec& lightmap) const
 {
     append_params(lightmap, m_recipe.bounce_params);
@@ -123,7 +133,9 @@ bool BounceShading::prepare(const std::vector<float>& visibility, const MakeOpti
     if (!bake_points(m_points, *m_scene->scene(), samples, m_transport.surfaces(), options.threads,
                      points_progress(options, m_transport)))
         return interrupted(error);
-    if (!m_albedo.read(*m_scene, m_transport.points(), m_recipe, m_space, options, error))
+    if (m_color)
+        m_albedo.find(*m_scene, m_transport.points(), Imath::V3f(float(m_recipe.bounce_params.ground_albedo)), m_color);
+    else if (!m_albedo.read(*m_scene, m_transport.points(), m_recipe, m_space, options, error))
         return false;
     options.report(format(
         "bounce: {} in {:.3f} s, and {} off the map; {}", count_text(m_transport.rays(), "ray", "rays"), timer(),

@@ -37,6 +37,10 @@ public:
                                                const OIIO::ImageSpec& light, std::shared_ptr<MapScene> scene,
                                                std::string& error, const RecipeChain& chain);
 
+    /// The same of a scene in memory, whose occluders have the albedo `color`.
+    static std::shared_ptr<BounceShading> of(const BounceParams& params, std::shared_ptr<MapScene> scene,
+                                             CasterColor color);
+
     /// Equal keys, equal surfaces.
     const std::string& key() const { return m_key; }
 
@@ -69,6 +73,7 @@ private:
     LightmapRecipe m_recipe;
     std::string m_space; ///< interop id of the light's
     std::shared_ptr<MapScene> m_scene;
+    CasterColor m_color; ///< empty: files say it
     std::string m_key;
     RunOnce m_prepare;
     LightTransport m_transport;

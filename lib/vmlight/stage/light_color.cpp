@@ -3,6 +3,9 @@
 
 #include <vmlight/image/color_labels.h>
 
+#include <algorithm>
+#include <array>
+
 namespace vmlight {
 
 void LightColor::convert(std::vector<OIIO::ImageBuf>& cfem, int nthreads) const
@@ -10,6 +13,17 @@ void LightColor::convert(std::vector<OIIO::ImageBuf>& cfem, int nthreads) const
     if (conversion)
         for (OIIO::ImageBuf& image : cfem)
             convert_color(image, conversion, spec.get_string_attribute("colorInteropID"), nthreads);
+}
+
+void LightColor::convert(std::vector<Sun>& suns) const
+{
+    for (Sun& sun : suns)
+        if (conversion) {
+            std::array<float, 3> rgb;
+            std::copy(sun.color.begin(), sun.color.end(), rgb.begin());
+            conversion(rgb.data(), 1);
+            std::copy(rgb.begin(), rgb.end(), sun.color.begin());
+        }
 }
 
 bool may_convert_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& cfem)

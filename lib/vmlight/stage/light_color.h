@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vmlight/cfem/suns.h>
 #include <vmlight/image/color.h>
 #include <vmlight/stage/recipe/recipe.h>
 
@@ -22,6 +23,8 @@ struct LightColor
 
     /// Bring the images of a CFEM to the space of the light; nthreads: 0 means OIIO's default.
     void convert(std::vector<OIIO::ImageBuf>& cfem, int nthreads) const;
+    /// The same of the suns that were split off it.
+    void convert(std::vector<Sun>& suns) const;
 };
 
 /// Whether the light may be converted: it is a CFEM, and the recipe or its labels name its space.

@@ -4,9 +4,9 @@
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/one_color.h>
 #include <vmlight/effects/effect.h>
-#include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/light_facts.h>
 #include <vmlight/stage/stored_suns.h>
 #include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_shading.h>
@@ -18,31 +18,6 @@
 
 namespace vmlight {
 namespace {
-
-double degrees_of(const Rotation& r)
-{
-    // From the antisymmetric part and the trace: exact near 0, unlike the arc cosine.
-    const double x = r[2][1] - r[1][2], y = r[0][2] - r[2][0], z = r[1][0] - r[0][1];
-    return std::atan2(std::sqrt(x * x + y * y + z * z), r[0][0] + r[1][1] + r[2][2] - 1) * 180 / M_PI;
-}
-
-void measure_visibility(LightFacts& dst, const OIIO::ImageBuf& vismap)
-{
-    OIIO::ROI row = vismap.roi();
-    row.chbegin = vismap.spec().channelindex(kVismapChannels[0]);
-    row.chend = row.chbegin + 1;
-    std::vector<float> values(size_t(row.width()));
-    for (int y = vismap.ybegin(); y < vismap.yend(); ++y) {
-        row.ybegin = y;
-        row.yend = y + 1;
-        if (!vismap.get_pixels(row, OIIO::TypeFloat, values.data()))
-            return; // whoever lights it reports it
-        for (const float value : values) {
-            dst.lit += value > 0;
-            dst.shadowed += value > 0 && value < 1;
-        }
-    }
-}
 
 // Of the light as it is without the switches.
 bool find_sun_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRecipe& recipe,
@@ -76,7 +51,7 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     if (!lightmap_rotation(rotation, params, error)
         || !choose_model(model, params, inputs.vismap.spec(), has_stack, error))
         return false;
-    dst.rotation_degrees = degrees_of(rotation);
+    dst.rotation_degrees = rotation_degrees(rotation);
     dst.model = model.name;
     dst.levels = int(inputs.cfem.size());
     dst.has_environment = recipe.cfem.empty();
@@ -93,6 +68,9 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     }
     dst.wants_bounce = recipe.bounce_params.bounce != "off";
     dst.bounce_rays = recipe.bounce_params.bounce_rays;
+    dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec()) : "";
+    find_visibility_facts(dst, inputs.vismap);
+    return find_sun_facts(dst, inputs, recipe, options, error);
     dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec(), recipe.vismap) : "";
     measure_visibility(dst, inputs.vismap);
     return find_sun_facts(dst, inputs, recipe, rotation, options, error);

@@ -8,10 +8,7 @@
 #include <vmlight/stage/recipe/udim.h>
 
 namespace vmlight {
-namespace {
 
-// The bake that `map` says it is from, but for the meshes. Keys that are not in the map, or are no longer valid, keep
-// their defaults.
 VismapRecipe recipe_of_map(const OIIO::ImageSpec& map)
 {
     VismapRecipe recipe;
@@ -24,7 +21,19 @@ VismapRecipe recipe_of_map(const OIIO::ImageSpec& map)
     return recipe;
 }
 
-} // namespace
+std::shared_ptr<MapScene> MapScene::of(BakeScenePointer built, const OIIO::ImageSpec& vismap, int udim)
+{
+    auto scene = std::make_shared<MapScene>();
+    scene->m_mesh = recipe_of_map(vismap);
+    scene->m_mesh.mesh = built->mesh().name.empty() ? "mesh" : built->mesh().name;
+    scene->m_roi = OIIO::get_roi(vismap);
+    scene->m_map = scene->m_mesh.vismap_params;
+    scene->m_map.width = vismap.width;
+    scene->m_map.height = vismap.height;
+    scene->m_map.udim = udim;
+    scene->m_scene = std::move(built);
+    return scene;
+}
 
 std::shared_ptr<MapScene> MapScene::open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
                                          std::string& error, const RecipeChain& chain)
@@ -74,6 +83,8 @@ bool MapScene::prepare(const MakeOptions& options, std::string& error)
 
 bool MapScene::read(const MakeOptions& options, std::string& error)
 {
+    if (m_scene)
+        return true;
     BakeScenePointer scene;
     std::string at;
     const auto share

@@ -16,9 +16,20 @@
 
 namespace vmlight {
 
+/// The bake that `map` says it is from, but for the meshes. Keys that are not in the map, or are no longer valid, keep
+/// their defaults.
+VismapRecipe recipe_of_map(const OIIO::ImageSpec& map);
+
 class MapScene
 {
 public:
+    /// A scene that is built already, whose mesh has the texels of the map: prepare() has nothing to do. Without a
+    /// normal map.
+    ///
+    /// @param vismap   the header of the map, all of which is there
+    /// @param udim     its tile
+    static std::shared_ptr<MapScene> of(BakeScenePointer scene, const OIIO::ImageSpec& vismap, int udim);
+
     /// Find the meshes: those of the recipe of the visibility map, or the recipe's own `mesh` and `occluder`, read as
     /// the metadata of the map say. Reads no mesh.
     ///

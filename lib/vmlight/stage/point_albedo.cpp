@@ -176,6 +176,20 @@ int texel_of(const BakeScene& scene, const VismapParams& map, const LightPoint& 
 
 } // namespace
 
+void PointAlbedo::find(const MapScene& scene, const std::vector<LightPoint>& points, const V3f& ground,
+                       const CasterColor& color)
+{
+    m_before = 0;
+    m_colors.clear();
+    m_texels.clear();
+    for (const LightPoint& point : points) {
+        if (point.caster == BakeScene::kWhole)
+            m_texels.push_back(texel_of(*scene.scene(), scene.params(), point, kMean));
+        else
+            m_colors.push_back(point.caster == LightPoint::kGround ? ground : non_negative(color(point)));
+    }
+}
+
 bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& points, const LightmapRecipe& recipe,
                        const std::string& space, const MakeOptions& options, std::string& error)
 {

@@ -11,14 +11,21 @@
 
 #include <Imath/ImathVec.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace vmlight {
 
+/// The albedo of a point of an occluder that is in memory. Any thread.
+using CasterColor = std::function<Imath::V3f(const LightPoint& point)>;
+
 class PointAlbedo
 {
 public:
+    /// Find the albedo of all `points` but those of the mesh: that of the ground, and for occluders, `color` of them.
+    void find(const MapScene& scene, const std::vector<LightPoint>& points, const Imath::V3f& ground,
+              const CasterColor& color);
     /// Find the albedo of all `points` but those of the mesh: base colours of occluders are those of their files, with
     /// the mean of their textures; where a file has none, and for what cannot be read, it is the recipe's
     /// `bounce_albedo`. Reads each occluder that has points again.

@@ -17,6 +17,7 @@ bool has_relight_shader(const std::string& model)
 
 bool RelightPass::build(std::string& error)
 {
+    m_none = Texture::image(1, 1, GL_RGBA32F);
     return m_cfem.build_whole({ shader_text::lookup_glsl, shader_text::relight_cfem_frag }, error)
         && m_lobe.build_whole({ shader_text::lookup_glsl, shader_text::relight_lobe_frag }, error)
         && m_sh.build_whole({ shader_text::lookup_glsl, shader_text::relight_sh_frag }, error)
@@ -40,7 +41,8 @@ bool RelightPass::set_harmonics(const MapTextures& map, const OIIO::ImageBuf& ra
 }
 
 bool RelightPass::run(LitTexture& dst, const MapTextures& map, const LightTextures& light,
-                      const OIIO::ImageBuf* radiance, const LightmapParams& params, std::string& error) const
+                      const OIIO::ImageBuf* radiance, const Texture* added, const LightmapParams& params,
+                      std::string& error) const
 {
     Rotation rotation;
     if (!lightmap_rotation(rotation, params, error))
@@ -52,6 +54,8 @@ bool RelightPass::run(LitTexture& dst, const MapTextures& map, const LightTextur
     program.use();
     program.set("map", 0, map.layers);
     program.set("gain", gain);
+    program.set("has_added", int(added != nullptr));
+    program.set("added", 2, added ? *added : m_none);
     if (params.model == "sh") {
         if (!set_harmonics(map, *radiance, rotation, gain, error))
             return false;

@@ -25,10 +25,11 @@ public:
     /// Light `map`, and make the mip levels.
     ///
     /// @param radiance the last image of the stack, for `sh`; else unused
+    /// @param added    nullptr, or light besides that of the model, R, G, B of the size of `map`, before the exposure
     /// @param params   its model must be one that has_relight_shader() and that map and light allow (choose_model())
     /// @returns false, with the reason in `error`, if a parameter is out of range.
     bool run(LitTexture& dst, const MapTextures& map, const LightTextures& light, const OIIO::ImageBuf* radiance,
-             const LightmapParams& params, std::string& error) const;
+             const Texture* added, const LightmapParams& params, std::string& error) const;
     /// Make the mip levels of a texture that was filled otherwise.
     void finish(const LitTexture& dst) const { m_pyramid.run(dst); }
 
@@ -37,6 +38,7 @@ private:
                        std::string& error) const;
 
     Program m_cfem, m_lobe, m_sh;
+    Texture m_none; // where nothing is added: drivers want each sampler to have a texture
     PyramidPass m_pyramid;
 };
 

@@ -51,7 +51,7 @@ bool show_surface(Renderer& renderer, int slot, const std::string& word, const L
         error = lightmap.geterror();
         return false;
     }
-    renderer.set_texture(slot, static_cast<const float*>(lightmap.localpixels()));
+    renderer.set_texture(slot, static_cast<const float*>(lightmap.localpixels()), true);
     return true;
 }
 

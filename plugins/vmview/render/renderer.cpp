@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace vmlight::view {
 
@@ -54,6 +56,10 @@ void Renderer::prepare_exact(const View& view)
 bool Renderer::set_map(MapPointer map, std::string& error)
 {
     m_map = std::move(map);
+    // A map that is baked step by step keeps what was added to the step before.
+    if (!m_map || m_map->image.spec().width != m_map_textures.width
+        || m_map->image.spec().height != m_map_textures.height)
+        m_added = {};
     m_map_textures = MapTextures();
     m_lit = {};
     return !m_map || m_map_textures.load(m_map->image, m_map->weights, error);
@@ -81,12 +87,27 @@ bool Renderer::set_light(LightPointer light, std::string& error)
 bool Renderer::relight(int slot, const LightmapParams& params, std::string& error)
 {
     bind_no_vertices();
-    return m_relight.run(m_lit[size_t(slot)], m_map_textures, m_light_textures, &m_light->filtered().back(), params,
-                         error);
+    return m_relight.run(m_lit[size_t(slot)], m_map_textures, m_light_textures, &m_light->filtered().back(),
+                         m_added[size_t(slot)].empty() ? nullptr : &m_added_textures[size_t(slot)], params, error);
 }
 
-void Renderer::set_texture(int slot, const float* rgb)
+void Renderer::add_light(int slot, std::vector<float> rgb)
 {
+    if (!rgb.empty())
+        m_added_textures[size_t(slot)]
+            = Texture::image(m_map_textures.width, m_map_textures.height, GL_RGB32F, GL_RGB, rgb.data());
+    m_added[size_t(slot)] = std::move(rgb);
+}
+
+void Renderer::set_texture(int slot, const float* rgb, bool adds)
+{
+    std::vector<float> sum;
+    const std::vector<float>& added = m_added[size_t(slot)];
+    if (adds && !added.empty()) {
+        sum.assign(rgb, rgb + added.size());
+        std::transform(sum.begin(), sum.end(), added.begin(), sum.begin(), std::plus<>());
+        rgb = sum.data();
+    }
     LitTexture& lit = m_lit[size_t(slot)];
     if (!lit.fits(m_map_textures.width, m_map_textures.height))
         lit = LitTexture(m_map_textures.width, m_map_textures.height);

@@ -44,8 +44,12 @@ public:
 
     /// Light the map into texture number `slot`, 0 or 1, on the graphics card. `params` as for RelightPass::run().
     bool relight(int slot, const LightmapParams& params, std::string& error);
-    /// Take three floats a texel instead, of the map's size.
-    void set_texture(int slot, const float* rgb);
+    /// Take three floats a texel instead, of the map's size; with `adds`, what add_light() gave is added.
+    void set_texture(int slot, const float* rgb, bool adds = false);
+    /// Add light, three floats a texel of the map's size, to the next relight() of a slot and those after it, until
+    /// there is no map or one of another size; nothing if it is empty.
+    void add_light(int slot, std::vector<float> rgb);
+    bool has_added() const { return !m_added[0].empty() || !m_added[1].empty(); }
     bool has_texture(int slot) const { return bool(m_lit[size_t(slot)].texture()); }
     /// R, G, B of a texture, times weight, and the weight.
     std::vector<float> read_texture(int slot) const { return m_lit[size_t(slot)].read(); }
@@ -88,6 +92,8 @@ private:
     LightTextures m_light_textures;
     LitTexture m_panorama;
     std::array<LitTexture, 2> m_lit;
+    std::array<std::vector<float>, 2> m_added;
+    std::array<Texture, 2> m_added_textures; // the same
 };
 
 } // namespace vmlight::view

@@ -105,6 +105,8 @@ LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double
     recipe.stack = true;
     if (!asset->light.open(path, recipe, true, options, error))
         return nullptr;
+    for (OIIO::ImageBuf& image : asset->light.filtered)
+        image.specmod().erase_attribute(kSunsAttribute);
     const OIIO::ImageBuf* seen
         = asset->light.environment.initialized() ? &asset->light.environment : find_radiance(asset->filtered());
     return !seen || make_background(asset->panorama, *seen, blur, options.threads, error) ? asset : nullptr;

@@ -45,7 +45,9 @@ using MapPointer = std::shared_ptr<const MapAsset>;
 struct LightAsset
 {
     std::string path;
-    SceneLight light; ///< with the environment, unless `path` is a CFEM
+    /// With the environment, unless `path` is a CFEM. Its filtered images may be lit without its suns, which are added
+    /// once they are traced (scene/added_light.h).
+    SceneLight light;
     std::shared_ptr<const TexturePyramid> panorama; ///< of the environment, or of what a stack keeps of it; or nullptr
 
     const std::vector<OIIO::ImageBuf>& filtered() const { return light.filtered; }

@@ -60,8 +60,13 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
             return read_map_image(map, request.vismap, aside, fault) ? "" : fault;
         });
     std::string space;
+    dst.trace = request.trace;
+    if (!choose_trace(dst.trace, request.vismap, options, error))
+        return false;
     if (!request.environment.empty()) {
-        dst.light = read_light_asset(request.environment, request.filter, request.view.background_blur, options, error);
+        CfemRecipe filter = request.filter;
+        filter.suns = dst.trace.suns == "off" ? "off" : "auto";
+        dst.light = read_light_asset(request.environment, filter, request.view.background_blur, options, error);
         if (!dst.light)
             return false;
         space = dst.light->light.space;

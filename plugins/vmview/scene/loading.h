@@ -26,6 +26,7 @@ struct Assets
     MeshPointer mesh;
     MapPointer map;
     LightPointer light; ///< nullptr without an environment
+    TraceParams trace; ///< the request's, or what of it can be traced on the map
 };
 bool load_assets(Assets& dst, const Request& request, const MakeOptions& options, std::string& error);
 

@@ -7,6 +7,8 @@ uniform sampler2DArray map; // layer 0: V, B; 1: normal, coverage; from 2 on: ha
 uniform float rotation[9]; // object space to environment space, row major
 uniform float gain;
 uniform ivec2 light_size; // without the frame
+uniform sampler2D added; // light besides that of the model, if it has_added
+uniform bool has_added;
 
 out vec4 lit; // R, G, B times coverage, and coverage
 
@@ -76,5 +78,8 @@ vec3 bilinear(Lookup at, vec3 p0, vec3 p1, vec3 q0, vec3 q1)
 void put(vec3 rgb)
 {
     float coverage = texelFetch(map, ivec3(ivec2(gl_FragCoord.xy), 1), 0).w;
-    lit = vec4(rgb * coverage, coverage);
+    precise vec3 sum = rgb;
+    if (has_added)
+        sum = sum + gain * texelFetch(added, ivec2(gl_FragCoord.xy), 0).rgb;
+    lit = vec4(sum * coverage, coverage);
 }

@@ -94,6 +94,12 @@ void App::take_results()
     if (!problem.empty())
         m_news = problem;
     m_workshop.bake_for(m_state.light.model);
+    const MapPointer& seen = m_viewport.renderer().map();
+    const bool wants_suns = m_state.trace.suns != "off";
+    const std::string reason = seen && m_state.trace.has_any() ? untraceable_reason(seen->image.spec()) : std::string();
+    if (!reason.empty())
+        m_news = "suns stay in the environment, and no light bounces: " + reason;
+    m_workshop.split_suns(wants_suns && reason.empty());
 }
 
 void App::handle_mouse()
@@ -140,7 +146,8 @@ void App::find_cursor()
 void App::expose()
 {
     const Renderer& renderer = m_viewport.renderer();
-    if (!m_exposes || !renderer.map() || !renderer.light() || !renderer.has_texture(0) || m_state.show != "lit")
+    if (!m_exposes || m_viewport.is_tracing() || !renderer.map() || !renderer.light() || !renderer.has_texture(0)
+        || m_state.show != "lit")
         return;
     OIIO::ImageSpec spec;
     tag_scene_linear(spec, renderer.light()->light.space);

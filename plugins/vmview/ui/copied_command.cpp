@@ -58,6 +58,20 @@ void add_light(std::string& line, const Request& request, const ViewState& state
         add_flag(line, "--colorspace", request.filter.colorspace);
 }
 
+void add_trace(std::string& line, const TraceParams& trace)
+{
+    const BounceParams plain;
+    if (trace.suns != "off")
+        add_flag(line, "--suns", trace.suns);
+    if (trace.bounce.bounce == "off")
+        return;
+    add_flag(line, "--bounce", trace.bounce.bounce);
+    if (trace.bounce.bounce_rays != plain.bounce_rays)
+        add_flag(line, "--bounce-rays", format("{}", trace.bounce.bounce_rays));
+    if (trace.bounce.bounce_albedo != plain.bounce_albedo)
+        add_flag(line, "--bounce-albedo", format("{:.6g}", trace.bounce.bounce_albedo));
+}
+
 std::string stem_of(const std::string& path)
 {
     const std::string file = OIIO::Filesystem::filename(path);
@@ -83,6 +97,10 @@ std::string makelightmap_command(const Request& request, const ViewState& state,
     const std::string map = request.vismap.empty() ? stem + "_vismap.exr" : request.vismap;
     std::string line = format("makelightmap {} {}", shell_word(map), shell_word(request.environment));
     add_light(line, request, state, model);
+    if (state.trace.suns != "off") {
+        add_flag(line, "--suns", state.trace.suns);
+        add_flag(line, "--mesh", request.mesh.mesh);
+    }
     add_flag(line, "-o", stem + "_lit.exr");
     return line;
 }
@@ -94,6 +112,7 @@ std::string vmframes_command(const Request& request, const ViewState& state, con
         add_flag(line, "--vismap", request.vismap);
     const bool is_compared = !state.second.empty();
     add_light(line, request, state, is_compared ? "" : model);
+    add_trace(line, state.trace);
     if (is_compared)
         add_flag(line, "--wipe", (model.empty() ? "auto" : model) + "," + state.second);
     const CameraParams plain;

@@ -131,6 +131,16 @@ void draw_model_menu(App& app)
         list(state.second, kReferenceModel, "traced in the background, ever finer");
         ImGui::EndMenu();
     }
+    ImGui::Separator();
+    const auto trace = [](std::string& word, const char* label, const char* meaning) {
+        const bool is_on = word != "off";
+        if (ImGui::MenuItem(label, nullptr, is_on))
+            word = is_on ? "off" : "auto";
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", meaning);
+    };
+    trace(state.trace.suns, "Suns", "small strong lights are split off and traced in the background");
+    trace(state.trace.bounce.bounce, "Bounce", "light from surface to surface, traced in the background");
     ImGui::EndMenu();
 }
 

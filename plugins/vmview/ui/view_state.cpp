@@ -21,6 +21,7 @@ ViewState state_of(const Request& request)
 {
     ViewState state;
     state.light = request.light;
+    state.trace = request.trace;
     state.camera = request.camera;
     state.has_background = request.view.background == "environment";
     state.is_white = request.view.white;

@@ -15,6 +15,8 @@ struct ViewState
 {
     /// The object's own rotation, the environment's, the model and the exposure in stops.
     LightmapParams light;
+    /// What of the light is traced besides.
+    TraceParams trace;
     /// Degrees that the object is turned about y, after its own rotation.
     double turn = 0;
     CameraParams camera;

@@ -21,10 +21,10 @@ constexpr double kSlowFrame = 33;
 // Pairs of rays of the reference, from step to step.
 constexpr int kFirstPairs = 4, kMostPairs = 4096;
 
-std::string key_of(const LightmapParams& params)
+template <class Params> std::string key_of(const Params& params)
 {
     std::string key;
-    LightmapParams copy = params;
+    Params copy = params;
     copy.visit(
         [&](const char*, auto& value, const auto& allowed, const char*) { key += value_text(value, allowed) + "|"; });
     return key;
@@ -53,6 +53,7 @@ Viewport::Viewport(int spp, const std::string& filter, int threads, std::functio
     , m_threads(threads)
     , m_filter(filter)
     , m_slots { { Slot(wake), Slot(wake) } }
+    , m_trace_job(wake)
 {
 }
 
@@ -82,6 +83,8 @@ void Viewport::set_light(LightPointer light)
 {
     stop();
     ++m_generation;
+    for (int slot = 0; slot < 2; ++slot)
+        m_renderer.add_light(slot, {});
     m_renderer.set_light(std::move(light), m_problem);
 }
 
@@ -91,12 +94,21 @@ void Viewport::stop()
         slot.job.stop();
         slot.key.clear();
         slot.activity.clear();
+        slot.rest.clear();
     }
+    m_trace_job.stop();
+    m_tracer.reset(); // one that was stopped would not start again
+    m_tracer_key.clear();
+    m_traced_key.clear();
+    m_added_key.clear();
 }
 
 std::string Viewport::activity() const
 {
-    return m_slots[0].job.is_running() ? m_slots[0].activity : m_slots[1].job.is_running() ? m_slots[1].activity : "";
+    return m_slots[0].job.is_running() ? m_slots[0].activity
+        : m_slots[1].job.is_running()  ? m_slots[1].activity
+        : is_tracing()                 ? "trace: light"
+                                       : "";
 }
 
 bool Viewport::start_relight(int index, const LightmapParams& params)
@@ -144,6 +156,88 @@ void Viewport::start_reference(int index, const LightmapParams& params)
     });
 }
 
+// The models of both textures; "" for one that nothing is added to.
+bool Viewport::wanted_models(std::array<std::string, 2>& dst, const ViewState& state)
+{
+    const std::array<std::string, 2> asked { state.light.model, state.second };
+    for (size_t i = 0; i < asked.size(); ++i) {
+        ShadingModel model;
+        std::string ignored; // refresh_texture() reports it
+        const bool is_lit = !asked[i].empty() && asked[i] != kReferenceModel
+            && model_for(model, asked[i], *m_renderer.map(), *m_renderer.light(), ignored);
+        dst[i] = is_lit ? model.name : "";
+    }
+    return !dst[0].empty() || !dst[1].empty();
+}
+
+void Viewport::drop_added()
+{
+    if (m_trace_job.is_running()) {
+        m_trace_job.stop();
+        m_tracer.reset(); // one that was stopped would not start again
+        m_tracer_key.clear();
+    }
+    m_added_key.clear();
+    if (!m_renderer.has_added())
+        return;
+    m_renderer.add_light(0, {});
+    m_renderer.add_light(1, {});
+    ++m_added_count;
+}
+
+// Take what is traced, and trace what is wanted now once the job is free: a job that is stopped at each movement of the
+// mouse would never end.
+void Viewport::refresh_added(const ViewState& state)
+{
+    if (auto result = m_trace_job.take()) {
+        if (result->error.empty()) {
+            for (int i = 0; i < 2; ++i)
+                m_renderer.add_light(i, std::move(result->value[size_t(i)]));
+            ++m_added_count;
+        } else if (result->error != "interrupted") {
+            m_trace_problem = result->error;
+        }
+        m_added_key = m_traced_key; // not tried again
+    }
+    LightmapParams params;
+    std::array<std::string, 2> models;
+    const bool has_all = is_light(state.show) && m_renderer.mesh() && m_renderer.map() && m_renderer.light();
+    const bool has_suns = state.trace.suns != "off" && has_all && !m_renderer.light()->light.suns.empty();
+    m_wanted_key.clear();
+    if (!(has_suns || (has_all && state.trace.bounce.bounce != "off"))
+        || !untraceable_reason(m_renderer.map()->image.spec()).empty() || !wanted_models(models, state)
+        || !light_params(params, state.light, state.turn, m_problem)) {
+        drop_added();
+        return;
+    }
+    const std::string of = format("{}|{}|{}|", m_generation, state.trace.suns, m_is_white) + key_of(state.trace.bounce);
+    m_wanted_key = of + key_of(params) + models[0] + "|" + models[1];
+    if (m_wanted_key == m_added_key && !m_trace_problem.empty())
+        m_problem = m_trace_problem;
+    if (m_wanted_key == m_added_key || m_trace_job.is_running())
+        return;
+    m_trace_problem.clear();
+    m_traced_key = m_wanted_key;
+    if (of != m_tracer_key)
+        m_tracer = std::make_shared<AddedLight>(state.trace, m_renderer.mesh(), m_is_white, m_renderer.map(),
+                                                m_renderer.light());
+    m_tracer_key = of;
+    m_trace_job.start([tracer = m_tracer, params, models, threads = m_threads](const auto& post, const auto& go_on) {
+        JobResult<AddedPair> result;
+        result.is_last = true;
+        MakeOptions options;
+        options.threads = threads;
+        options.progress = [go_on](const std::string&, int64_t) { return go_on; };
+        for (size_t i = 0; i < models.size() && result.error.empty(); ++i) {
+            LightmapParams own = params;
+            own.model = models[i];
+            if (!models[i].empty())
+                tracer->trace(result.value[i], own, options, result.error);
+        }
+        post(std::move(result));
+    });
+}
+
 // Whether the texture has changed.
 bool Viewport::refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model)
 {
@@ -157,9 +251,15 @@ bool Viewport::refresh_texture(int index, const ViewState& state, const std::str
     params.model = model;
     const std::string key = format("{}|{}|", m_generation, word) + (needs_light ? key_of(params) : "");
     bool changed = false;
-    if (key != slot.key) {
+    const bool has_other = slot.added != m_added_count && needs_light && model != kReferenceModel;
+    slot.added = m_added_count;
+    if (key == slot.key && has_other && !slot.rest.empty()) {
+        m_renderer.set_texture(index, slot.rest.data(), true);
+        changed = true;
+    } else if (key != slot.key || (has_other && has_relight_shader(slot.used))) {
         slot.job.stop();
         slot.key = key;
+        slot.rest.clear();
         slot.used = needs_light ? model : "";
         ShadingModel chosen;
         if (needs_light && model == kReferenceModel) {
@@ -182,7 +282,8 @@ bool Viewport::refresh_texture(int index, const ViewState& state, const std::str
         if (!result->error.empty() && result->error != "interrupted")
             m_problem = result->error;
         else if (result->error.empty()) {
-            m_renderer.set_texture(index, three_channels(result->value).data());
+            slot.rest = three_channels(result->value);
+            m_renderer.set_texture(index, slot.rest.data(), model != kReferenceModel);
             changed = true;
         }
     }
@@ -214,6 +315,7 @@ void Viewport::update(const ViewState& state, int width, int height, bool is_dra
     }
     glBindVertexArray(m_no_vertices.get());
     const bool has_second = !state.second.empty() && is_light(state.show);
+    refresh_added(state);
     bool changed = refresh_texture(0, state, state.show, state.light.model);
     if (has_second)
         changed |= refresh_texture(1, state, state.show, state.second);

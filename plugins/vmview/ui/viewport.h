@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The picture in the window: made anew only where something has changed, antialiased sample by sample while nothing
-/// does, and at half the resolution while the mouse drags, if that keeps it quick.
+/// does, and at half the resolution while the mouse drags, if that keeps it quick. Suns and the bounce are traced in
+/// the background, one rotation after the other: while the light turns, the last that is done is shown.
 #pragma once
 
 #include "../display/display_pass.h"
 #include "../render/picture.h"
+#include "../scene/added_light.h"
 #include "../scene/job.h"
 #include "view_state.h"
 
@@ -51,6 +53,8 @@ public:
     const std::string& problem() const { return m_problem; }
     /// What goes on in the background, or "": "reference: 64 rays".
     std::string activity() const;
+    /// Whether light is still to be traced.
+    bool is_tracing() const { return m_added_key != m_wanted_key; }
     /// Stop all background work.
     void stop();
 
@@ -64,7 +68,14 @@ private:
         }
         std::string key, used, activity;
         Job<OIIO::ImageBuf> job;
+        std::vector<float> rest; ///< what the job made, before light is added to it; empty: the graphics card lights
+        int added = 0; ///< m_added_count when the texture was made
     };
+    // Light that is added to both textures.
+    using AddedPair = std::array<std::vector<float>, 2>;
+    void refresh_added(const ViewState& state);
+    void drop_added();
+    bool wanted_models(std::array<std::string, 2>& dst, const ViewState& state);
     bool refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model);
     bool start_relight(int index, const LightmapParams& params);
     void start_reference(int index, const LightmapParams& params);
@@ -77,6 +88,10 @@ private:
     DisplayPass m_light_display, m_data_display;
     DisplayChoice m_choice;
     std::array<Slot, 2> m_slots;
+    Job<AddedPair> m_trace_job;
+    std::shared_ptr<AddedLight> m_tracer; // the job's while it runs
+    std::string m_tracer_key, m_wanted_key, m_added_key, m_traced_key, m_trace_problem;
+    int m_added_count = 0; // changes with what is added
     bool m_is_white = false;
     PictureSum m_sum;
     Framebuffer m_shown;

@@ -49,6 +49,7 @@ Workshop::Workshop(Request request, std::function<void()> wake)
     , m_map_job(wake)
     , m_light_job(wake)
 {
+    m_request.filter.suns = m_request.trace.suns == "off" ? "off" : "auto";
     if (!m_request.environment.empty())
         read_light(m_request.environment);
     if (!m_request.mesh.mesh.empty())
@@ -136,6 +137,16 @@ void Workshop::bake_for(const std::string& model)
                     return;
             }
         });
+}
+
+void Workshop::split_suns(bool splits)
+{
+    const char* word = splits ? "auto" : "off";
+    if (m_request.filter.suns == word)
+        return;
+    m_request.filter.suns = word;
+    if (!m_request.environment.empty())
+        read_light(m_request.environment);
 }
 
 bool Workshop::take_mesh(MeshPointer& dst, std::string& problem)

@@ -24,6 +24,9 @@ public:
     /// nothing if the map that is there, or being baked, serves.
     void bake_for(const std::string& model);
 
+    /// Split the suns off the environment, or leave them in it: filters it again if that is not how it is.
+    void split_suns(bool splits);
+
     /// Take what is ready. Each is true once for each result; `problem` is set if something failed.
     bool take_mesh(MeshPointer& dst, std::string& problem);
     bool take_map(MapPointer& dst, std::string& problem);

@@ -122,6 +122,12 @@ inline Choices suns_choices(bool traces)
     return choices;
 }
 
+/// The key of what traces suns: lightmaps, and frames and views of them.
+template <class Visit> void visit_suns(Visit&& field, std::string& suns)
+{
+    field("suns", suns, suns_choices(true), "Lights with hard shadows, such as the sun");
+}
+
 /// `studio.cfem`
 struct CfemRecipe
 {
@@ -220,7 +226,7 @@ struct LightmapRecipe
         visit_image(field, layer, layout, output_colorspace);
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);
-        field("suns", suns, suns_choices(true), "Lights with hard shadows, such as the sun");
+        visit_suns(field, suns);
         bounce_params.visit(field);
         field("mesh", mesh, Path {}, "Mesh of the visibility map, to trace light on; a recipe of a map names it");
         field("occluder", occluder, Paths {}, "Mesh that occluded the visibility map, to trace light against");

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture in the window, without one: light that is traced in the background while the mouse drags.
+#include "view_test.h"
+
+#include "vmview/scene/loading.h"
+#include "vmview/ui/viewport.h"
+
+#include <chrono>
+#include <thread>
+
+using namespace vmlight;
+using namespace vmlight::view;
+
+namespace {
+
+class ViewportTest : public DrawingTest
+{
+protected:
+    static Request sunny_request()
+    {
+        Request request;
+        request.mesh.mesh = data_path("gazebo.obj");
+        request.environment = data_path("kloppenheim_05.hdr");
+        request.mesh.vismap_params.resolution = { 64, 64 };
+        request.mesh.vismap_params.samples = 16;
+        request.light.model = "lobe";
+        request.trace.suns = "on";
+        request.trace.bounce.bounce = "auto";
+        return request;
+    }
+    static Assets loaded(const Request& request)
+    {
+        Assets assets;
+        std::string error;
+        EXPECT_TRUE(load_assets(assets, request, {}, error)) << error;
+        return assets;
+    }
+    // Until nothing is left to trace.
+    static bool settle(Viewport& viewport, const ViewState& state, bool is_dragging)
+    {
+        for (int i = 0; i < 6000; ++i) {
+            viewport.update(state, 64, 48, is_dragging);
+            EXPECT_EQ(viewport.problem(), "");
+            if (!viewport.is_tracing() && viewport.activity().empty())
+                return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return false;
+    }
+    static std::vector<float> texels(const Viewport& viewport) { return viewport.renderer().read_texture(0); }
+};
+
+} // namespace
+
+TEST_F(ViewportTest, TracesWhatWasTurnedWhileTheMouseDrags)
+{
+    const Request request = sunny_request();
+    const Assets assets = loaded(request);
+    std::string error;
+    Viewport viewport(4, "box", 2, [] {});
+    ASSERT_TRUE(viewport.build("", error)) << error;
+    viewport.set_mesh(assets.mesh);
+    viewport.set_map(assets.map);
+    viewport.set_light(assets.light);
+    ViewState state = state_of(request);
+    // The picture is there at once, and never waits for rays.
+    viewport.update(state, 64, 48, false);
+    EXPECT_TRUE(viewport.is_tracing());
+    EXPECT_TRUE(viewport.renderer().has_texture(0));
+    for (int i = 0; i < 40; ++i) {
+        turn_object(state, 3, 0);
+        viewport.update(state, 64, 48, true);
+    }
+    ASSERT_TRUE(settle(viewport, state, false));
+    const std::vector<float> seen = texels(viewport);
+
+    // However it was turned to get there.
+    Viewport still(4, "box", 2, [] {});
+    ASSERT_TRUE(still.build("", error)) << error;
+    still.set_mesh(assets.mesh);
+    still.set_map(assets.map);
+    still.set_light(assets.light);
+    ASSERT_TRUE(settle(still, state, false));
+    EXPECT_EQ(texels(still), seen);
+
+    // What is switched off is gone, and comes back.
+    ViewState plain = state;
+    plain.trace.bounce.bounce = "off";
+    ASSERT_TRUE(settle(viewport, plain, false));
+    EXPECT_NE(texels(viewport), seen);
+    plain.trace.suns = "off";
+    ASSERT_TRUE(settle(viewport, plain, false));
+    EXPECT_FALSE(viewport.is_tracing());
+    ASSERT_TRUE(settle(viewport, state, false));
+    EXPECT_EQ(texels(viewport), seen);
+    viewport.stop();
+}
+
+// Models that are lit on the processor, and a wipe between two: each has the light of its own bounce.
+TEST_F(ViewportTest, BothSidesOfAWipeHaveTheirLight)
+{
+    Request request = sunny_request();
+    request.light.model = "mask";
+    const Assets assets = loaded(request);
+    std::string error;
+    Viewport viewport(1, "box", 2, [] {});
+    ASSERT_TRUE(viewport.build("", error)) << error;
+    viewport.set_mesh(assets.mesh);
+    viewport.set_map(assets.map);
+    viewport.set_light(assets.light);
+    ViewState state = state_of(request);
+    state.second = "paper";
+    ASSERT_TRUE(settle(viewport, state, false));
+    const std::vector<float> mask = texels(viewport), paper = viewport.renderer().read_texture(1);
+    std::swap(state.light.model, state.second);
+    ASSERT_TRUE(settle(viewport, state, false));
+    EXPECT_EQ(viewport.renderer().read_texture(1), mask);
+    EXPECT_EQ(texels(viewport), paper);
+}
+
+// What is closed or replaced while light is traced leaves nothing behind.
+TEST_F(ViewportTest, StopsWhileItTraces)
+{
+    const Request request = sunny_request();
+    const Assets assets = loaded(request);
+    std::string error;
+    for (int i = 0; i < 6; ++i) {
+        Viewport viewport(1, "box", 2, [] {});
+        ASSERT_TRUE(viewport.build("", error)) << error;
+        viewport.set_mesh(assets.mesh);
+        viewport.set_map(assets.map);
+        viewport.set_light(assets.light);
+        ViewState state = state_of(request);
+        viewport.update(state, 64, 48, false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10 * i));
+        if (i % 2) {
+            viewport.set_light(assets.light);
+            ASSERT_TRUE(settle(viewport, state, false));
+        }
+    }
+}
