@@ -144,7 +144,9 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
 {
     std::string error;
     BakeScene scene;
-    return scene.build(non_owning(mesh), occluders, nthreads, error, SceneChoice::within(map.max_distance))
+    SceneChoice choice = SceneChoice::within(map.max_distance);
+    choice.cull = params.bounce_albedo == 0; // else rays start from occluders too
+    return scene.build(non_owning(mesh), occluders, nthreads, error, choice)
         ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
         : fail_with(dst, error);
 }

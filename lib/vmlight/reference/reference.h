@@ -48,8 +48,7 @@ struct ReferenceParams
 /// @param occluders meshes in the same space that occlude and are not shaded
 /// @param env      a lat-long map in linear light, as for make_cfem(): pixels are constant over their area
 /// @param map      size, UDIM tile, ground and maximum distance, as for a visibility map of the same texels; its rays
-/// and
-///                 measure have no effect
+///                 and measure have no effect
 /// @param light    rotation and exposure; the model has no effect
 /// @param nthreads 0 means OIIO's default. The result is the same bits for every value.
 /// @returns false, with the reason in `dst.geterror()`, if a parameter is out of range, the mesh has no triangle or no
@@ -60,7 +59,8 @@ VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std
                                 const OIIO::ImageBuf& env, const VismapParams& map, const LightmapParams& light = {},
                                 const ReferenceParams& params = {}, int nthreads = 0, const Progress& progress = {});
 
-/// The same with a scene that other maps may share.
+/// The same with a scene that other maps may share. With bounced light it must have been built without
+/// SceneChoice::cull: what no ray of a texel meets may still shade what lights it.
 VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env,
                                 const VismapParams& map, const LightmapParams& light, const ReferenceParams& params,
                                 int nthreads, const Progress& progress);

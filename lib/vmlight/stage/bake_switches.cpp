@@ -43,7 +43,7 @@ SceneChoice scene_choice(const VismapRecipe& recipe)
     SceneChoice choice;
     choice.self = switches.of("self-occlusion") != Switch::off;
     choice.occluders = switches.of("occluders") != Switch::off;
-    choice.cull = switches.of("occluders") != Switch::on;
+    choice.cull = recipe.cull_occluders && switches.of("occluders") != Switch::on;
     if (switches.of("cut-outs") == Switch::on)
         choice.cutouts = CutoutMode::every_hit;
     if (!recipe.occluder.empty()) // without, maps of any distance share the scene

@@ -138,6 +138,8 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
         switched.albedo = switched.albedo_colorspace = switched.albedo_layer = "";
     if (switches.of("bounce") == Switch::off)
         switched.bounce_params = {};
+    else if (switches.names("bounce") && switched.bounce_params.bounce != "off")
+        switched.bounce_params.bounce = "on";
     if (switches.of("suns") == Switch::off) {
         switched.suns = "off";
     } else if (switches.of("suns") == Switch::on && switches.names("suns")) {

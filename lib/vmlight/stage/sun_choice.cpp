@@ -21,6 +21,11 @@ std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vi
     return "";
 }
 
+std::string why_no_bounce(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap)
+{
+    return recipe.albedo.empty() ? "it needs an albedo: set --albedo" : why_no_trace(recipe, vismap);
+}
+
 std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap)
 {
     const std::vector<std::string> stored = sun_channels(vismap.get_string_attribute("vmlight:sun_directions"));
