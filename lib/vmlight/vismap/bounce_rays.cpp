@@ -56,7 +56,7 @@ BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int
             if (is_below) // the surface meets itself
                 met.push_back(m_patches.of_texel(texel));
             else if (m_ground_reflects && height == 0 && point.geometric_normal.y >= 0) // else they touch: no light
-                met.push_back(kCell | m_cells.add({}, point.near_origin, V3f(0, 1, 0), 0));
+                meet_ground(point.near_origin, 0, met);
             continue;
         }
         m_origins[size_t(m_waiting)] = point.origin;
@@ -83,10 +83,16 @@ void BounceRays::flush(const SurfacePoint& point, Count& count, std::vector<uint
         if (hits)
             meet(point, m_directions[i], m_hits[i], met);
         else if (m_ends_on_ground[i] && m_ground_reflects)
-            met.push_back(kCell
-                          | m_cells.add({}, point.origin + m_directions[i] * m_lengths[i], V3f(0, 1, 0), m_lengths[i]));
+            meet_ground(point.origin + m_directions[i] * m_lengths[i], m_lengths[i], met);
     }
     m_waiting = 0;
+}
+
+// Rays start off the surface, and floats round: what is below the plane would see nothing.
+void BounceRays::meet_ground(const V3f& position, float distance, std::vector<uint32_t>& met)
+{
+    const V3f on_plane(position.x, float(m_ground.height()), position.z);
+    met.push_back(kCell | m_cells.add({}, on_plane, V3f(0, 1, 0), distance));
 }
 
 void BounceRays::meet(const SurfacePoint& point, const V3f& direction, const NearestHit& hit,

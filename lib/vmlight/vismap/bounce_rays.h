@@ -49,6 +49,7 @@ public:
 
 private:
     void flush(const SurfacePoint& point, Count& count, std::vector<uint32_t>& met);
+    void meet_ground(const Imath::V3f& position, float distance, std::vector<uint32_t>& met);
     void meet(const SurfacePoint& point, const Imath::V3f& direction, const NearestHit& hit,
               std::vector<uint32_t>& met);
 
