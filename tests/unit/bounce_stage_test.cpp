@@ -2,6 +2,7 @@
 // Bounced light through recipes: what a host reads tile by tile is what the executables make.
 #include "stage_scene.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/stage/make_stage.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <thread>
+#include <utility>
 
 using namespace vmlight;
 using namespace vmlight::stage_scene;
@@ -313,11 +315,14 @@ TEST(BounceStage, EveryModelLightsPointsOffTheMapAsTheReference)
     // The three colours differ: light from the wrong side would show.
     EXPECT_GT(*std::max_element(wanted.begin(), wanted.end()), 1.3 * *std::min_element(wanted.begin(), wanted.end()));
 
-    for (const char* model : { "paper", "lobe", "ao", "sh", "mask", "cells" }) {
-        const std::string basis = OIIO::Strutil::starts_with(model, "s") || OIIO::Strutil::ends_with(model, "k")
-                || OIIO::Strutil::ends_with(model, "s")
-            ? std::string("basis = \"") + model + "\"\n"
-            : "";
+    const auto basis_of = [](const char* basis) { return format("basis = \"{}\"\n", basis); };
+    for (const auto& [model, basis] :
+         std::vector<std::pair<const char*, std::string>> { { "paper", "" },
+                                                            { "lobe", "" },
+                                                            { "ao", "" },
+                                                            { "sh", basis_of("sh") },
+                                                            { "mask", basis_of("mask") },
+                                                            { "cells", basis_of("cells") } }) {
         LightmapRecipe recipe
             = folder.recipe("mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nchannels = \"normal\"\n" + basis);
         recipe.lightmap_params = turned;

@@ -134,6 +134,9 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     EXPECT_NE(bounce(facts).impossible, "");
     facts = everything();
     facts.light.shadowed = 0;
+    facts.light.hidden = 1; // what it sees may be lit from elsewhere
+    EXPECT_TRUE(bounce(facts).on);
+    facts.light.hidden = 0;
     EXPECT_EQ(bounce(facts).reason, "no texel sees a surface");
     EXPECT_FALSE(bounce(facts).on);
     EXPECT_EQ(bounce(facts).impossible, "");

@@ -39,6 +39,7 @@ void measure_visibility(LightFacts& dst, const OIIO::ImageBuf& vismap)
         for (const float value : values) {
             dst.lit += value > 0;
             dst.shadowed += value > 0 && value < 1;
+            dst.hidden += !(value > 0);
         }
     }
 }
