@@ -131,7 +131,8 @@ TEST_F(Bounce, AFileOfTheMapNeedsItsMesh)
     done("makelightmap shaded.vismap" + light + "-o a.exr");
     done("makelightmap vm.exr" + light + "--mesh floor.obj --occluder wall.obj -o b.exr");
     expect_same_pixels("a.exr", "b.exr", 0);
-    refused(1, "does not say where its mesh is", "makelightmap vm.exr" + light + "-o c.exr");
+    refused(1, "does not store its mesh, which the bounce needs",
+            "makelightmap vm.exr sky.exr --albedo white.exr --bounce on -o c.exr");
     refused(1, "not the mesh that", "makelightmap vm.exr" + light + "--mesh corner.obj --occluder wall.obj -o c.exr");
 }
 

@@ -165,7 +165,7 @@ private:
         BakeScenePointer scene = m_scene;
         if (scene->leaves_out()) {
             VismapRecipe recipe = recipe_of(drawn.scene, effects);
-            trace_all_occluders(recipe);
+            recipe.cull_occluders = false;
             scene = build(drawn.scene, recipe);
         }
         TransportParams params;

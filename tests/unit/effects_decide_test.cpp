@@ -36,8 +36,9 @@ EffectFacts everything()
     bake.udim_given = bake.half = true;
     bake.poses = 24;
     bake.pose_error = 0.01;
-    facts.light
-        = { true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true, false, 100, 60, true, 64, true, "", 2, 0.5 };
+    facts.light = {
+        true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true, false, 100, 60, 0, true, 64, true, "", 2, 0.5
+    };
     return facts;
 }
 
@@ -134,6 +135,9 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     EXPECT_NE(bounce(facts).impossible, "");
     facts = everything();
     facts.light.shadowed = 0;
+    facts.light.hidden = 1; // what it sees may be lit from elsewhere
+    EXPECT_TRUE(bounce(facts).on);
+    facts.light.hidden = 0;
     EXPECT_EQ(bounce(facts).reason, "no texel sees a surface");
     EXPECT_FALSE(bounce(facts).on);
     EXPECT_EQ(bounce(facts).impossible, "");

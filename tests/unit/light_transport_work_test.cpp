@@ -53,6 +53,30 @@ TEST(LightTransport, ShortMemoryAndThreadsChangeNoBit)
     EXPECT_GT(work_counts().bounce_rays, before);
 }
 
+TEST(LightTransport, MemoryIsCounted)
+{
+    const std::vector<Mesh> occluders { rectangle(V3d(0.2, -40, 0.5), V3d(0, 80, 0), V3d(0.3, 0, 0.1)) };
+    const Bounced whole(corner(), occluders, bounce_map_of(64));
+    LightTransport transport;
+    TransportParams params;
+    std::string error;
+    const auto prepare = [&](size_t memory, size_t kept) {
+        params.memory = memory;
+        params.most_bytes = kept;
+        error.clear();
+        return transport.prepare(whole.scene, whole.map, whole.visibility, params, error);
+    };
+    EXPECT_FALSE(prepare(1000, 1 << 30));
+    EXPECT_NE(error.find("bounced light of 64x64 texels needs 192 KB of memory"), std::string::npos) << error;
+    // Enough for the texels, and not for cells: also where nothing else is kept.
+    EXPECT_FALSE(prepare(64 * 64 * 48 + 1000, 0));
+    EXPECT_NE(error.find("needs more than"), std::string::npos) << error;
+    EXPECT_TRUE(transport.points().empty());
+    EXPECT_EQ(transport.bytes(), 0u);
+    EXPECT_TRUE(prepare(size_t(64) << 20, 1 << 30)) << error;
+    EXPECT_EQ(transport.bytes(), whole.transport.bytes());
+}
+
 TEST(LightTransport, RefusesWhatItCannotTrace)
 {
     const Mesh floor = floor_facing_z(1);
@@ -63,10 +87,19 @@ TEST(LightTransport, RefusesWhatItCannotTrace)
     TransportParams params;
     params.rays = 500;
     EXPECT_FALSE(transport.prepare(scene, bounce_map_of(16), {}, params, error));
-    EXPECT_EQ(error, "500 rays; 8 to 248 are allowed");
+    EXPECT_EQ(error, "rays: 500 is not in [8, 248]");
     params.rays = 8;
     EXPECT_FALSE(transport.prepare(scene, bounce_map_of(16), {}, params, error, 1, [](double) { return false; }));
     EXPECT_EQ(error, "interrupted");
     EXPECT_TRUE(transport.prepare(scene, bounce_map_of(16), {}, params, error)) << error;
     EXPECT_EQ(transport.rays(), 16 * 16 * 8); // nothing is known of what is open
+    std::vector<float> light { 1 };
+    EXPECT_FALSE(transport.gather(light, std::vector<float>(3 * 16 * 15), {}));
+    EXPECT_TRUE(light.empty());
+    EXPECT_FALSE(transport.gather(light, std::vector<float>(3 * 16 * 16), std::vector<float>(3)));
+    EXPECT_TRUE(transport.gather(light, std::vector<float>(3 * 16 * 16), {}));
+    EXPECT_FALSE(transport.prepare(scene, bounce_map_of(16), std::vector<float>(15 * 16), params, error));
+    EXPECT_EQ(error, "240 values of visibility for 16x16 texels");
+    EXPECT_FALSE(transport.gather(light, std::vector<float>(3 * 16 * 16), {}));
+    EXPECT_EQ(transport.bytes(), 0u);
 }

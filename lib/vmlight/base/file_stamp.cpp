@@ -38,6 +38,14 @@ bool check_stamp(const std::string& stamp, const std::string& path, std::string&
     return now == stamp;
 }
 
+void note_file(std::vector<FileStamp>& files, const std::string& path)
+{
+    FileStamp file { path, "" };
+    std::string ignored;
+    if (stamp_file(file.stamp, path, ignored))
+        files.push_back(std::move(file));
+}
+
 bool are_unchanged(const std::vector<FileStamp>& files)
 {
     std::string ignored;

@@ -20,6 +20,9 @@ struct FileStamp
     std::string path, stamp;
 };
 
+/// Add a file that is about to be read. One without a stamp is left out: reading it fails.
+void note_file(std::vector<FileStamp>& files, const std::string& path);
+
 /// Whether none of the files changed.
 bool are_unchanged(const std::vector<FileStamp>& files);
 

@@ -35,6 +35,7 @@ public:
         return m_state == State::good;
     }
     bool failed() const { return m_state == State::bad; }
+    bool succeeded() const { return m_state == State::good; }
 
 private:
     enum class State

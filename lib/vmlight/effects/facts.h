@@ -56,6 +56,7 @@ struct LightFacts
     bool has_environment = false; ///< rather than filtered light
     bool is_one_color = false; ///< the light, whatever it is filtered by
     int64_t lit = 0, shadowed = 0; ///< texels with V above 0; of them, with V below 1
+    int64_t hidden = 0; ///< pixels with V = 0: texels that see no sky, or none
     bool wants_bounce = false; ///< one is asked for
     int bounce_rays = 0; ///< of a texel
     bool wants_suns = false; ///< asked for

@@ -53,16 +53,16 @@ void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const
 {
     const LightFacts& light = facts.light;
     const bool called = light.wants_bounce && light.has_albedo && light.no_bounce.empty() && light.albedo_high > 0
-        && light.shadowed > 0;
+        && light.shadowed + light.hidden > 0;
     dst.push_back(decision(effect, called,
                            !light.wants_bounce     ? std::string("not asked for: --bounce auto adds it")
                                : !light.has_albedo ? std::string("no albedo is given, so that nothing is sent back")
-                               : !light.no_bounce.empty() ? light.no_bounce
-                               : light.shadowed == 0      ? std::string("no texel sees a surface")
-                               : !called                  ? std::string("the albedo is 0 everywhere")
-                                                          : format("texels see surfaces that send back up to {:.3g} of "
-                                                                                    "their light; {} rays a texel, once for all light",
-                                                                   light.albedo_high, light.bounce_rays),
+                               : !light.no_bounce.empty()           ? light.no_bounce
+                               : light.shadowed + light.hidden == 0 ? std::string("no texel sees a surface")
+                               : !called                            ? std::string("the albedo is 0 everywhere")
+                                         : format("texels see surfaces that send back up to {:.3g} of "
+                                                  "their light; {} rays a texel, once for all light",
+                                                  light.albedo_high, light.bounce_rays),
                            light.has_environment ? 0.15 : 0.5));
     if (!light.wants_bounce || !light.has_albedo || !light.no_bounce.empty())
         dst.back().impossible = dst.back().reason;

@@ -3,7 +3,6 @@
 
 #include <vmlight/math/latlong.h>
 #include <vmlight/math/sampling.h>
-#include <vmlight/vismap/light_cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,26 +42,24 @@ void BouncePaths::flush(const SurfacePoint& point, ReferenceRandom& random)
     std::array<V3d*, kPacketSize> owners {};
     int count = 0;
     for (size_t i = 0; i < size_t(m_waiting); ++i)
-        if (hits[i].exists()) {
-            met[size_t(count)] = meet(point, m_directions[i], hits[i]);
+        if (hits[i].exists() && meet(met[size_t(count)], point, m_directions[i], hits[i]))
             owners[size_t(count++)] = m_owners[i];
-        }
     m_waiting = 0;
     if (count > 0)
         light(met, owners, count, random);
 }
 
 // The front of the mesh is smooth, as its texels are.
-SurfacePoint BouncePaths::meet(const SurfacePoint& from, const V3f& direction, const NearestHit& hit)
+bool BouncePaths::meet(SurfacePoint& dst, const SurfacePoint& from, const V3f& direction, const NearestHit& hit)
 {
     if (m_scene.casters()[hit.mesh] == BakeScene::kWhole && &m_scene.whole() == &m_scene.mesh()) {
-        const SurfacePoint point = m_surface.at(hit.triangle, hit.u, hit.v);
-        if (point.geometric_normal.dot(direction) < 0)
-            return point;
+        dst = m_surface.at(hit.triangle, hit.u, hit.v);
+        if (dst.geometric_normal.dot(direction) < 0)
+            return true;
     }
-    V3f normal = hit.normal.normalized();
-    normal = normal.dot(direction) > 0 ? -normal : normal;
-    return surface_point(from.origin + direction * hit.distance, normal);
+    const V3f normal = facing_normal(hit, direction);
+    dst = flat_surface(from.origin + direction * hit.distance, normal);
+    return normal != V3f(0);
 }
 
 void BouncePaths::light(const Points& given, const std::array<V3d*, kPacketSize>& owners, int count,

@@ -45,7 +45,8 @@ private:
     // Add to what waits in `owners` the light of the sky that one pair of rays brings to each of `points`.
     void light(const Points& points, const std::array<Imath::V3d*, kPacketSize>& owners, int count,
                ReferenceRandom& random);
-    SurfacePoint meet(const SurfacePoint& from, const Imath::V3f& direction, const NearestHit& hit);
+    // Set `dst` to what a ray met, on the side that it met. False if that has no area, and so sends no light.
+    bool meet(SurfacePoint& dst, const SurfacePoint& from, const Imath::V3f& direction, const NearestHit& hit);
 
     const BakeScene& m_scene;
     const GroundPlane m_ground;

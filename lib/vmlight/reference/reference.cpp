@@ -145,7 +145,7 @@ bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std::vector<Mes
     std::string error;
     BakeScene scene;
     SceneChoice choice = SceneChoice::within(map.max_distance);
-    choice.cull = params.bounce_albedo == 0; // what no texel sees may shade what texels see
+    choice.cull = params.bounce_albedo == 0; // else rays start from occluders too
     return scene.build(non_owning(mesh), occluders, nthreads, error, choice)
         ? make_reference(dst, scene, env, map, light, params, nthreads, progress)
         : fail_with(dst, error);

@@ -59,7 +59,8 @@ VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const Mesh& mesh, const std
                                 const OIIO::ImageBuf& env, const VismapParams& map, const LightmapParams& light = {},
                                 const ReferenceParams& params = {}, int nthreads = 0, const Progress& progress = {});
 
-/// The same with a scene that other maps may share; with a bounce, one that leaves_out() nothing.
+/// The same with a scene that other maps may share. With bounced light it must have been built without
+/// SceneChoice::cull: what no ray of a texel meets may still shade what lights it.
 VMLIGHT_API bool make_reference(OIIO::ImageBuf& dst, const BakeScene& scene, const OIIO::ImageBuf& env,
                                 const VismapParams& map, const LightmapParams& light, const ReferenceParams& params,
                                 int nthreads, const Progress& progress);

@@ -43,18 +43,12 @@ SceneChoice scene_choice(const VismapRecipe& recipe)
     SceneChoice choice;
     choice.self = switches.of("self-occlusion") != Switch::off;
     choice.occluders = switches.of("occluders") != Switch::off;
-    choice.cull = switches.of("occluders") != Switch::on;
+    choice.cull = recipe.cull_occluders && switches.of("occluders") != Switch::on;
     if (switches.of("cut-outs") == Switch::on)
         choice.cutouts = CutoutMode::every_hit;
     if (!recipe.occluder.empty()) // without, maps of any distance share the scene
         choice.reach = recipe.vismap_params.max_distance;
     return choice;
-}
-
-void trace_all_occluders(VismapRecipe& recipe)
-{
-    if (switches_of(recipe.effects, VismapRecipe::kStage).of("occluders") == Switch::automatic)
-        recipe.effects += ",+occluders";
 }
 
 std::string switched_off(const std::string& effects, const char* stage)

@@ -20,9 +20,6 @@ VismapRecipe with_switches(const VismapRecipe& recipe);
 /// What goes into the recipe's ray-tracing scene.
 SceneChoice scene_choice(const VismapRecipe& recipe);
 
-/// Switch on occluders that no texel can see, unless all are off: for light that comes from what texels see.
-void trace_all_occluders(VismapRecipe& recipe);
-
 /// The effects that are switched off, in the order of the table, for the metadata: "-ground,-margin", or "". What is
 /// switched on has the same pixels as what was decided, and so is not there.
 std::string switched_off(const std::string& effects, const char* stage);

@@ -7,6 +7,7 @@
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/shader.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/vismap/point_visibility.h>
 
 #include <OpenImageIO/strutil.h>
@@ -56,10 +57,10 @@ bool read_albedo(std::vector<float>& dst, const AlbedoReader& albedo, OIIO::ROI 
     return error.empty();
 }
 
-// Two surfaces that light each other see each other: neither V is 1, and not both are 0, where there is no light.
-bool any_between(const std::vector<float>& visibility)
+// Where V is 0 too: what such a texel sees may be lit from behind it. Or it is no texel, which the mesh alone says.
+bool any_hidden(const std::vector<float>& visibility)
 {
-    return std::any_of(visibility.begin(), visibility.end(), [](float v) { return v > 0 && v < 1; });
+    return std::any_of(visibility.begin(), visibility.end(), [](float v) { return v < 1; });
 }
 
 Progress points_progress(const MakeOptions& options, const LightTransport& transport)
@@ -75,26 +76,25 @@ bool interrupted(std::string& error)
 
 } // namespace
 
-bool has_bounce(const LightmapRecipe& recipe)
-{
-    return recipe.bounce_params.bounce != "off" && !recipe.albedo.empty();
-}
-
 std::shared_ptr<BounceShading> BounceShading::open(const LightmapRecipe& recipe, const PixelSource& vismap,
                                                    const OIIO::ImageSpec& light, std::shared_ptr<MapScene> scene,
                                                    std::string& error, const RecipeChain& chain)
 {
-    if (!scene->has_mesh()) {
-        error = with_location(recipe, "bounce", chain,
-                              format("\"{}\": a visibility map in a file does not say where its mesh is, which light "
-                                     "bounces off; set --mesh, and --occluder for all else that occluded it",
-                                     recipe.vismap));
+    if (recipe.albedo.empty())
+        error = "the bounce needs an albedo: set --albedo";
+    else if (!scene->has_mesh())
+        error = format("\"{}\": a visibility map file does not store its mesh, which the bounce needs: set --mesh (and "
+                       "--occluder)",
+                       recipe.vismap);
+    std::string config;
+    if (!error.empty() || !stamp_config(config, recipe.colorconfig, error)) {
+        error = with_location(recipe, "bounce", chain, error);
         return nullptr;
     }
     auto bounce = std::make_shared<BounceShading>();
     bounce->m_recipe = recipe;
     bounce->m_space = light.get_string_attribute("colorInteropID");
-    bounce->m_key = format("bounce\n{}\n{}{}", bounce->m_space, scene->key(), vismap.key());
+    bounce->m_key = format("bounce\n{}\n{}\n{}{}", bounce->m_space, config, scene->key(), vismap.key());
     bounce->m_recipe.bounce_params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         bounce->m_key += std::string(name) + "=" + value_text(value, allowed) + "\n";
     });
@@ -179,7 +179,7 @@ bool BounceShading::light_points(std::vector<float>& dst, const ImageBuf& vismap
     for (const std::string& channel : model.channels) {
         const auto found = std::find(names.begin(), names.end(), channel);
         if (found == names.end()) {
-            error = format("\"{}\": its metadata do not say how its channel {} was baked, which bounced light needs",
+            error = format("\"{}\": the metadata do not say how channel {} was baked, which the bounce needs",
                            m_recipe.vismap, channel);
             return false;
         }
@@ -208,9 +208,9 @@ bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<
     std::vector<float> visibility;
     if (!read_visibility(visibility, vismap, error))
         return false;
-    const bool is_between = any_between(visibility);
-    if (!is_between || std::none_of(reflected.begin(), reflected.end(), [](float a) { return a > 0; })) {
-        options.report(std::string("bounce: none, as ") + (is_between ? "the albedo is 0" : "no texel sees a surface"));
+    const bool is_hidden = any_hidden(visibility);
+    if (!is_hidden || std::none_of(reflected.begin(), reflected.end(), [](float a) { return a > 0; })) {
+        options.report(std::string("bounce: none, as ") + (is_hidden ? "the albedo is 0" : "no texel sees a surface"));
         return true;
     }
     if (!m_prepare.run([&](std::string& reason) { return prepare(visibility, options, reason); }, error))
@@ -225,7 +225,7 @@ bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<
     }
     if (!light_points(points, vismap, cfem, suns, unexposed, options, error))
         return false;
-    m_albedo.multiply(points, m_transport.points(), reflected, dst.roi);
+    m_albedo.multiply(points, reflected, m_transport);
     const auto* texel = static_cast<const float*>(first.localpixels());
     for (size_t i = 0; i < reflected.size(); ++i)
         reflected[i] *= texel[i];

@@ -21,18 +21,16 @@
 
 namespace vmlight {
 
-/// Whether a recipe asks for bounced light that there can be.
-bool has_bounce(const LightmapRecipe& recipe);
-
 /// Of one visibility map.
 class BounceShading
 {
 public:
-    /// @param recipe   with its UDIM tile resolved; it has_bounce()
+    /// @param recipe   with its UDIM tile resolved; its bounce is not off
     /// @param vismap   the visibility map
     /// @param light    the header of the filtered environment: its colour space is that of albedos
-    /// @param scene    of the map
-    /// @returns nullptr, with the location and reason in `error`, if there is no mesh
+    /// @param scene    of the map, where rays may start anywhere
+    /// @returns nullptr, with the location and reason in `error`, if there is no mesh or no albedo, or the OCIO config
+    ///          is missing
     static std::shared_ptr<BounceShading> open(const LightmapRecipe& recipe, const PixelSource& vismap,
                                                const OIIO::ImageSpec& light, std::shared_ptr<MapScene> scene,
                                                std::string& error, const RecipeChain& chain);
@@ -48,7 +46,7 @@ public:
     void tag(OIIO::ImageSpec& lightmap) const;
 
     /// Sum up the light that texels get from surfaces. The first call traces which those are, unless no texel can get
-    /// any: each sees all of its hemisphere, or the albedo is 0 everywhere.
+    /// any: V is 1 everywhere, or the albedo is 0.
     ///
     /// @param dst      set to the light; empty if no texel gets any
     /// @param vismap   the pixels of the map
@@ -61,7 +59,11 @@ public:
                const LightmapParams& params, const AlbedoReader& albedo, const MakeOptions& options,
                std::string& error);
 
-    bool failed() const { return m_prepare.failed() || m_scene->failed(); }
+    /// Whether that failed, or a file has changed since.
+    bool failed() const
+    {
+        return m_prepare.failed() || m_scene->failed() || (m_prepare.succeeded() && !are_unchanged(m_albedo.files()));
+    }
     size_t bytes() const { return m_transport.bytes() + m_points.capacity() * sizeof(float); }
 
 private:

@@ -68,11 +68,8 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     }
     dst.wants_bounce = recipe.bounce_params.bounce != "off";
     dst.bounce_rays = recipe.bounce_params.bounce_rays;
-    dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec()) : "";
-    find_visibility_facts(dst, inputs.vismap);
-    return find_sun_facts(dst, inputs, recipe, options, error);
     dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec(), recipe.vismap) : "";
-    measure_visibility(dst, inputs.vismap);
+    find_visibility_facts(dst, inputs.vismap);
     return find_sun_facts(dst, inputs, recipe, rotation, options, error);
 }
 
@@ -118,6 +115,8 @@ LightmapRecipe with_switches(const LightmapRecipe& recipe)
         switched.albedo = switched.albedo_colorspace = switched.albedo_layer = "";
     if (switches.of("bounce") == Switch::off)
         switched.bounce_params = {};
+    else if (switches.names("bounce") && switched.bounce_params.bounce != "off")
+        switched.bounce_params.bounce = "on";
     if (switches.of("suns") == Switch::off) {
         switched.suns = "off";
     } else if (switches.of("suns") == Switch::on && switches.names("suns")) {

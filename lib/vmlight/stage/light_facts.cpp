@@ -29,6 +29,7 @@ void find_visibility_facts(LightFacts& dst, const OIIO::ImageBuf& vismap)
         for (const float value : values) {
             dst.lit += value > 0;
             dst.shadowed += value > 0 && value < 1;
+            dst.hidden += !(value > 0);
         }
     }
 }

@@ -60,6 +60,10 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
         dst.no_suns = why_no_suns(recipe, dst.vismap->spec(), recipe.vismap);
         recipe.suns = dst.no_suns.empty() ? "auto" : "off";
     }
+    if (dst.vismap && recipe.bounce_params.bounce == "auto") {
+        dst.no_bounce = why_no_bounce(recipe, dst.vismap->spec(), recipe.vismap);
+        recipe.bounce_params.bounce = dst.no_bounce.empty() ? "auto" : "off";
+    }
     if (dst.vismap)
         dst.cfem = open_light(recipe, dst.vismap->spec(), error, chain);
     if (!error.empty())
@@ -78,8 +82,9 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
     }
     dst.key = config + dst.vismap->key() + dst.cfem->key();
     std::shared_ptr<MapScene> scene;
-    if (recipe.suns != "off" || has_bounce(recipe)) {
-        scene = MapScene::open(recipe, dst.vismap->spec(), error, chain);
+    const bool has_bounce = recipe.bounce_params.bounce != "off";
+    if (recipe.suns != "off" || has_bounce) {
+        scene = MapScene::open(recipe, dst.vismap->spec(), has_bounce, error, chain);
         if (!scene)
             return false;
     }
@@ -102,7 +107,7 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
             return false;
         dst.key += dst.albedo->key();
     }
-    if (has_bounce(recipe)) {
+    if (has_bounce) {
         dst.bounce = BounceShading::open(recipe, *dst.vismap, dst.light.spec, scene, error, chain);
         if (!dst.bounce)
             return false;

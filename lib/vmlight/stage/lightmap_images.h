@@ -22,7 +22,8 @@ struct LightmapImages
     std::shared_ptr<AlbedoSource> albedo; ///< nullptr without
     std::shared_ptr<SunShading> suns; ///< nullptr if the recipe's suns are off, or `auto` and cannot be traced
     std::string no_suns; ///< why they cannot, if the recipe asks for them, in a clause
-    std::shared_ptr<BounceShading> bounce; ///< nullptr if the recipe asks for none, or has no albedo
+    std::shared_ptr<BounceShading> bounce; ///< nullptr if the recipe's bounce is off, or `auto` and cannot be traced
+    std::string no_bounce; ///< why it cannot, if the recipe asks for it, in a clause
     LightColor light; ///< how the colour of the CFEM is converted
     std::string key; ///< changes with any of them, and with the OCIO config if one is used
 };

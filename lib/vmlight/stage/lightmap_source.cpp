@@ -150,11 +150,12 @@ public:
         } else if (!dst.suns) {
             dst.suns = std::make_shared<LightmapSuns>(LightmapSuns { {}, m_images.suns });
             dst.light.clear();
-        } else if (dst.suns->shading->key() != m_images.suns->key()) {
+        } else if (dst.suns->shading->key() != m_images.suns->key() || dst.suns->shading->failed()) {
             dst.suns->shading = m_images.suns;
         }
-        if (!m_images.bounce || !dst.bounce || dst.bounce->key() != m_images.bounce->key())
-            dst.bounce = m_images.bounce; // else what is traced is kept
+        // What is traced is kept, unless that failed: the work may have been stopped.
+        if (!m_images.bounce || !dst.bounce || dst.bounce->key() != m_images.bounce->key() || dst.bounce->failed())
+            dst.bounce = m_images.bounce;
         if (!make_light(dst, options, error))
             return false;
         if (!m_images.albedo || dst.albedo.initialized())
@@ -265,6 +266,8 @@ private:
             return false;
         if (!m_images.no_suns.empty())
             options.report_warning("suns stay in the environment, with soft shadows: " + m_images.no_suns);
+        if (!m_images.no_bounce.empty())
+            options.report_warning("no bounced light: " + m_images.no_bounce);
         const bool has_suns = dst.suns && !dst.suns->list.empty();
         const std::string model = has_suns ? with_suns(m_model.name) : m_model.name;
         if (m_recipe.lightmap_params.model == "auto")

@@ -36,7 +36,7 @@ std::shared_ptr<MapScene> MapScene::of(BakeScenePointer built, const OIIO::Image
 }
 
 std::shared_ptr<MapScene> MapScene::open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
-                                         std::string& error, const RecipeChain& chain)
+                                         bool from_anywhere, std::string& error, const RecipeChain& chain)
 {
     auto scene = std::make_shared<MapScene>();
     scene->m_recipe = recipe;
@@ -53,11 +53,11 @@ std::shared_ptr<MapScene> MapScene::open(const LightmapRecipe& recipe, const OII
         scene->m_hash = vismap.get_string_attribute("vmlight:meshHash");
         scene->m_occluder_hashes = vismap.get_string_attribute("vmlight:occluderHash");
     }
+    scene->m_mesh.cull_occluders = !from_anywhere;
     scene->m_roi = OIIO::get_roi(vismap);
     if (scene->m_roi != OIIO::get_roi_full(vismap)) {
-        error
-            = with_location(recipe, "vismap", chain,
-                            format("\"{}\": only a part of a map, and light is traced for whole ones", recipe.vismap));
+        error = with_location(recipe, "vismap", chain,
+                              format("\"{}\": only part of a map; tracing needs the whole map", recipe.vismap));
         return nullptr;
     }
     std::string at;
@@ -87,26 +87,22 @@ bool MapScene::read(const MakeOptions& options, std::string& error)
         return true;
     BakeScenePointer scene;
     std::string at;
-    const auto share
-        = [&] { return share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error, options.steps()); };
-    bool is_shared = share();
-    if (is_shared && has_bounce(m_recipe) && scene->leaves_out()) {
-        trace_all_occluders(m_mesh);
-        is_shared = stamp_scene(m_stamps, m_mesh, at, error) && share();
-    }
-    if (!is_shared) {
+    if (!share_scene(scene, m_mesh, m_stamps, options.threads, nullptr, at, error, options.steps())) {
         error = with_location(m_recipe, at, options.chain, error);
         return false;
     }
-    const bool other_mesh = !m_hash.empty() && scene->mesh_hash() != m_hash;
-    if (other_mesh || (!m_hash.empty() && scene->occluder_hashes() != m_occluder_hashes)) {
-        error = with_location(m_recipe, other_mesh ? "mesh" : "occluder", options.chain,
-                              format("\"{}\": {} that \"{}\" was baked {}: {}",
-                                     other_mesh ? m_mesh.mesh : m_recipe.vismap,
-                                     other_mesh ? "not the mesh" : "the occluders are not those", m_recipe.vismap,
-                                     other_mesh ? "from" : "with",
-                                     other_mesh ? "give that one, or bake the map again"
-                                                : "give each with --occluder, in the same order"));
+    if (!m_hash.empty() && scene->mesh_hash() != m_hash) {
+        error = with_location(m_recipe, "mesh", options.chain,
+                              format("\"{}\": not the mesh that \"{}\" was baked from; set that one with --mesh, or "
+                                     "bake the map again",
+                                     m_mesh.mesh, m_recipe.vismap));
+        return false;
+    }
+    if (!m_hash.empty() && scene->occluder_hashes() != m_occluder_hashes) {
+        error = with_location(m_recipe, "occluder", options.chain,
+                              format("\"{}\": baked with other occluders; list the same ones with --occluder, in the "
+                                     "same order",
+                                     m_recipe.vismap));
         return false;
     }
     if (!m_normal_map.empty()) {

@@ -35,10 +35,11 @@ public:
     ///
     /// @param recipe   with its UDIM tile resolved
     /// @param vismap   the header of the visibility map
+    /// @param from_anywhere    rays will start at occluders too: none is left out because no texel can see it
     /// @returns nullptr, with the location and reason in `error`, if a file is missing, or the map is only a part of
     ///          one
     static std::shared_ptr<MapScene> open(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap,
-                                          std::string& error, const RecipeChain& chain);
+                                          bool from_anywhere, std::string& error, const RecipeChain& chain);
 
     /// Whether there is a mesh: a file of a map does not say where its own is.
     bool has_mesh() const { return !m_mesh.mesh.empty(); }
@@ -50,14 +51,15 @@ public:
     /// Read and build them, once. False, with the location and reason in `error`, if a mesh cannot be read or is not
     /// the one that was baked, or memory runs out.
     bool prepare(const MakeOptions& options, std::string& error);
-    bool failed() const { return m_prepare.failed(); }
+    /// Whether that failed, or a file has changed since.
+    bool failed() const { return m_prepare.failed() || (m_prepare.succeeded() && !are_unchanged(m_scene->files)); }
 
     /// After prepare().
     const BakeScenePointer& scene() const { return m_scene; }
     const NormalMapPointer& normal_map() const { return m_normals; }
     /// The bake, with the map's own size.
     const VismapParams& params() const { return m_map; }
-    /// Of which the meshes are.
+    /// The bake as it was asked for: its meshes, and how they are read.
     const VismapRecipe& recipe() const { return m_mesh; }
 
 private:

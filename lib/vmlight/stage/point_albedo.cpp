@@ -104,11 +104,12 @@ class CasterColors
 {
 public:
     bool read(const std::string& path, const MeshParams& params, const ColorSettings& settings, const V3f& otherwise,
-              const MakeOptions& options, std::string& error)
+              const MakeOptions& options, std::vector<FileStamp>& files, std::string& error)
     {
         ColorConversion convert;
         ++work_counts().meshes_read;
-        if (!read_mesh(m_mesh, path, params, error) || !find_factor_conversion(convert, settings, error))
+        if (!read_mesh(m_mesh, path, params, error, [&](const std::string& opened) { note_file(files, opened); })
+            || !find_factor_conversion(convert, settings, error))
             return false;
         std::vector<bool> used(m_mesh.materials.size());
         for (const uint32_t material : m_mesh.triangle_materials)
@@ -132,6 +133,8 @@ public:
             OIIO::ImageBuf image;
             std::array<int, 3> index;
             std::string reason = texture.missing;
+            if (!texture.path.empty())
+                note_file(files, texture.path);
             if (texture.exists() && read_material_texture(image, index, texture, settings, options.threads, reason))
                 color.texture.emplace(image, index, texture);
             else if (!reason.empty())
@@ -161,19 +164,6 @@ private:
     std::vector<MaterialColor> m_materials;
 };
 
-// The texel, in a map of the tile, that a point of the mesh has its uvs in; or `outside`.
-int texel_of(const BakeScene& scene, const VismapParams& map, const LightPoint& point, int outside)
-{
-    if (&scene.whole() != &scene.mesh() || scene.mesh().uvs.empty())
-        return outside;
-    const V2d uv = uv_of(scene.mesh(), point) - V2d(udim_corner(map.udim));
-    const Size size = map.size();
-    const double x = uv.x * size.width, y = (1 - uv.y) * size.height;
-    if (!(x >= 0 && x < size.width && y >= 0 && y < size.height))
-        return outside;
-    return int(y) * size.width + int(x);
-}
-
 } // namespace
 
 void PointAlbedo::find(const MapScene& scene, const std::vector<LightPoint>& points, const V3f& ground,
@@ -199,48 +189,59 @@ bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& poi
     const ColorSettings settings { recipe.colorconfig, "", OIIO::TypeUInt8, space };
     const V3f ground(float(recipe.bounce_params.ground_albedo)), otherwise(float(recipe.bounce_params.bounce_albedo));
     std::vector<std::optional<CasterColors>> casters(bake.occluder.size());
-    m_colors.clear();
-    m_texels.clear();
+    // The texel, in a map of the tile, that a point of the baked mesh has its uvs in.
+    const Mesh& mesh = scene.scene()->mesh();
+    const Size size = scene.params().size();
+    const auto texel_of = [&](const LightPoint& point) {
+        if (point.caster != BakeScene::kWhole || point.triangle == LightPoint::kOtherPart)
+            return Source::kMean;
+        const V2d uv = uv_of(mesh, point) - V2d(udim_corner(scene.params().udim));
+        const double x = uv.x * size.width, y = (1 - uv.y) * size.height;
+        const bool is_on_map = x >= 0 && x < size.width && y >= 0 && y < size.height;
+        return is_on_map ? int(y) * size.width + int(x) : Source::kMean;
+    };
+    m_sources.clear();
+    m_files.clear();
     for (const LightPoint& point : points) {
         const int occluder = point.caster - before;
         if (point.caster == LightPoint::kGround) {
-            m_colors.push_back(ground);
+            m_sources.push_back({ Source::kColor, ground });
             continue;
         }
-        if (point.caster == BakeScene::kWhole || occluder < 0) {
-            m_texels.push_back(
-                point.caster == BakeScene::kWhole ? texel_of(*scene.scene(), scene.params(), point, kMean) : kMean);
+        if (occluder < 0) {
+            m_sources.push_back({ texel_of(point) });
             continue;
         }
         auto& caster = casters[size_t(occluder)];
         if (!caster
             && !caster.emplace().read(bake.occluder[size_t(occluder)], bake.mesh_params, settings, otherwise, options,
-                                      error))
+                                      m_files, error))
             return false;
-        m_colors.push_back(caster->at(point));
+        m_sources.push_back({ Source::kColor, caster->at(point) });
     }
-    m_before = before;
     return true;
 }
 
-void PointAlbedo::multiply(std::vector<float>& light, const std::vector<LightPoint>& points,
-                           const std::vector<float>& albedo, const OIIO::ROI& roi) const
+void PointAlbedo::multiply(std::vector<float>& light, const std::vector<float>& albedo, const LightTransport& map) const
 {
+    const auto at = [&](size_t texel) { return V3f(albedo[3 * texel], albedo[3 * texel + 1], albedo[3 * texel + 2]); };
     V3d mean(0);
-    const size_t texels = size_t(roi.width()) * size_t(roi.height());
-    for (size_t i = 0; i < texels && !m_texels.empty(); ++i)
-        mean += V3d(albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]) / double(texels);
-    auto color = m_colors.begin();
-    auto texel = m_texels.begin();
-    for (size_t i = 0; i < points.size(); ++i) {
-        const int caster = points[i].caster;
-        const bool is_mesh = caster == BakeScene::kWhole || (caster >= 0 && caster < m_before);
-        const int from = is_mesh ? *texel++ : kMean;
-        const V3f own = !is_mesh ? *color++
-            : from == kMean      ? V3f(mean)
-                            : V3f(albedo[3 * size_t(from)], albedo[3 * size_t(from) + 1], albedo[3 * size_t(from) + 2]);
+    double covered = 0;
+    const bool needs_mean = std::any_of(m_sources.begin(), m_sources.end(),
+                                        [](const Source& source) { return source.texel == Source::kMean; });
+    for (size_t i = 0; needs_mean && i < albedo.size() / 3; ++i)
+        if (map.is_covered(i)) {
+            mean += V3d(at(i));
+            ++covered;
+        }
+    mean /= std::max(1.0, covered);
+    for (size_t i = 0; i < m_sources.size(); ++i) {
+        const Source& source = m_sources[i];
+        const V3f color = source.texel == Source::kColor ? source.color
+            : source.texel == Source::kMean              ? V3f(mean)
+                                                         : at(size_t(source.texel));
         for (size_t c = 0; c < 3; ++c)
-            light[3 * i + c] *= own[int(c)];
+            light[3 * i + c] *= color[int(c)];
     }
 }
 

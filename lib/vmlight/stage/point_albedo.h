@@ -2,12 +2,11 @@
 /// The albedo of points that light the texels of a map: of the mesh, its occluders and the ground.
 #pragma once
 
+#include <vmlight/base/file_stamp.h>
 #include <vmlight/stage/make_options.h>
 #include <vmlight/stage/map_scene.h>
 #include <vmlight/stage/recipe/recipe.h>
-#include <vmlight/vismap/light_cells.h>
-
-#include <OpenImageIO/imageio.h>
+#include <vmlight/vismap/light_transport.h>
 
 #include <Imath/ImathVec.h>
 
@@ -31,22 +30,29 @@ public:
     /// `bounce_albedo`. Reads each occluder that has points again.
     ///
     /// @param space    interop id of the light's space
-    /// @returns false, with the reason in `error`, if an occluder cannot be read, or a colour not be converted
+    /// @returns false, with the reason in `error`, if an occluder cannot be read, or a colour cannot be converted
     bool read(const MapScene& scene, const std::vector<LightPoint>& points, const LightmapRecipe& recipe,
               const std::string& space, const MakeOptions& options, std::string& error);
 
-    /// Multiply `light`, three floats for each of `points`. Those of the mesh have the albedo of the texel that their
-    /// uvs are in, or the mean over the map where that is another part or tile.
+    /// Multiply `light`, three floats for each point. Those of the mesh have the albedo of the texel that their uvs are
+    /// in, or the mean over all texels where that is another part or tile.
     ///
-    /// @param albedo   of the texels of `roi`, three floats each
-    void multiply(std::vector<float>& light, const std::vector<LightPoint>& points, const std::vector<float>& albedo,
-                  const OIIO::ROI& roi) const;
+    /// @param albedo   three floats for each texel of the map
+    /// @param map      says which texels the mesh covers
+    void multiply(std::vector<float>& light, const std::vector<float>& albedo, const LightTransport& map) const;
+
+    /// The files that occluders' colours were read from.
+    const std::vector<FileStamp>& files() const { return m_files; }
 
 private:
-    static constexpr int kMean = -1;
-    std::vector<Imath::V3f> m_colors; // of points that are not of the mesh, in their order
-    int m_before = 0; // occluders that are parts of the mesh
-    std::vector<int> m_texels; // of those that are: the index of a texel, or kMean
+    struct Source
+    {
+        static constexpr int kColor = -1, kMean = -2;
+        int texel; // its index in the map; or one of these
+        Imath::V3f color { 0 };
+    };
+    std::vector<Source> m_sources; // of each point
+    std::vector<FileStamp> m_files;
 };
 
 } // namespace vmlight

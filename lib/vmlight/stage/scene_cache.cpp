@@ -83,13 +83,7 @@ bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& rec
     begin_step(at_step, "read");
     const std::string& mesh_path = path_of(recipe, index);
     ++work_counts().meshes_read;
-    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error,
-                   [&](const std::string& path) {
-                       FileStamp file { path, "" };
-                       std::string ignored;
-                       if (stamp_file(file.stamp, path, ignored))
-                           files.push_back(std::move(file));
-                   })
+    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error, [&](const std::string& path) { note_file(files, path); })
         || !check_stamp(stamps.files[index], mesh_path, error))
         return false;
     if (recipe.cutout_params.cutouts == "off")

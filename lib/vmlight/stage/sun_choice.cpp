@@ -34,6 +34,11 @@ std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vi
     return reason.empty() ? why_no_part(vismap, name) : reason;
 }
 
+std::string why_no_bounce(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name)
+{
+    return recipe.albedo.empty() ? "it needs an albedo: set --albedo" : why_no_trace(recipe, vismap, name);
+}
+
 std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name)
 {
     return stored_suns(vismap).empty() ? why_no_trace(recipe, vismap, name) : why_no_part(vismap, name);

@@ -15,6 +15,8 @@ namespace vmlight {
 
 /// Why nothing can be traced on the map with this header, in a clause that begins with `name`, of the map; or "".
 std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);
+/// The same of the bounce, which needs an albedo too.
+std::string why_no_bounce(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);
 /// The same of suns, whose visibility the map may store.
 std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);
 

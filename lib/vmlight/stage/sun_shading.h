@@ -46,7 +46,7 @@ public:
     bool light(SunLight& dst, const std::vector<Sun>& suns, const LightmapParams& params, const ReadChannel& read,
                const MakeOptions& options, std::string& error);
 
-    bool failed() const { return m_prepare.failed(); }
+    bool failed() const { return m_prepare.failed() || m_scene->failed(); }
     size_t bytes() const { return m_tracer.bytes(); }
 
 private:

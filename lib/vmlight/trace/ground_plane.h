@@ -37,6 +37,8 @@ public:
     }
 
     bool exists() const { return m_exists; }
+    /// Of the plane, in scene units.
+    double height() const { return m_height; }
 
     /// Height of the surface at `point` above the plane; 0 within rounding, where the point lies on it: it then sees
     /// what is above the horizon and nothing below, whichever side it faces.

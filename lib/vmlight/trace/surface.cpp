@@ -36,6 +36,24 @@ V3d surface_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
     return area_normal.normalized() * (shading.dot(area_normal) < 0 ? -1 : 1);
 }
 
+SurfacePoint flat_surface(const V3f& position, const V3f& normal)
+{
+    // Floats round far away.
+    const double reach
+        = std::max({ 1.0, double(std::abs(position.x)), double(std::abs(position.y)), double(std::abs(position.z)) });
+    SurfacePoint point;
+    point.normal = point.mesh_normal = point.geometric_normal = normal;
+    point.origin = position + normal * float(reach * kRayOffset);
+    point.near_origin = position + normal * float(reach * kNearRayOffset);
+    return point;
+}
+
+V3f facing_normal(const NearestHit& hit, const V3f& direction)
+{
+    const V3d normal = V3d(hit.normal).normalized();
+    return V3f(normal.dot(V3d(direction)) > 0 ? -normal : normal);
+}
+
 SurfacePoint Surface::at(uint32_t triangle, float weight1, float weight2)
 {
     if (triangle != m_triangle)

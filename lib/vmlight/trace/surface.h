@@ -41,6 +41,14 @@ void adjust_ray_origins(SurfacePoint* points, int count, const Occluder& occlude
 /// a sliver rounded to floats may point anywhere.
 Imath::V3d surface_normal(const Mesh& mesh, const std::array<uint32_t, 3>& triangle);
 
+/// A flat surface at a position that a ray met, both in scene space: all of its normals are `normal`, of unit length.
+/// Its ray origins are farther off it where floats round more.
+SurfacePoint flat_surface(const Imath::V3f& position, const Imath::V3f& normal);
+
+/// The unit normal of what a ray along `direction` met, on the side that the ray came from; zero where the triangle has
+/// no area. In double: squares of far triangles' normals overflow floats.
+Imath::V3f facing_normal(const NearestHit& hit, const Imath::V3f& direction);
+
 /// The surface of a mesh in a SceneFrame. Caches the last triangle: use one per thread.
 class Surface
 {

@@ -10,35 +10,42 @@ using Imath::V3f;
 
 namespace {
 
-// Other directions than those of V, whose error is another then.
+// Of directions whose errors are independent of those of V.
 constexpr uint32_t kOtherSeed = 0x9e3779b9u;
 
 } // namespace
 
 BounceRays::BounceRays(const MapPoints& map, const MapPatches& patches, const SamplePattern& pattern,
-                       const GroundPlane& ground, bool ground_reflects)
+                       const SamplePattern& bake_pattern, const GroundPlane& ground, bool ground_reflects)
     : m_map(map)
     , m_patches(patches)
     , m_pattern(pattern)
+    , m_bake_pattern(bake_pattern)
     , m_ground(ground)
     , m_ground_reflects(ground_reflects)
     , m_length(float(map.params().max_distance * map.scene().frame().scale))
     , m_fan(pattern.count())
+    , m_bake_fan(bake_pattern.count())
 {
 }
 
-BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met)
+BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met,
+                                    Rays which)
 {
-    const Point32 hash = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_map.params().seed) ^ kOtherSeed);
+    const bool is_own = which == Rays::own;
+    const SamplePattern& pattern = is_own ? m_pattern : m_bake_pattern;
+    RayFan& fan = is_own ? m_fan : m_bake_fan;
+    const auto seed = uint32_t(m_map.params().seed);
+    const Point32 hash = texel_hash(uint32_t(x), uint32_t(y), is_own ? seed ^ kOtherSeed : seed);
     const bool is_mapped = point.normal != point.mesh_normal;
-    m_pattern.directions(m_fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, hash);
+    pattern.directions(fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, hash);
     const float lowest = m_ground.lowest_ray(point);
     const double height = m_ground.exists() ? m_ground.height_of(point) : 0;
     Count count;
-    for (int ray = 0; ray < m_pattern.count(); ++ray) {
-        if (!(m_fan.lanes[size_t(ray / kPacketSize)] >> ray % kPacketSize & 1))
+    for (int ray = 0; ray < pattern.count(); ++ray) {
+        if (!(fan.lanes[size_t(ray / kPacketSize)] >> ray % kPacketSize & 1))
             continue;
-        const V3f direction(m_fan.x[ray], m_fan.y[ray], m_fan.z[ray]);
+        const V3f direction(fan.x[ray], fan.y[ray], fan.z[ray]);
         const bool is_below = is_mapped && direction.dot(point.geometric_normal) <= 0;
         if (is_below && direction.dot(point.mesh_normal) > 0) // an error of the mesh's normal: as in the bake
             continue;
@@ -48,8 +55,8 @@ BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int
             ++count.blocked;
             if (is_below) // the surface meets itself
                 met.push_back(m_patches.of_texel(texel));
-            else if (m_ground_reflects && height == 0)
-                met.push_back(kCell | m_cells.add({}, point.near_origin, V3f(0, 1, 0), 0));
+            else if (m_ground_reflects && height == 0 && point.geometric_normal.y >= 0) // else they touch: no light
+                meet_ground(point.near_origin, 0, met);
             continue;
         }
         m_origins[size_t(m_waiting)] = point.origin;
@@ -76,10 +83,16 @@ void BounceRays::flush(const SurfacePoint& point, Count& count, std::vector<uint
         if (hits)
             meet(point, m_directions[i], m_hits[i], met);
         else if (m_ends_on_ground[i] && m_ground_reflects)
-            met.push_back(kCell
-                          | m_cells.add({}, point.origin + m_directions[i] * m_lengths[i], V3f(0, 1, 0), m_lengths[i]));
+            meet_ground(point.origin + m_directions[i] * m_lengths[i], m_lengths[i], met);
     }
     m_waiting = 0;
+}
+
+// Rays start off the surface, and floats round: what is below the plane would see nothing.
+void BounceRays::meet_ground(const V3f& position, float distance, std::vector<uint32_t>& met)
+{
+    const V3f on_plane(position.x, float(m_ground.height()), position.z);
+    met.push_back(kCell | m_cells.add({}, on_plane, V3f(0, 1, 0), distance));
 }
 
 void BounceRays::meet(const SurfacePoint& point, const V3f& direction, const NearestHit& hit,
@@ -96,13 +109,13 @@ void BounceRays::meet(const SurfacePoint& point, const V3f& direction, const Nea
             return;
         }
     }
-    V3f normal = hit.normal.normalized();
-    if (!(normal.length2() > 0.5f)) // a triangle without area
+    const V3f normal = facing_normal(hit, direction);
+    if (normal == V3f(0)) // no area, and so no light
         return;
-    normal = normal.dot(direction) > 0 ? -normal : normal;
+    const uint32_t triangle = caster == BakeScene::kWhole ? m_patches.baked_triangle(hit.triangle) : hit.triangle;
     met.push_back(kCell
-                  | m_cells.add({ caster, hit.triangle, hit.u, hit.v, {} }, point.origin + direction * hit.distance,
-                                normal, hit.distance));
+                  | m_cells.add({ caster, triangle, hit.u, hit.v }, point.origin + direction * hit.distance, normal,
+                                hit.distance));
 }
 
 } // namespace vmlight

@@ -21,10 +21,18 @@ public:
     /// What a ray met is a patch, or with this bit a cell of cells().
     static constexpr uint32_t kCell = 0x80000000u;
 
-    /// @param map, patches, pattern    must outlive this
+    /// Which rays to trace: others than those of the bake, so that their errors are independent; or those of the bake,
+    /// which have met something wherever V is below 1.
+    enum class Rays
+    {
+        own,
+        of_bake
+    };
+
+    /// @param map, patches, pattern, bake_pattern  must outlive this
     /// @param ground   reflects light if `ground_reflects`
-    BounceRays(const MapPoints& map, const MapPatches& patches, const SamplePattern& pattern, const GroundPlane& ground,
-               bool ground_reflects);
+    BounceRays(const MapPoints& map, const MapPatches& patches, const SamplePattern& pattern,
+               const SamplePattern& bake_pattern, const GroundPlane& ground, bool ground_reflects);
 
     struct Count
     {
@@ -33,23 +41,25 @@ public:
     };
     /// Trace the rays of `point`, which is texel number `texel` at (x, y), and append what each meets to `met`, but for
     /// what is black.
-    Count trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met);
+    Count trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met,
+                Rays which = Rays::own);
 
     LightCells& cells() { return m_cells; }
     int64_t rays() const { return m_rays; }
 
 private:
     void flush(const SurfacePoint& point, Count& count, std::vector<uint32_t>& met);
+    void meet_ground(const Imath::V3f& position, float distance, std::vector<uint32_t>& met);
     void meet(const SurfacePoint& point, const Imath::V3f& direction, const NearestHit& hit,
               std::vector<uint32_t>& met);
 
     const MapPoints& m_map;
     const MapPatches& m_patches;
-    const SamplePattern& m_pattern;
+    const SamplePattern &m_pattern, &m_bake_pattern;
     const GroundPlane m_ground;
     const bool m_ground_reflects;
     const float m_length;
-    RayFan m_fan;
+    RayFan m_fan, m_bake_fan;
     LightCells m_cells;
     int64_t m_rays = 0;
     // Rays that wait for their packet to fill.

@@ -9,7 +9,8 @@ namespace {
 
 using Imath::V3f;
 
-// Cells are 1/16 to 1/32 as long as the way of their light, and 1/128 of the mesh at least.
+// Cells are 1/16 to 1/32 as long as the way of their light, and at least 1/64 in scene units: 1/64 to 1/128 of the
+// mesh.
 constexpr int kFinest = -6, kPerOctave = 4;
 
 uint64_t key_of(int caster, const V3f& position, const V3f& normal, float distance)
@@ -27,18 +28,6 @@ uint64_t key_of(int caster, const V3f& position, const V3f& normal, float distan
 
 } // namespace
 
-SurfacePoint surface_point(const V3f& position, const V3f& normal)
-{
-    // Floats round far away.
-    const double reach
-        = std::max({ 1.0, double(std::abs(position.x)), double(std::abs(position.y)), double(std::abs(position.z)) });
-    SurfacePoint point;
-    point.normal = point.mesh_normal = point.geometric_normal = normal;
-    point.origin = position + normal * float(reach * kRayOffset);
-    point.near_origin = position + normal * float(reach * kNearRayOffset);
-    return point;
-}
-
 LightCells::Cell& LightCells::cell(uint64_t key)
 {
     const auto [found, is_new] = m_numbers.emplace(key, uint32_t(m_cells.size()));
@@ -49,13 +38,11 @@ LightCells::Cell& LightCells::cell(uint64_t key)
     return m_cells[found->second];
 }
 
-uint32_t LightCells::add(LightPoint point, const V3f& position, const V3f& normal, float distance)
+uint32_t LightCells::add(const LightPoint& where, const V3f& position, const V3f& normal, float distance)
 {
-    Cell& own = cell(key_of(point.caster, position, normal, distance));
-    if (own.count < kMostPoints) {
-        point.surface = surface_point(position, normal);
-        own.points[size_t(own.count++)] = point;
-    }
+    Cell& own = cell(key_of(where.caster, position, normal, distance));
+    if (own.count < kMostPoints)
+        own.points[size_t(own.count++)] = { where, position, normal };
     return uint32_t(&own - m_cells.data());
 }
 
@@ -77,6 +64,30 @@ void LightCells::find(const LightCells& other, std::vector<uint32_t>& numbers) c
         numbers.push_back(m_numbers.at(cell.key));
 }
 
+void LightCells::take_points(std::vector<LightPoint>& points, std::vector<SurfacePoint>& surfaces,
+                             std::vector<uint32_t>& first)
+{
+    size_t count = 0;
+    for (const Cell& cell : m_cells)
+        count += size_t(cell.count);
+    points.clear();
+    points.reserve(count);
+    surfaces.clear();
+    surfaces.reserve(count);
+    first.clear();
+    first.reserve(m_cells.size() + 1);
+    for (const Cell& cell : m_cells) {
+        first.push_back(uint32_t(points.size()));
+        for (int i = 0; i < cell.count; ++i) {
+            const Point& point = cell.points[size_t(i)];
+            points.push_back(point.where);
+            surfaces.push_back(flat_surface(point.position, point.normal));
+        }
+    }
+    first.push_back(uint32_t(points.size()));
+    m_cells = {};
+}
+
 void LightCells::clear()
 {
     m_numbers.clear();
@@ -85,7 +96,8 @@ void LightCells::clear()
 
 size_t LightCells::bytes() const
 {
-    return m_cells.capacity() * sizeof(Cell) + m_numbers.size() * 4 * sizeof(void*);
+    constexpr size_t kNode = 4 * sizeof(void*); // of a hash table
+    return m_cells.capacity() * sizeof(Cell) + m_numbers.size() * kNode;
 }
 
 } // namespace vmlight

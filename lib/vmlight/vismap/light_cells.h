@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Cells: what a map has no texels of, and lights it all the same. Occluders, the ground, the backs of surfaces, and
-/// triangles that are on another tile or cover no texel.
+/// Cells: surfaces that light a map's texels and have no texels themselves. Occluders, the ground, the backs of the
+/// mesh, and triangles that are on another tile or cover no texel.
 #pragma once
 
 #include <vmlight/trace/surface.h>
@@ -14,21 +14,17 @@
 
 namespace vmlight {
 
-/// A point of a surface whose light goes to texels.
+/// Where on a surface a point is whose light goes to texels.
 struct LightPoint
 {
     static constexpr int kGround = -2;
     /// BakeScene::kWhole, the index of an occluder, or kGround.
     int caster = kGround;
-    uint32_t triangle = 0; ///< of it
+    /// Of the caster; of BakeScene::mesh() for kWhole, or kOtherPart where that is a part without the triangle.
+    uint32_t triangle = 0;
+    static constexpr uint32_t kOtherPart = ~0u;
     float u = 0, v = 0; ///< weights of the triangle's second and third corners
-    /// Of the side that rays meet; its ray origin is not adjusted yet.
-    SurfacePoint surface;
 };
-
-/// A flat surface at a position that a ray met, both in scene space. Its ray origins are farther off it where floats
-/// round more.
-SurfacePoint surface_point(const Imath::V3f& position, const Imath::V3f& normal);
 
 /// Cells of a grid whose points face alike. The farther from the texels that they light, the larger the cells.
 class LightCells
@@ -37,24 +33,36 @@ public:
     /// Points that stand for a cell: the first that are added.
     static constexpr int kMostPoints = 4;
 
+    struct Point
+    {
+        LightPoint where;
+        Imath::V3f position, normal; ///< in scene space; on the side that rays meet
+    };
     struct Cell
     {
         uint64_t key;
         int count = 0;
-        std::array<LightPoint, kMostPoints> points;
+        std::array<Point, kMostPoints> points;
     };
 
     /// Add a point at `position`, which is `distance` away from the texel, both in scene units; `normal`, of unit
     /// length, is on the side that the texel sees. Returns the number of its cell.
-    uint32_t add(LightPoint point, const Imath::V3f& position, const Imath::V3f& normal, float distance);
+    uint32_t add(const LightPoint& where, const Imath::V3f& position, const Imath::V3f& normal, float distance);
 
     /// Add the cells of `other`, and set `numbers` to what they are here.
     void merge(const LightCells& other, std::vector<uint32_t>& numbers);
     /// The numbers of the cells of `other`, all of which are here.
     void find(const LightCells& other, std::vector<uint32_t>& numbers) const;
 
-    const std::vector<Cell>& cells() const { return m_cells; }
+    /// Hand over the points of all cells, in the order of their numbers: where they are, their surfaces, whose ray
+    /// origins are not adjusted yet, and in `first` the number of each cell's first point, then the end. Only find()
+    /// may follow.
+    void take_points(std::vector<LightPoint>& points, std::vector<SurfacePoint>& surfaces,
+                     std::vector<uint32_t>& first);
+
+    size_t count() const { return m_numbers.size(); }
     void clear();
+    /// Approximate memory use.
     size_t bytes() const;
 
 private:

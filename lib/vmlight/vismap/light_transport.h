@@ -7,10 +7,12 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/vismap/light_cells.h>
 #include <vmlight/vismap/normal_map.h>
+#include <vmlight/vismap/transport_params.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/span.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,19 +21,7 @@
 
 namespace vmlight {
 
-struct TransportMap;
-struct TransportTile;
-
-struct TransportParams
-{
-    /// Rays per texel, 8 to 248.
-    int rays = 64;
-    /// Whether the ground sends light back; it is black otherwise.
-    bool ground = false;
-    /// Keep what rays met, so that new light needs none, if that takes no more bytes; else they are traced each time.
-    size_t most_bytes = size_t(1) << 30;
-};
-
+/// Traced once for a map, then summed up for any light. Once prepared, any number of threads may gather at once.
 class LightTransport
 {
 public:
@@ -40,19 +30,20 @@ public:
 
     /// Trace the rays of all texels that something blocks the view of.
     ///
-    /// @param scene    built, with SceneChoice::cull off where that leaves out occluders, which may shade what texels
-    ///                 see. Occluders reflect light on both sides, and so does the mesh
-    /// @param map      size, UDIM tile, maximum distance, ground, margin, measure and seed, as for the visibility map
-    ///                 of the same texels
+    /// @param scene    built, without leaving out occluders (SceneChoice::cull) that may shade others; all of it
+    ///                 reflects light on both sides
+    /// @param map      as for the visibility map of the same texels: size, UDIM tile, maximum distance, ground, margin,
+    ///                 measure, sampler, samples and seed
     /// @param visibility   V of that map, one float a texel. Texels with V >= 1 trace no ray, and those of the measure
-    ///                 `cosine` take 1 - V for what is blocked; empty: all of it is found by rays
-    /// @returns false, with the reason in `error`, if a parameter is out of range, memory does not suffice, or
-    ///          `progress` stopped the work
+    ///                 `cosine` take 1 - V for what is blocked; where all of a texel's rays then miss what that is, the
+    ///                 rays of the bake are traced again. Empty: all of it is found by rays
+    /// @returns false, with the reason in `error`, if a parameter is out of range, the scene lacks occluders,
+    ///          `visibility` is of another size, memory does not suffice, or `progress` stopped the work
     bool prepare(BakeScenePointer scene, const VismapParams& map, OIIO::cspan<float> visibility,
                  const TransportParams& params, std::string& error, int nthreads = 0, const Progress& progress = {},
                  NormalMapPointer normal_map = nullptr);
 
-    /// After prepare(): the points that light texels and are on none.
+    /// After prepare(): points that light texels and have no texel themselves.
     const std::vector<LightPoint>& points() const { return m_points; }
     /// The points' surfaces, for bake_points().
     const std::vector<SurfacePoint>& surfaces() const { return m_surfaces; }
@@ -66,7 +57,7 @@ public:
     ///                 elsewhere. The same bits for any number of threads
     /// @param map      R of the map's texels, three floats each
     /// @param points   R of points(), three floats each
-    /// @returns false if `progress` stopped the work
+    /// @returns false if `progress` stopped the work, a span has another size, or prepare() has not succeeded
     bool gather(std::vector<float>& dst, OIIO::cspan<float> map, OIIO::cspan<float> points, int nthreads = 0,
                 const Progress& progress = {}) const;
 
@@ -74,23 +65,26 @@ public:
     bool is_kept() const { return m_is_kept; }
     /// Rays so far: of prepare(), and of gather() if nothing is kept.
     int64_t rays() const { return m_rays; }
+    /// After prepare(): whether a triangle covers the texel with this index.
+    bool is_covered(size_t texel) const;
     size_t bytes() const;
 
 private:
-    void clear();
-    bool check_memory(const VismapParams& map, OIIO::cspan<float> visibility, const TransportParams& params,
-                      std::string& error);
-    bool trace_all(std::string& error, int nthreads, const Progress& progress);
-    void number_points();
-    std::vector<Imath::V3f> light_of(OIIO::cspan<float> map, OIIO::cspan<float> points, int nthreads) const;
+    struct Setup;
+    struct Tile;
+    struct Traced;
+    struct Worker;
+    class CellOrder;
+    void trace(int tile, Worker& worker) const;
+    void count(Tile& dst, Traced& traced, const std::vector<uint32_t>& numbers) const;
+    bool trace_all(double memory, std::string& error, int nthreads, const Progress& progress);
 
-    std::unique_ptr<TransportMap> m_map;
-    std::vector<TransportTile> m_tiles;
+    std::unique_ptr<Setup> m_setup;
+    std::vector<Tile> m_tiles;
     std::vector<LightPoint> m_points;
     std::vector<SurfacePoint> m_surfaces;
-    std::vector<uint32_t> m_first_point; // of each cell, and the end
     bool m_is_kept = false;
-    mutable int64_t m_rays = 0;
+    mutable std::atomic<int64_t> m_rays { 0 };
 };
 
 } // namespace vmlight

@@ -34,7 +34,7 @@ bool are_equal(const Mesh& a, const std::array<uint32_t, 3>& s, const Mesh& b, c
     return true;
 }
 
-// A part has the triangles of the whole in their order. Which of several equal ones is no matter.
+// A part has the triangles of the whole in their order. Of several equal ones it may be any.
 std::vector<uint32_t> number_baked(const Mesh& whole, const Mesh& part)
 {
     if (&whole == &part)
@@ -94,7 +94,7 @@ void MapPatches::number()
 
 uint32_t MapPatches::find(uint32_t triangle, float u, float v) const
 {
-    const uint32_t baked = m_baked_triangle.empty() ? triangle : m_baked_triangle[triangle];
+    const uint32_t baked = baked_triangle(triangle);
     const Mesh& mesh = m_map.scene().mesh();
     if (baked == kNone)
         return kNone;

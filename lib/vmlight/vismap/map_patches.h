@@ -32,6 +32,11 @@ public:
     uint32_t count() const { return uint32_t(m_islands.size()); }
     /// The patch of a texel, by its index in the map; kNone where no triangle covers it.
     uint32_t of_texel(size_t texel) const { return m_patch_of_texel[texel]; }
+    /// The number in the baked mesh of a triangle of BakeScene::whole(); kNone where that is of another part.
+    uint32_t baked_triangle(uint32_t triangle) const
+    {
+        return m_baked_triangle.empty() ? triangle : m_baked_triangle[triangle];
+    }
     /// The patch at a point of a triangle of BakeScene::whole(), where u and v weigh its second and third corners: that
     /// of the texel there, or of the nearest of its eight neighbours, if it is of the same UV island. kNone if none is:
     /// the map does not have the point.

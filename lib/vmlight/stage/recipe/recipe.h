@@ -20,6 +20,7 @@
 #include <vmlight/mesh/selection.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/normal_map_params.h>
+#include <vmlight/vismap/transport_params.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <string>
@@ -73,6 +74,9 @@ struct VismapRecipe
     CutoutParams cutout_params;
     /// Switches of effects: see effects/switches.h. "auto" is what the scene calls for.
     std::string effects = "auto";
+    /// Whether occluders are left out of the scene that no ray of the mesh's texels can meet. Changes no visibility,
+    /// and so is no parameter.
+    bool cull_occluders = true;
     /// Seconds that the bake may take; 0 is no limit. Set by a command line only: machines differ, recipes do not.
     double time_budget = 0;
     /// Whether the recipe, its name, a query or a flag gave the tile.
@@ -166,7 +170,8 @@ struct CfemRecipe
 /// Light that surfaces send to each other, once: keys of a lightmap.
 struct BounceParams
 {
-    /// `auto`: traced from the meshes of the visibility map, if there is an albedo.
+    /// `on`: traced from the meshes of the visibility map; there must be an albedo. `auto`: if there is one, and those
+    /// meshes are known.
     std::string bounce = "off";
     /// Rays per texel.
     int bounce_rays = 64;
@@ -176,12 +181,13 @@ struct BounceParams
     template <class Visit> void visit(Visit&& field)
     {
         field("bounce", bounce,
-              Choices { { { "off", "surfaces get the light of the environment alone" },
+              Choices { { { "off", "direct light only" },
                           { "auto",
-                            "and that which the mesh and its occluders send back, once, where there is an "
-                            "albedo" } } },
+                            "adds one bounce off the mesh, its occluders and the ground, if the mesh is known; needs "
+                            "an albedo" },
+                          { "on", "the same; an error if the mesh is not known, or without an albedo" } } },
               "Light from surface to surface");
-        field("bounce_rays", bounce_rays, Range { 8, 248 }, advanced("Rays per texel for the bounce"));
+        field("bounce_rays", bounce_rays, TransportParams::kRays, advanced("Rays per texel for the bounce"));
         field("bounce_albedo", bounce_albedo, Range { 0, 1 },
               "Albedo, for the bounce, of occluders whose files have no colour");
         field("ground_albedo", ground_albedo, Range { 0, 1 }, "Albedo of the ground, for the bounce");
