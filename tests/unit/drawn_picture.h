@@ -72,7 +72,7 @@ private:
         }
         EXPECT_TRUE(make_vismap(map, scene, m_params, &report, 1, {}, 0, m_normals)) << map.geterror();
         for (const CasterReach& caster : scene->reach())
-            traced_casters += caster.is_traced(scene->choice());
+            traced_casters += caster.is_traced(scene->choice(), 0);
         cutouts = scene->occluder().cutouts();
         cutout_work = scene->occluder().cutout_work();
     }

@@ -126,7 +126,7 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
-        const bool is_traced = m_reach.back().is_traced(m_choice);
+        const bool is_traced = m_reach.back().is_traced(m_choice, m_reach.size() - 1);
         casters.push_back(is_traced ? &occluder : nullptr);
         if (is_traced)
             m_casters.push_back(int(m_reach.size()) - 1);

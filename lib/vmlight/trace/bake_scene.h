@@ -56,7 +56,7 @@ public:
     double rounding() const { return m_rounding; }
     /// Mesh::warnings of the mesh and its occluders, after their paths.
     const std::vector<std::string>& warnings() const { return m_warnings; }
-    /// What is traced of the meshes given, and each occluder with the reason.
+    /// What is traced of the meshes given, and each occluder with the reason; SceneChoice::own_parts are among them.
     const SceneChoice& choice() const { return m_choice; }
     const std::vector<CasterReach>& reach() const { return m_reach; }
     /// Of the box around the mesh and its occluders, in mesh units.

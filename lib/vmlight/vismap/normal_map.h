@@ -24,10 +24,9 @@ public:
     /// Decode an image.
     ///
     /// @param image    R and G, or R, G and B, by name or else the first channels; more are ignored. Integers and
-    /// floats
-    ///                 in [0, 1] hold (n + 1) / 2, floats with a value below 0 n itself. Without B, of unit length.
-    ///                 Never converted as colour. Resized to `size` by a triangle filter as the components of n, if its
-    ///                 size differs
+    ///                 floats in [0, 1] hold (n + 1) / 2, floats with a value below 0 n itself. Without B, of unit
+    ///                 length. Never converted as colour. Resized to `size` by a triangle filter as the components of
+    ///                 n, if its size differs
     /// @param warnings set to what is doubtful, one sentence each
     /// @returns false, with the reason in `error`, if the image has one channel (a bump map), a pixel is not finite, or
     ///          most of it are no directions: shorter than 0.7 or longer than 1.3
@@ -37,6 +36,9 @@ public:
     /// Whether it leaves every normal as it is: a tangent map whose pixels are all within one step of 8 bits of
     /// straight up, in which programs differ.
     bool is_flat() const { return m_is_flat; }
+    /// Whether more of a tangent map than a few pixels points into the surface, the last of the warnings: maybe it is
+    /// in object space.
+    bool points_inwards() const { return m_points_inwards; }
     /// Whether its normals stay as they are when the surface turns.
     bool is_object_space() const { return m_is_object_space; }
 
@@ -57,7 +59,7 @@ public:
     void apply(SurfacePoint& point, uint32_t triangle, float weight1, float weight2, int x, int y) const;
 
 private:
-    bool m_is_flat = true, m_is_object_space = false;
+    bool m_is_flat = true, m_is_object_space = false, m_points_inwards = false;
     int m_width = 0;
     std::vector<Imath::V3f> m_normals;
     std::shared_ptr<const Mesh> m_mesh;
