@@ -5,10 +5,13 @@
     bench/effects.py BIN_FOLDER MESH ENVIRONMENT [rounds]
 
 Whole processes, processor time of all threads. With and without take turns; the median ratio of the rounds is printed, and
-the least and greatest. MESH is the plain bake's, 1024x1024 at 64 rays; cut-outs have leaf_cards.py. The last row bakes MESH
-with all effects forced that it has (--effects all): what deciding saves.
+the least and greatest. MESH is the plain bake's, 1024x1024 at 64 rays; cut-outs have leaf_cards.py, poses (the ratio of a
+second pose that is baked for itself to one that keeps what it can) a mesh of which a corner moves. Rows marked * switch
+effects, which the process says the error of: they have the seconds of the bake alone, as it prints them. The last row bakes
+MESH with all effects forced that it has (--effects all): what deciding saves.
 """
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -16,6 +19,7 @@ import tempfile
 
 import effects_pictures
 import leaf_cards
+import scenes
 
 BAKE = ["--resolution", "1024", "--samples", "64"]
 
@@ -29,8 +33,9 @@ def rows(folder, mesh, environment):
     leaves = ["makevismap", made("leaf_cards.gltf"), "--uv-set", "1", *BAKE, "-o", made("leaves.exr")]
     light = ["makelightmap", made("map.exr"), environment, "--model", "lobe", "-o", made("lit.exr")]
     on_mesh = ["--mesh", mesh]
+    poses = ["makevismap", made("pose.#.obj"), "--frames", "1-2", *BAKE, "-o", made("pose.#.exr")]
     return [
-        ("self-occlusion", [*bake, "--effects", "-self-occlusion"], bake),
+        ("self-occlusion *", [*bake, "--effects", "-self-occlusion"], bake),
         ("occluders", bake, [*bake, "--occluder", made("wall.obj")]),
         ("ground", bake, [*bake, "--ground"]),
         ("cut-outs", [*leaves, "--cutouts", "off"], leaves),
@@ -38,12 +43,40 @@ def rows(folder, mesh, environment):
         ("max-distance", bake, [*bake, "--max-distance", "0.2"]),
         ("margin", [*bake, "--margin", "0"], bake),
         ("half", bake, [*bake, "--format", "half"]),
+        ("color-conversion", light, [*light, "--output-colorspace", "ACES2065-1"]),
         ("filter", [*light[:2], made("light.exr"), *light[3:]], light),
         ("rotation", light, [*light, "--rotate", "0,30,0"]),
         ("albedo", light, [*light, "--albedo", made("albedo.exr")]),
         ("suns", light, [*light, "--suns", "auto", *on_mesh]),
-        ("all forced", bake, [*bake, "--effects", "all"]),
+        ("bounce", [*light, "--albedo", made("albedo.exr")],
+         [*light, "--albedo", made("albedo.exr"), "--bounce", "auto", *on_mesh]),
+        ("poses *", [*poses, "--effects", "+poses"], poses),
+        ("all forced *", bake, [*bake, "--effects", "all"]),
     ]
+
+
+def move_corner(folder):
+    """The terrain of scenes.py, and once more with a corner that is a little higher."""
+    subprocess.run([sys.executable, scenes.__file__, folder], check=True)
+    with open(os.path.join(folder, "terrain.obj")) as file:
+        lines = file.read().splitlines()
+    points = [[float(word) for word in line.split()[1:]] for line in lines if line.startswith("v ")]
+    left, right = min(p[0] for p in points), max(p[0] for p in points)
+    back, front = min(p[2] for p in points), max(p[2] for p in points)
+    for frame in (1, 2):
+        with open(os.path.join(folder, f"pose.{frame}.obj"), "w") as file:
+            for line in lines:
+                if frame == 2 and line.startswith("v "):
+                    x, y, z = (float(word) for word in line.split()[1:])
+                    near = max(0, 1 - 4 * (x - left) / (right - left)) * max(0, 1 - 4 * (z - back) / (front - back))
+                    line = f"v {x:.7g} {y + 0.05 * (right - left) * near:.7g} {z:.7g}"
+                file.write(line + "\n")
+
+
+def bake_seconds(binaries, words):
+    """Of the bakes alone, as the process says."""
+    text = subprocess.run([os.path.join(binaries, words[0]), *words[1:]], check=True, capture_output=True, text=True).stdout
+    return sum(float(found) for found in re.findall(r"bake: .* rays in ([0-9.]+) s", text))
 
 
 def seconds(binaries, words):
@@ -69,9 +102,11 @@ def main():
                         "ACEScg", "-o", os.path.join(folder, "albedo.exr")], check=True)
         seconds(binaries, ["makevismap", mesh, *BAKE, "-o", os.path.join(folder, "map.exr")])
         seconds(binaries, ["makecfem", environment, "--stack", "-o", os.path.join(folder, "light.exr")])
+        move_corner(folder)
         print(f"{'effect':16} {'ratio':>6} {'least':>6} {'most':>6}   seconds without, with")
         for name, without, with_it in rows(folder, mesh, environment):
-            pairs = [(seconds(binaries, without), seconds(binaries, with_it)) for _ in range(rounds)]
+            measure = bake_seconds if name.endswith("*") else seconds
+            pairs = [(measure(binaries, without), measure(binaries, with_it)) for _ in range(rounds)]
             ratios = sorted(b / a for a, b in pairs)
             print(f"{name:16} {statistics.median(ratios):6.3f} {ratios[0]:6.3f} {ratios[-1]:6.3f}   "
                   f"{statistics.median(a for a, _ in pairs):.2f}, {statistics.median(b for _, b in pairs):.2f}", flush=True)

@@ -122,26 +122,39 @@ int main(int argc, const char** argv)
     });
 
     LightmapInputs inputs; // frames and tiles share what they can
+    Forecasts forecasts;
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
         MakeOptions options = given;
         const LightWork before = LightWork::so_far();
         double seconds = 0;
         for (size_t i = 0; i < animation.frames.size(); ++i) {
             const LightmapRecipe asked = animation.inputs_at(tile, i), frame = with_switches(asked);
-            const Stopwatch reading;
+            Stopwatch reading;
             const std::clock_t begin = std::clock();
             if (!read_lightmap_inputs(inputs, frame, options, error))
                 return false;
+            TimeTaken taken { reading(), 0 };
             LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
             options.explain = explain && i == 0;
             options.dry_run = dry_run;
-            if ((options.explain || dry_run || asked.effects != "auto") && error.empty()
+            options.forecasts = &forecasts;
+            // The frames have the same switches, and about the same light.
+            if (i == 0 && (explain || dry_run || asked.effects != "auto") && error.empty()
                 && !explain_light(inputs, { asked, animation.params_at(asked.lightmap_params, i, error), params },
                                   options, error))
                 return false;
-            if (dry_run && error.empty())
-                return forecast_light(inputs, params, { animation.frames.size(), animation.reads(tile) },
-                                      { reading(), double(std::clock() - begin) / CLOCKS_PER_SEC }, options, error);
+            if (dry_run && error.empty()) {
+                LightPlan plan { animation.frames.size() };
+                options.say = options.warn = nullptr;
+                reading.lap();
+                if (plan.frames > 1
+                    && !read_lightmap_inputs(inputs, with_switches(animation.inputs_at(tile, 1)), options, error))
+                    return false;
+                plan.next_read = reading();
+                taken.processor = double(std::clock() - begin) / CLOCKS_PER_SEC;
+                options.say = given.say;
+                return forecast_light(inputs, params, plan, taken, options, error);
+            }
             if (exposure.known)
                 params.exposure = exposure.stops;
             OIIO::ImageBuf lightmap;
@@ -175,5 +188,10 @@ int main(int argc, const char** argv)
             report_taken(before, given);
         return true;
     };
-    return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });
+    return stage.run(argc, argv, [&](std::string& error) {
+        const bool made = tiles.make_tiles(make, error);
+        if (const std::string all = forecasts.text(); made && !all.empty())
+            stage.say(all);
+        return made;
+    });
 }

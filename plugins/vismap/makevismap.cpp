@@ -4,6 +4,7 @@
 #include <vmlight/cli/pose_list.h>
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/mesh/export/write_mesh.h>
+#include <vmlight/stage/forecast_costs.h>
 #include <vmlight/stage/mesh_list.h>
 #include <vmlight/stage/pose_report.h>
 #include <vmlight/trace/bake_scene.h>
@@ -92,10 +93,12 @@ int main(int argc, const char** argv)
     });
 
     std::string written; // one mesh for all tiles, unless each has its own
+    Forecasts forecasts;
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
         MakeOptions options = given;
         options.explain = explain;
         options.dry_run = dry_run;
+        options.forecasts = &forecasts;
         options.half = stage.pixel_format() == "half";
         options.pose_count = int64_t(1 + poses.compared(tile).size());
         PoseSequence sequence(poses.error());
@@ -133,5 +136,10 @@ int main(int argc, const char** argv)
         written = path;
         return write_mesh((*options.scene)->mesh(), path, error);
     };
-    return stage.run(argc, argv, [&](std::string& error) { return tiles.make_tiles(make, error); });
+    return stage.run(argc, argv, [&](std::string& error) {
+        const bool made = tiles.make_tiles(make, error);
+        if (const std::string all = forecasts.text(); made && !all.empty())
+            stage.say(all);
+        return made;
+    });
 }

@@ -8,6 +8,7 @@
 #include <vmlight/base/text_format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/sun_light.h>
+#include <vmlight/math/difference.h>
 #include <vmlight/stage/bake_forecast.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/normal_map_file.h>
@@ -16,7 +17,6 @@
 #include <vmlight/vismap/sun_visibility.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace vmlight::cost {
 namespace {
@@ -92,7 +92,7 @@ public:
                   std::string& error)
     {
         EffectCost cost { "suns", "", 0, 0, 0, 0 };
-        size_t found = 0;
+        size_t found = 0, sunny = 0;
         SunTracer tracer;
         for (size_t i = 0; i < plain.lit.size(); ++i) {
             const FilteredLight *split = find_light(i, true, error), *whole = find_light(i, false, error);
@@ -107,6 +107,7 @@ public:
                                        normal_map)))
                 return false;
             found += split->suns.size();
+            ++sunny;
             OIIO::ImageBuf lit, without;
             SunLight suns { split->suns, plain.map.roi(), {} };
             std::vector<Disc> discs;
@@ -122,14 +123,17 @@ public:
                 error = error.empty() ? "interrupted" : error;
                 return false;
             }
-            cost.seconds += with_suns.seconds / double(plain.lit.size());
-            cost.without += without_suns.seconds / double(plain.lit.size());
-            cost.light += difference(without, lit, plain.map) / double(plain.lit.size());
+            cost.seconds += with_suns.seconds;
+            cost.without += without_suns.seconds;
+            cost.light += difference(without, lit, plain.map);
         }
-        cost.reason
-            = format("{} in the environments; seconds are of one rotation", count_text(int64_t(found), "sun", "suns"));
-        if (found > 0)
-            dst.push_back(cost);
+        if (sunny == 0)
+            return true;
+        for (double* mean : { &cost.seconds, &cost.without, &cost.light })
+            *mean /= double(sunny);
+        cost.reason = format("{} in {} of {}; seconds are of one rotation", count_text(int64_t(found), "sun", "suns"),
+                             sunny, count_text(int64_t(plain.lit.size()), "environment", "environments"));
+        dst.push_back(cost);
         return true;
     }
 
@@ -140,17 +144,14 @@ public:
         const auto *a = static_cast<const float*>(other.localpixels()),
                    *b = static_cast<const float*>(truth.localpixels()),
                    *texel = static_cast<const float*>(map.localpixels());
-        double square = 0, sum = 0, count = 0;
+        Difference off;
         for (size_t i = 0; i < size_t(truth.spec().image_pixels()); ++i) {
             if (texel[i * size_t(channels) + size_t(coverage)] == 0)
                 continue;
-            for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
-                square += std::pow(double(a[c]) - double(b[c]), 2);
-                sum += double(b[c]);
-                ++count;
-            }
+            for (size_t c = 3 * i; c < 3 * i + 3; ++c)
+                off.add(double(a[c]), double(b[c]));
         }
-        return sum > 0 ? std::sqrt(square / count) / (sum / count) : 0;
+        return off.mean() > 0 ? off.rms() / off.mean() : 0;
     }
 
 private:
@@ -195,13 +196,11 @@ double visibility_difference(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
 {
     const int channels = a.nchannels(), coverage = a.spec().channelindex("coverage");
     const auto *p = static_cast<const float*>(a.localpixels()), *q = static_cast<const float*>(b.localpixels());
-    double square = 0, count = 0;
+    Difference off;
     for (size_t i = 0; i < size_t(a.spec().image_pixels()); ++i, p += channels, q += channels)
-        if (p[coverage] != 0) {
-            square += std::pow(double(p[0]) - double(q[0]), 2);
-            ++count;
-        }
-    return count > 0 ? std::sqrt(square / count) : 0;
+        if (p[coverage] != 0)
+            off.add(double(p[0]), double(q[0]));
+    return off.rms();
 }
 
 } // namespace

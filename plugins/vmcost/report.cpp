@@ -226,10 +226,8 @@ std::string report_html(const Report& report)
     text
         += "<h2>What each effect costs</h2>\n<p>The mesh baked at the reference's size with everything that this scene "
            "calls for, and once more without each effect alone. V and light are off by so much without it, RMS over "
-           "the "
-           "surface; light is that of the model lobe, relative to its mean. Whatever is left out in this way is gone "
-           "from "
-           "the picture (<i>--effects -NAME</i>); what the scene does not call for costs nothing and is not "
+           "the surface; light is that of the model lobe, relative to its mean. Whatever is left out in this way is "
+           "gone from the picture (<i>--effects -NAME</i>); what the scene does not call for costs nothing and is not "
            "listed.</p>\n"
         + effects_table(report.effects);
     text += format("<h2>Where the errors are</h2>\n<p>At the default settings, in texture space: red is too bright, "

@@ -120,7 +120,16 @@ TEST_F(Bounce, SaysWhyItIsOnOrOff)
     EXPECT_THAT(done(light + "--bounce auto"), HasSubstr("no albedo is given"));
     EXPECT_THAT(done(light + "--bounce auto --albedo white.exr"), HasSubstr("64 rays a texel"));
     EXPECT_EQ(attribute("lit.exr", "vmlight:bounce"), "auto");
-    refused(1, "+bounce is impossible: not asked for", light + "--albedo white.exr --effects +bounce");
+    EXPECT_THAT(done(light + "--bounce auto --albedo white.exr --effects -albedo"),
+                HasSubstr("the albedo is switched off: nothing is sent back"));
+    // By its switch alone, as by its key.
+    EXPECT_THAT(done(light + "--bounce auto --albedo white.exr"),
+                testing::ContainsRegex("took: .*\n  bounce: 0.[0-9]+ M"));
+    const Pixels asked = pixels("lit.exr");
+    done(light + "--albedo white.exr --effects +bounce --bounce-rays 64");
+    EXPECT_EQ(pixels("lit.exr").values, asked.values);
+    EXPECT_EQ(attribute("lit.exr", "vmlight:bounce"), "auto");
+    refused(2, "+bounce is impossible: no albedo is given", light + "--effects +bounce");
     refused(2, "set --bounce auto", "makelightmap corner.vismap sky.exr -o lit.exr --bounce-rays 32");
 }
 

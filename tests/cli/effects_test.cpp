@@ -2,6 +2,12 @@
 // --explain, --dry-run, --effects and --ground.
 #include "command_test.h"
 
+#include <vmlight/base/work_counts.h>
+#include <vmlight/stage/open_source.h>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
 using namespace vmlight;
 using testing::HasSubstr;
 using testing::Not;
@@ -77,8 +83,14 @@ TEST_F(Effects, WhatIsSwitchedOffIsGoneAndSaidToBe)
 
 TEST_F(Effects, TheImpossibleIsRefused)
 {
-    refused(1, "effects: +ground is impossible: no --ground is given", std::string(kBake) + "x.exr --effects +ground");
-    refused(1, "effects: -udim: cannot be left out", std::string(kBake) + "x.exr --effects -udim");
+    const std::string command = std::string(kBake) + "x.exr --effects ";
+    refused(2, "effects: +ground is impossible: no --ground is given", command + "+ground");
+    refused(2, "effects: -udim: cannot be left out", command + "-udim --udim 1001");
+    refused(2, "effects: +cut-outs is impossible: cutouts is off", command + "+cut-outs --cutouts off");
+    refused(1, "effects: +cut-outs is impossible: no material has an opacity below 1", command + "+cut-outs");
+    refused(1, "effects: -half: cannot be left out: --format half", command + "-half --format half");
+    done(command + "-half,-udim,-poses"); // not asked for
+    remove("x.exr");
     refused(2, "effects: \"gruond\" is not an effect: did you mean \"ground\"?",
             std::string(kBake) + "x.exr --effects -gruond");
     refused(2, "--ground-height 1: no ground is given", std::string(kBake) + "x.exr --ground-height 1");
@@ -93,6 +105,7 @@ TEST_F(Effects, ADryRunBakesNothing)
         said, testing::ContainsRegex("expected: [0-9.]+ s: start [0-9.]+ s, read and build [0-9.]+ s, bake [0-9.]+ s"));
     EXPECT_THAT(said, HasSubstr("MB of memory"));
     EXPECT_FALSE(exists("a.exr"));
+    EXPECT_THAT(said, Not(HasSubstr("expected in all")));
     refused(2, "--dry-run cannot be saved in a recipe", std::string(kBake) + "x.exr --dry-run --print-recipe");
 }
 
@@ -112,4 +125,106 @@ TEST_F(Effects, TheGroundIsAtAHeightOrAtTheLowestPoint)
     done("makevismap x.vismap -o recipe.exr");
     expect_same_pixels("recipe.exr", "given.exr", 0);
     refused(2, "ground_height: \"up\" is not a number", std::string(kBake) + "x.exr --ground=up");
+}
+
+// Of a mesh that occludes itself: a floor, and a wall on it.
+TEST_F(Effects, SelfOcclusionThatIsLeftOutIsMissed)
+{
+    write("corner.obj",
+          "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\n"
+          "vt 0 0\nvt 0.4 0\nvt 0.4 0.9\nvt 0 0.9\nvt 0.5 0\nvt 0.9 0\nvt 0.9 0.9\nvt 0.5 0.9\n"
+          "f 4/1 3/2 2/3 1/4\nf 1/5 2/6 6/7 5/8\n");
+    const std::string line = "makevismap corner.obj --resolution 32 --samples 64 -o a.exr --effects ";
+    const int64_t built = work_counts().scenes_built;
+    const std::string said = done(line + "-self-occlusion --explain");
+    EXPECT_THAT(said,
+                testing::ContainsRegex("self-occlusion +switched off +- +4 triangles, blocked|"
+                                       "self-occlusion +switched off +- +something rises above"));
+    EXPECT_THAT(said,
+                testing::ContainsRegex("WARNING: effects: the scene calls for self-occlusion, left out: V is off by "
+                                       "about 0\\.[0-9]*[1-9]"));
+    EXPECT_EQ(work_counts().scenes_built - built, 2) << "the facts and the comparison share a scene";
+    EXPECT_EQ(visibility("a.exr").least(), 1);
+    // Of an open mesh nothing is missing.
+    EXPECT_THAT(bake("a.exr", "--effects -self-occlusion"), Not(HasSubstr("WARNING")));
+}
+
+TEST_F(Effects, WhatDoesNotChangeVIsNoWarning)
+{
+    EXPECT_THAT(bake("a.exr", "--effects -margin --margin 4"), Not(HasSubstr("WARNING")));
+    OIIO::ImageBuf flat(OIIO::ImageSpec(4, 4, 3, OIIO::TypeUInt8));
+    OIIO::ImageBufAlgo::fill(flat, { 0.5f, 0.5f, 1.0f });
+    ASSERT_TRUE(flat.write("flat.png"));
+    const std::string said = bake("a.exr", "--explain --normal-map flat.png --effects -normal-map");
+    EXPECT_THAT(said, testing::ContainsRegex("normal-map +off +- +it is flat"));
+    EXPECT_THAT(said, Not(HasSubstr("WARNING")));
+    EXPECT_THAT(bake("a.exr", "--explain --normal-map flat.png --effects +normal-map"),
+                testing::ContainsRegex("normal-map +off +- +it is flat"));
+}
+
+TEST_F(Effects, AGroundIsJudgedByTheRaysThatAreTraced)
+{
+    const std::string said = bake("a.exr", "--explain --ground -5 --max-distance 1 --effects -max-distance");
+    EXPECT_THAT(said, testing::ContainsRegex("ground +on .*the plane y = -5 is 4 below the mesh; no ray is traced"));
+    EXPECT_THAT(said, testing::ContainsRegex("max-distance +switched off +- +rays end after 1, and"));
+    EXPECT_THAT(bake("a.exr", "--explain --ground -5 --max-distance 1"),
+                testing::ContainsRegex("ground +off .*, and rays reach 1"));
+    // What faces straight up sees no ground, at whatever depth.
+    write("floor.obj", "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    const std::string floor = "makevismap floor.obj --resolution 16 --samples 16 -o ";
+    EXPECT_THAT(done(floor + "a.exr --ground -1 --explain"),
+                testing::ContainsRegex("ground +off .*is 1 below the mesh, and every texel faces straight up"));
+    EXPECT_THAT(done(floor + "b.exr --ground -1 --effects -ground"), Not(HasSubstr("WARNING")));
+    expect_same_pixels("a.exr", "b.exr", 1e-6f);
+    EXPECT_THAT(done(floor + "a.exr --ground 1 --explain"), testing::ContainsRegex("ground +on "));
+}
+
+TEST_F(Effects, TrianglesWithoutTexelsAreNotCounted)
+{
+    // Two that face up, one without area, one without UVs, and one in another tile.
+    write("mixed.obj",
+          "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 3 0 1\nv 3 0 -1\n"
+          "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\n"
+          "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 1/1 2/2 2/3\nf 5 6 2\nf 2/2 5/5 6/6\n");
+    for (const char* tile : { "1001", "1002" }) {
+        const std::string said
+            = done(std::string("makevismap mixed.obj --resolution 16 --samples 16 --explain -o a.exr --udim ") + tile);
+        EXPECT_THAT(said, HasSubstr("nothing rises above the tangent plane of any of 3 triangles"));
+        EXPECT_THAT(said, HasSubstr("bake: 0.00 M rays"));
+    }
+}
+
+// The same flags in a recipe, by the tool and by a reader.
+TEST_F(Effects, ARecipeIsRefusedByWhoeverOpensIt)
+{
+    const auto opened = [&](const std::string& effects) {
+        write("x.vismap", "mesh = \"quad.obj\"\nresolution = 16\nsamples = 16\neffects = \"" + effects + "\"\n");
+        VismapRecipe recipe;
+        std::string error;
+        EXPECT_TRUE(read_recipe(recipe, "x.vismap", error)) << error;
+        const PixelSourcePointer source = open_source(recipe, error, { "x.vismap" }, Sharing::none);
+        std::vector<float> pixels(16 * 16 * 4);
+        if (source)
+            source->read({ 0, 16, 0, 16 }, pixels.data(), error);
+        return error;
+    };
+    EXPECT_THAT(opened("+ground"), HasSubstr("+ground is impossible: no --ground is given"));
+    EXPECT_THAT(opened("+cut-outs"), HasSubstr("+cut-outs is impossible: no material has an opacity below 1"));
+    EXPECT_EQ(opened("-margin,+self-occlusion"), "");
+    write("x.vismap", "mesh = \"quad.obj\"\neffects = \"+ground\"\n");
+    refused(1, "line 2: effects: +ground is impossible", "makevismap x.vismap -o x.exr");
+}
+
+TEST_F(Effects, ADryRunOfTilesAndPosesAddsThemUp)
+{
+    write("two.obj", kQuad + "vt 1 0\nvt 2 0\nvt 2 1\nvt 1 1\nf 1/5/1 2/6/1 3/7/1 4/8/1\n");
+    const std::string tiles = done("makevismap two.obj --resolution 16 --samples 16 -o 'a.<UDIM>.exr' --dry-run");
+    EXPECT_EQ(count(tiles, "expected: "), 2u);
+    EXPECT_EQ(count(tiles, "expected in all: "), 1u);
+    EXPECT_THAT(tiles, testing::ContainsRegex("tile 1002: expected: [0-9.]+ s: start 0.00 s,"));
+    write("quad.0001.obj", kQuad);
+    write("quad.0002.obj", kQuad);
+    EXPECT_THAT(done("makevismap quad.####.obj --frames 1-2 --resolution 16 -o a.####.exr --dry-run"),
+                testing::ContainsRegex("expected: at most .*; each of 2 poses baked whole"));
+    EXPECT_THAT(bake("a.exr", "--pose quad.0001.obj --dry-run"), HasSubstr("; comparing 1 other pose comes on top"));
 }

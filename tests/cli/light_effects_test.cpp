@@ -2,6 +2,10 @@
 // --explain, --dry-run and --effects of makelightmap.
 #include "command_test.h"
 
+#include <vmlight/base/work_counts.h>
+#include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/open_source.h>
+
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -106,11 +110,11 @@ TEST_F(LightEffects, WhatIsSwitchedOffIsGoneAndSaidToBe)
 TEST_F(LightEffects, TheImpossibleIsRefused)
 {
     const std::string command = "makelightmap vm.exr sky.exr -o x.exr ";
-    refused(1, "effects: +albedo is impossible: no --albedo is given", command + "--effects +albedo");
-    refused(1, "effects: -filter: cannot be left out", command + "--effects -filter");
+    refused(2, "effects: +albedo is impossible: no --albedo is given", command + "--effects +albedo");
+    refused(1, "effects: -filter: cannot be left out", "makelightmap vm.exr {sky} -o x.exr --effects -filter");
     refused(2, "effects: \"filtre\" is not an effect: did you mean \"filter\"?", command + "--effects +filtre");
     done("makecfem sky.exr -o cfem.exr");
-    refused(1, "effects: +filter is impossible: the light is filtered already",
+    refused(2, "effects: +filter is impossible: the light is filtered already",
             "makelightmap vm.exr cfem.exr -o x.exr --effects +filter");
 }
 
@@ -123,11 +127,112 @@ TEST_F(LightEffects, ADryRunWritesNothing)
                               "1 file [0-9.]+ s; [1-9][0-9]* MB of memory"));
     EXPECT_FALSE(exists("a.exr"));
     EXPECT_THAT(light("{sky} -o a.####.exr --frames 1-48 --rotate-y 0:360 --dry-run"), HasSubstr("48 files"));
-    EXPECT_EQ(names("a").size(), 0u);
+    // What each frame has of its own is read for two: their environment is filtered twice, else once.
+    for (const char* number : { "1", "2" }) {
+        make_albedo(std::string("albedo_lin_rec709.") + number + ".exr", 0.5f);
+        make_sky({ 1, 2, 3 }, std::string("night.") + number + ".exr");
+        OIIO::ImageBuf night(std::string("night.") + number + ".exr");
+        OIIO::ImageBufAlgo::fill(night, { 9.0f, 9.0f, 9.0f }, OIIO::ROI(0, 3, 0, 3));
+        ASSERT_TRUE(night.write(std::string("night.") + number + ".exr"));
+    }
+    const auto passes = [&](const std::string& flags) {
+        const int64_t before = work_counts().filter_passes;
+        light(flags + " --model paper --frames 1-2 -o a.####.exr --dry-run");
+        return work_counts().filter_passes - before;
+    };
+    EXPECT_EQ(passes("night.1.exr --albedo albedo_lin_rec709.#.exr"), 1);
+    EXPECT_EQ(passes("night.#.exr"), 2);
+    EXPECT_EQ(names("a.").size(), 0u);
     refused(2, "--dry-run cannot be saved in a recipe",
             "makelightmap vm.exr sky.exr -o x.exr --dry-run --print-recipe");
     write("quad.vismap", "mesh = \"quad.obj\"\n");
     refused(
         2, "--dry-run: \"quad.vismap\" is a recipe, whose map would have to be baked: makevismap quad.vismap --dry-run",
         "makelightmap quad.vismap sky.exr -o x.exr --dry-run");
+}
+
+// Of an animation, the first frame alone is lit both ways.
+TEST_F(LightEffects, AnAnimationIsComparedOnce)
+{
+    const std::string flags
+        = "{sky} --albedo half_lin_rec709.exr --effects -albedo --frames 1-4 --rotate-y 0:90 -o a.####.exr";
+    EXPECT_EQ(count(light(flags), "WARNING: effects"), 1u);
+    EXPECT_EQ(names("a.").size(), 4u);
+}
+
+TEST_F(LightEffects, WhatIsSwitchedOffIsInTheMetadata)
+{
+    light("sky.exr -o off.exr --albedo half_lin_rec709.exr --effects -rotation,-albedo");
+    EXPECT_EQ(attribute("off.exr", "vmlight:effects"), "-rotation,-albedo");
+    light("sky.exr -o all.exr --effects all");
+    EXPECT_EQ(attribute("all.exr", "vmlight:effects"), "");
+    write("off.lightmap",
+          "vismap = \"vm.exr\"\nenvironment = \"sky.exr\"\nalbedo = \"half_lin_rec709.exr\"\n"
+          "effects = \"-rotation,-albedo\"\n");
+    OIIO::ImageBuf made;
+    LightmapRecipe recipe;
+    std::string error;
+    ASSERT_TRUE(read_recipe(recipe, "off.lightmap", error)) << error;
+    const PixelSourcePointer source = open_source(recipe, error, {}, Sharing::none);
+    ASSERT_TRUE(source) << error;
+    EXPECT_EQ(source->spec().get_string_attribute("vmlight:effects"), "-rotation,-albedo");
+    ASSERT_TRUE(make_image(made, recipe)) << made.geterror();
+    EXPECT_EQ(made.spec().get_string_attribute("vmlight:effects"), "-rotation,-albedo");
+}
+
+TEST_F(LightEffects, ARecipeIsRefusedByWhoeverOpensIt)
+{
+    OIIO::ImageBuf sky(kSky);
+    ASSERT_TRUE(sky.write("studio.exr")) << sky.geterror();
+    const auto fault = [&](const std::string& effects, bool whole) {
+        write("x.lightmap", "vismap = \"vm.exr\"\nenvironment = \"studio.exr\"\neffects = \"" + effects + "\"\n");
+        LightmapRecipe recipe;
+        std::string error;
+        EXPECT_TRUE(read_recipe(recipe, "x.lightmap", error)) << error;
+        if (!whole) {
+            const PixelSourcePointer source = open_source(recipe, error, {}, Sharing::none);
+            std::vector<float> pixels(8 * 8 * 3);
+            if (source)
+                source->read({ 0, 8, 0, 8 }, pixels.data(), error);
+            return error;
+        }
+        OIIO::ImageBuf made;
+        return make_image(made, recipe) ? std::string() : made.geterror();
+    };
+    for (const bool whole : { false, true }) {
+        EXPECT_THAT(fault("+albedo", whole), HasSubstr("+albedo is impossible: no --albedo is given"));
+        EXPECT_THAT(fault("-filter", whole), HasSubstr("-filter: cannot be left out: an environment is given"));
+        EXPECT_THAT(fault("-stack-levels", whole), HasSubstr("-stack-levels: cannot be left out"));
+        EXPECT_EQ(fault("-rotation,-visibility", whole), "");
+    }
+}
+
+TEST_F(LightEffects, AlbedosAreJudgedByTheirColours)
+{
+    const auto make = [](const std::string& name, float value, float alpha, OIIO::ROI full) {
+        OIIO::ImageSpec spec(8, 8, 4, OIIO::TypeFloat);
+        OIIO::set_roi_full(spec, full);
+        OIIO::ImageBuf image(spec);
+        OIIO::ImageBufAlgo::fill(image, { value, value, value, alpha });
+        ASSERT_TRUE(image.write(name)) << image.geterror();
+    };
+    const OIIO::ROI own(0, 8, 0, 8), wider(0, 16, 0, 8);
+    make("alpha_lin_rec709.exr", 1, 0.5f, own);
+    EXPECT_THAT(light("sky.exr -o a.exr --explain --albedo alpha_lin_rec709.exr"),
+                ContainsRegex("albedo +off .* it is 1 everywhere"));
+    make("part_lin_rec709.exr", 1, 1, wider); // black where there is no pixel
+    EXPECT_THAT(light("sky.exr -o a.exr --explain --albedo part_lin_rec709.exr"),
+                ContainsRegex("albedo +on .* values from 0 to 1"));
+    make("black_lin_rec709.exr", 0, 1, own);
+    EXPECT_THAT(light("sky.exr -o a.exr --explain --albedo black_lin_rec709.exr"),
+                ContainsRegex("albedo +on .* values from 0 to 0"));
+}
+
+TEST_F(LightEffects, OneSwitchForcesOneThing)
+{
+    const std::string line = "sky.exr -o a.exr --explain --albedo one_lin_rec709.exr --effects ";
+    const std::string by_albedo = light(line + "+albedo"), by_levels = light(line + "+stack-levels");
+    EXPECT_THAT(by_albedo, ContainsRegex("0.000 M texels looked light up, 0.[0-9]*[1-9][0-9]* M were multiplied"));
+    EXPECT_THAT(by_levels, ContainsRegex("0.[0-9]*[1-9][0-9]* M texels looked light up, 0.000 M were multiplied"));
+    EXPECT_THAT(light("sky.exr -o a.exr --explain --effects +rotation"), ContainsRegex("rotation +off "));
 }

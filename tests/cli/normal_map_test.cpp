@@ -75,7 +75,7 @@ TEST_F(NormalMaps, AreAnEffect)
     // How far off a picture is without it takes the map itself.
     write("quad.vismap", "mesh = \"quad.obj\"\nnormal_map = \"no.png\"\neffects = \"-normal-map\"\n");
     refused(1, "\"quad.vismap\": \"no.png\": no such file", "makevismap quad.vismap -o d.exr" + small);
-    refused(1, "+normal-map is impossible: no --normal-map is given",
+    refused(2, "+normal-map is impossible: no --normal-map is given",
             "makevismap quad.obj --effects +normal-map -o x.exr" + small);
 }
 
@@ -103,7 +103,8 @@ TEST_F(NormalMaps, WhatCannotBeOneIsRefused)
     refused(2, "--normal-map-green down: no normal map is given",
             "makevismap quad.obj -o x.exr --normal-map-green down");
     refused(2, "has no up and down", line + "object.png --normal-map-space object --normal-map-green down");
-    EXPECT_THAT(done(line + "object.png"), HasSubstr("point into the surface"));
+    EXPECT_THAT(done(line + "object.png"),
+                HasSubstr("point into the surface; if it is in object space, set normal_map_space"));
     write("bad.vismap", "mesh = \"quad.obj\"\nnormal_map = \"no.png\"\n");
     refused(1, "\"no.png\"", "makevismap bad.vismap -o x.exr");
 }

@@ -102,7 +102,9 @@ TEST_F(Suns, AreARowOfTheEffects)
 {
     const std::string line = "makelightmap hero.vismap sunny.exr -o a.exr --explain";
     EXPECT_THAT(done(line), HasSubstr("not asked for: --suns auto adds them"));
-    EXPECT_THAT(done(line + " --suns auto"), HasSubstr("1 sun with 28 % of the light"));
+    EXPECT_THAT(
+        done(line + " --suns auto"),
+        testing::AllOf(HasSubstr("1 sun with 28 % of the light"), testing::ContainsRegex("  suns: 0.0[0-9]+ M rays")));
     EXPECT_THAT(done("makelightmap hero.vismap cloudy.exr --suns auto --explain -o a.exr"),
                 HasSubstr("the light has no small strong source"));
     done("makelightmap hero.vismap sunny.exr -o soft.exr");
@@ -115,6 +117,8 @@ TEST_F(Suns, AreARowOfTheEffects)
     done("makelightmap hero.vismap sunny.exr --effects +suns -o a.exr");
     EXPECT_EQ(pixels("a.exr").values, pixels("hard.exr").values);
     done("makevismap hero.vismap -o vm.exr");
+    done("makelightmap vm.exr sunny.exr --effects +suns --mesh floor.obj --occluder wall.obj -o a.exr");
+    EXPECT_EQ(pixels("a.exr").values, pixels("hard.exr").values);
     EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto --explain -o a.exr"), HasSubstr("set --mesh"));
     refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --effects +suns -o a.exr");
 }
@@ -227,4 +231,30 @@ TEST_F(Suns, AMapCanStoreWhatItSeesOfThem)
     done("makevismap hero.vismap -o plain.exr");
     EXPECT_EQ(visibility("plain.exr").values, visibility("vm.exr").values);
     EXPECT_EQ(attribute("plain.exr", "vmlight:sun_directions"), "");
+}
+
+// The switches of a lamp on black, of tiles, and of light that is grey.
+TEST_F(Suns, AreExplainedOfAllLight)
+{
+    OIIO::ImageBuf lamp(OIIO::ImageSpec(512, 256, 3, OIIO::TypeFloat));
+    for (int y = 60; y < 64; ++y)
+        for (int x = 100; x < 104; ++x) {
+            const float rgb[3] { 2e4f, 1e4f, 5e3f };
+            lamp.setpixel(x, y, rgb);
+        }
+    ASSERT_TRUE(lamp.write("lamp.exr")) << lamp.geterror();
+    EXPECT_THAT(done("makelightmap hero.vismap lamp.exr --suns auto --explain -o a.exr"),
+                HasSubstr("without its suns the environment is of one colour"));
+    done("makevismap hero.vismap -o vm.exr");
+    OIIO::ImageBuf grey(OIIO::ImageSpec(16, 8, 1, OIIO::TypeFloat));
+    grey.specmod().channelnames = { "Y" };
+    const float one = 1;
+    for (int i = 0; i < 16 * 8; ++i)
+        grey.setpixel(i % 16, i / 16, &one);
+    ASSERT_TRUE(grey.write("grey.exr")) << grey.geterror();
+    done("makelightmap vm.exr grey.exr --is-cfem --model paper --suns auto --explain -o a.exr");
+    done("makevismap hero.vismap --udim 1001 -o 'v.<UDIM>.exr'");
+    EXPECT_THAT(done("makelightmap 'v.<UDIM>.exr' sunny.exr --suns auto --mesh floor.obj --occluder wall.obj --effects "
+                     "-suns -o 'l.<UDIM>.exr'"),
+                HasSubstr("effects: the picture has suns, left out"));
 }

@@ -103,7 +103,7 @@ private:
                                 : make_vismap(map, m_scene, m_params, &report, 1, {}, 0, m_normals))
             << map.geterror();
         for (const CasterReach& caster : m_scene->reach())
-            traced_casters += caster.is_traced(m_scene->choice());
+            traced_casters += caster.is_traced(m_scene->choice(), 0);
         cutouts = m_scene->occluder().cutouts();
         cutout_work = m_scene->occluder().cutout_work();
         if (drawn.pose.kind == DrawnPose::none)
@@ -163,7 +163,7 @@ private:
     BounceLight bounced(const Drawn& drawn, const std::string& effects)
     {
         BakeScenePointer scene = m_scene;
-        if (scene->leaves_out()) {
+        if (scene->culled_occluder()) {
             VismapRecipe recipe = recipe_of(drawn.scene, effects);
             recipe.cull_occluders = false;
             scene = build(drawn.scene, recipe);

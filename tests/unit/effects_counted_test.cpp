@@ -78,13 +78,13 @@ CountedBake work_of(const BakeInputs& inputs, OIIO::ImageBuf& map)
 {
     const auto scene = std::make_shared<BakeScene>();
     std::string error;
+    const int64_t tangents = work_counts().tangents_made, margin = work_counts().margin_texels;
+    const NormalMapPointer normals = normals_of(inputs); // decoded, as a file is read: the input's own buffers
+    const LargeAllocations allocations;
     EXPECT_TRUE(scene->build(non_owning(inputs.mesh), inputs.occluders, 1, error,
                              SceneChoice::within(inputs.params.max_distance)))
         << error;
-    const int64_t tangents = work_counts().tangents_made, margin = work_counts().margin_texels;
-    const NormalMapPointer normals = normals_of(inputs);
     VismapReport report;
-    const LargeAllocations allocations;
     EXPECT_TRUE(make_vismap(map, scene, inputs.params, &report, 1, {}, 0, normals)) << map.geterror();
     const CutoutWork cutouts = scene->occluder().cutout_work();
     return { report.rays,
@@ -128,6 +128,16 @@ std::vector<IdleCase> idle_cases()
     return {
         { "an occluder behind every horizon", [](auto& in) { in.occluders = { placed(ball(), 1, V3d(-0.5, 0, -2)) }; },
           [](auto& in) { in.occluders = { placed(ball(), 1, V3d(0.5, 0, 2)) }; }, &CountedBake::casters },
+        { "an occluder out of reach",
+          [](auto& in) {
+              in.params.max_distance = 100;
+              in.occluders = { placed(ball(), 40, V3d(0, 0, 200)) };
+          },
+          [](auto& in) {
+              in.params.max_distance = 100;
+              in.occluders = { placed(ball(), 40, V3d(0, 0, 50)) };
+          },
+          &CountedBake::casters },
         { "cut-outs", [](auto& in) { in.mesh = cut(in.mesh, 1); },
           [](auto& in) {
               in.mesh = cutout_scene::with_material(in.mesh,

@@ -30,15 +30,26 @@ EffectFacts everything()
     bake.cutouts.unknown = 30;
     bake.has_normal_map = true;
     bake.diagonal = 10;
-    bake.reach = 3;
+    bake.reach = bake.given_reach = 3;
     bake.margin = 16;
     bake.udim = 1002;
     bake.udim_given = bake.half = true;
     bake.poses = 24;
     bake.pose_error = 0.01;
-    facts.light = {
-        true, "sRGB to ACEScg", 90, true, 0.1, 0.9, 16, "lobe", true, false, 100, 60, 0, true, 64, true, "", 2, 0.5
-    };
+    LightFacts& light = facts.light;
+    light.converts_color = true;
+    light.color_note = "sRGB to ACEScg";
+    light.rotation_degrees = 90;
+    light.has_albedo = light.has_environment = light.wants_bounce = light.wants_suns = true;
+    light.albedo_low = 0.1;
+    light.albedo_high = 0.9;
+    light.levels = 16;
+    light.model = "lobe";
+    light.lit = 100;
+    light.shadowed = 60;
+    light.bounce_rays = 64;
+    light.suns = 2;
+    light.sun_share = 0.5;
     return facts;
 }
 
@@ -58,6 +69,7 @@ EffectFacts nothing()
     facts.light.model = "paper";
     facts.light.has_albedo = true;
     facts.light.albedo_low = facts.light.albedo_high = 1;
+    facts.light.lit = 100;
     return facts;
 }
 
@@ -78,10 +90,22 @@ std::vector<EffectDecision> decided(const char* stage, const EffectFacts& facts,
     return decisions;
 }
 
-std::string refusal(const EffectFacts& facts, const char* text)
+EffectDecision named(const char* name, const EffectFacts& facts, const char* text = "auto")
+{
+    for (const char* stage : { "vismap", "lightmap" })
+        for (const Effect& effect : all_effects())
+            if (effect.name == std::string(name) && effect.stage == std::string(stage))
+                for (const EffectDecision& decision : decided(stage, facts, text))
+                    if (decision.name == name)
+                        return decision;
+    ADD_FAILURE() << name;
+    return {};
+}
+
+std::string refusal(const EffectFacts& facts, const char* text, const char* stage = "vismap")
 {
     std::string error;
-    decide("vismap", facts, text, error);
+    decide(stage, facts, text, error);
     return error;
 }
 
@@ -128,6 +152,11 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     facts = everything();
     facts.light.albedo_low = facts.light.albedo_high = 0;
     EXPECT_EQ(bounce(facts).reason, "the albedo is 0 everywhere");
+    facts = everything();
+    facts.light.albedo_low = 1;
+    facts.light.albedo_high = 0; // not read
+    EXPECT_EQ(bounce(facts).reason, "the albedo is switched off: nothing is sent back");
+    EXPECT_FALSE(bounce(facts).called_for);
     facts = everything();
     facts.light.no_bounce = "\"vm.exr\" is only a part of a map";
     EXPECT_EQ(bounce(facts).reason, "\"vm.exr\" is only a part of a map");
@@ -181,6 +210,11 @@ TEST(EffectsDecide, WhatCannotChangeThePictureIsOff)
     EXPECT_EQ(state("lightmap", facts, "stack-levels"),
               "off: the light is of one colour: V times it, wherever texels look");
     EXPECT_EQ(state("lightmap", facts, "visibility"), "off: V is 1 in all of 100 texels: the light of the open sky");
+    facts.light.lit = 0;
+    EXPECT_EQ(state("lightmap", facts, "visibility"), "off: V is 0 everywhere");
+    facts.light.is_rest = true;
+    EXPECT_EQ(state("lightmap", facts, "filter"),
+              "off: without its suns the environment is of one colour, which no filter changes");
     facts.bake.cutouts.mixed = 0;
     facts.bake.cutouts.opaque = facts.bake.cutouts.triangles;
     EXPECT_EQ(state("vismap", facts, "cut-outs"), "off: 12 triangles, opaque wherever a texture covers them");
@@ -199,14 +233,96 @@ TEST(EffectsDecide, SwitchesOverrideOneByOne)
     };
     // self-occlusion, occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half
     EXPECT_EQ(state("auto"), "0000000000");
-    EXPECT_EQ(state("all"), "1100100000") << "what is not given cannot be forced";
+    EXPECT_EQ(state("all"), "1100000000") << "what is not given cannot be forced";
+    EXPECT_EQ(state("+normal-map"), "0000000000") << "nor is what has nothing to do";
     EXPECT_EQ(state("+occluders"), "0100000000");
-    EXPECT_EQ(state("all,-occluders"), "1000100000");
+    EXPECT_EQ(state("all,-occluders"), "1000000000");
     EXPECT_EQ(state(" auto , +self-occlusion "), "1000000000");
+}
+
+// Only where there is work to force: a flat normal map has none, whatever the switch.
+TEST(EffectsDecide, NothingIsSaidToBeForcedThatIsNot)
+{
+    EffectFacts facts = nothing();
+    facts.bake.cutouts.triangles = facts.bake.cutouts.opaque = 12;
+    facts.bake.has_ground = true;
+    facts.bake.ground_height = -5;
+    facts.bake.reach = facts.bake.given_reach = 2;
+    facts.light.wants_suns = facts.light.wants_bounce = facts.light.has_environment = facts.light.is_one_color = true;
+    size_t forced = 0;
+    for (const Effect& effect : all_effects())
+        for (const EffectDecision& decision : decided(effect.stage, facts, "all"))
+            if (decision.name == effect.name) {
+                EXPECT_EQ(decision.on, decision.called_for || (effect.can_be_forced && decision.impossible.empty()))
+                    << effect.name;
+                forced += decision.on && !decision.called_for;
+            }
+    EXPECT_EQ(forced, 6u);
+    for (const char* name : { "ground", "normal-map" })
+        EXPECT_THAT(testing::PrintToString(decision_lines(decided("vismap", facts, "all"))),
+                    testing::ContainsRegex(std::string(name) + " +off "));
+}
+
+// Where most of the bake is tracing, and a look at a texture at many hits.
+TEST(EffectsDecide, SharesAddUpToLessThanOne)
+{
+    for (const double open : { 0.0, 0.5, 1.0 })
+        for (const int64_t unknown : { 0, 300 })
+            for (const char* stage : { "vismap", "lightmap" })
+                for (const char* switches : { "auto", "all" }) {
+                    EffectFacts facts = everything();
+                    facts.bake.open_share = open;
+                    facts.bake.cutouts.unknown = unknown;
+                    double share = 0;
+                    for (const EffectDecision& decision : decided(stage, facts, switches))
+                        share += decision.share;
+                    EXPECT_LT(share, 1) << stage << " " << open;
+                    EXPECT_GT(share, 0) << stage << " " << open;
+                }
+    EffectFacts few = everything(), many = everything();
+    few.bake.cutouts.unknown = 3;
+    many.bake.cutouts.unknown = 290;
+    EXPECT_LT(named("cut-outs", few).share, named("cut-outs", many).share);
+    // What is switched off takes nothing, and the others all of the work.
+    EXPECT_EQ(named("self-occlusion", few, "-self-occlusion").share, 0);
+    EXPECT_GT(named("occluders", few, "-self-occlusion").share, named("occluders", few).share);
+}
+
+TEST(EffectsDecide, TheGroundIsWhereItIs)
+{
+    EffectFacts facts = everything();
+    facts.bake.lowest = 1;
+    const auto reason = [&](double height) {
+        facts.bake.ground_height = height;
+        return named("ground", facts).reason;
+    };
+    EXPECT_EQ(reason(1), "the plane y = 1 touches the mesh; no ray is traced for it");
+    EXPECT_EQ(reason(0.5), "the plane y = 0.5 is 0.5 below the mesh; no ray is traced for it");
+    EXPECT_EQ(reason(1.5), "the plane y = 1.5 is 0.5 above the lowest point of the mesh; no ray is traced for it");
+    EXPECT_EQ(reason(-3), "the plane y = -3 is 4 below the mesh, and rays reach 3");
+    EXPECT_FALSE(named("ground", facts).on);
+    facts.bake.reach = 9; // as if --max-distance 3 were switched off
+    EXPECT_TRUE(named("ground", facts).on);
+    EXPECT_EQ(named("max-distance", facts).reason, "rays end after 3, and the scene is 10 across");
+    facts.bake.faces_up = true;
+    EXPECT_EQ(reason(0.5), "the plane y = 0.5 is 0.5 below the mesh, and every texel faces straight up");
+    EXPECT_FALSE(named("ground", facts).called_for);
+    reason(1.5);
+    EXPECT_TRUE(named("ground", facts).called_for) << "a texel under the ground sees nothing";
+}
+
+TEST(EffectsDecide, CutOutsThatAreNotAskedForAreNotSaidToBeMissing)
+{
+    EffectFacts facts = nothing();
+    facts.bake.no_cutouts = true;
+    EXPECT_EQ(named("cut-outs", facts).reason, "cutouts is off: every material is opaque");
+    EXPECT_EQ(refusal(facts, "+cut-outs"),
+              "effects: +cut-outs is impossible: cutouts is off: every material is opaque");
 }
 
 TEST(EffectsDecide, WhatIsLeftOutThoughCalledForIsNamed)
 {
+    EXPECT_EQ(left_out(decided("vismap", everything(), "-margin")), "") << "no texel of the mesh changes";
     EXPECT_EQ(left_out(decided("vismap", everything(), "-ground,-occluders")), "occluders \"tree\", ground");
     EXPECT_EQ(left_out(decided("vismap", nothing(), "-ground,-occluders")), "");
 }
@@ -217,6 +333,10 @@ TEST(EffectsDecide, TheImpossibleIsRefused)
     EXPECT_EQ(refusal(nothing(), "+poses"),
               "effects: +poses is impossible: one pose is given: give --frames or --pose");
     EXPECT_EQ(refusal(everything(), "-udim"), "effects: -udim: cannot be left out: tile 1002 of UV space");
+    EXPECT_EQ(refusal(everything(), "-filter", "lightmap"),
+              "effects: -filter: cannot be left out: an environment is given");
+    for (const Effect& effect : all_effects())
+        EXPECT_EQ(refusal(nothing(), (std::string("-") + effect.name).c_str(), effect.stage), "") << effect.name;
     EXPECT_EQ(refusal(everything(), "+gruond"),
               "\"gruond\" is not an effect: did you mean \"ground\"?; there are self-occlusion, occluders, ground, "
               "cut-outs, normal-map, max-distance, poses, udim, margin, half");

@@ -159,7 +159,7 @@ TEST(EffectsLight, EveryModelGivesVTimesOneColour)
         ASSERT_TRUE(make_lightmap(lit, map, exact, params)) << entry.name << ": " << lit.geterror();
         EXPECT_EQ(before.since().lookups, 0) << entry.name;
         EXPECT_EQ(before.since().passes, 0) << entry.name;
-        params.skip_identities = false;
+        params.skip_one_color = false;
         ASSERT_TRUE(make_lightmap(forced, map, exact, params)) << entry.name << ": " << forced.geterror();
         EXPECT_EQ(before.since().lookups, 40 * 30) << entry.name;
         ASSERT_TRUE(make_lightmap(other, map, near, params)) << entry.name << ": " << other.geterror();
@@ -230,14 +230,14 @@ TEST(EffectsLight, AnAlbedoOfOneMultipliesNothing)
             ASSERT_TRUE(make_lightmap(with, map, light, params, &albedo)) << with.geterror();
             EXPECT_EQ(before.since().multiplied, 0) << width;
             EXPECT_EQ(std::memcmp(pixels(with), pixels(without), size_t(with.spec().image_bytes())), 0) << width;
-            params.skip_identities = false;
+            params.skip_one_albedo = false;
             ASSERT_TRUE(make_lightmap(forced, map, light, params, &albedo)) << forced.geterror();
             EXPECT_EQ(before.since().multiplied, 200) << width;
             EXPECT_EQ(std::memcmp(pixels(with), pixels(forced), size_t(with.spec().image_bytes())), 0) << width;
             // The last pixel of all.
             pixels(albedo)[width * 10 * channels - 1] = 0.5f;
             before = {};
-            params.skip_identities = true;
+            params.skip_one_albedo = true;
             ASSERT_TRUE(make_lightmap(with, map, light, params, &albedo)) << with.geterror();
             EXPECT_EQ(before.since().multiplied, 200) << width;
             EXPECT_NE(std::memcmp(pixels(with), pixels(without), size_t(with.spec().image_bytes())), 0) << width;

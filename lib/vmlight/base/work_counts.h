@@ -23,6 +23,7 @@ struct WorkCounts
     std::atomic<int64_t> tangents_made { 0 }; ///< meshes whose tangents a normal map needed
     std::atomic<int64_t> margin_texels { 0 }; ///< filled around UV islands
     std::atomic<int64_t> directions_below_ground { 0 }; ///< for which the ground saved a ray
+    std::atomic<int64_t> sun_rays { 0 }; ///< rays to suns, from texels
     std::atomic<int64_t> bounce_rays { 0 }; ///< rays that look for surfaces that light a texel
     std::atomic<int64_t> bounces_made { 0 }; ///< times that their light was summed up
 };

@@ -57,14 +57,6 @@ LightmapRecipe Animation::inputs_at(const LightmapRecipe& recipe, size_t index) 
     return frame;
 }
 
-size_t Animation::reads(const LightmapRecipe& recipe) const
-{
-    bool varies = false;
-    LightmapRecipe copy = recipe;
-    each_input(copy, [&](const char*, const std::string& name) { varies |= has_frames && is_sequence(name); });
-    return varies ? frames.size() : 1;
-}
-
 std::string Animation::path(const std::string& output, size_t index) const
 {
     return has_frames ? frame_path(output, frames[index]) : output;

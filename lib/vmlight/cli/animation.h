@@ -31,9 +31,6 @@ struct Animation
     /// "sky.0001.exr". A file whose name really has that # is none.
     LightmapRecipe inputs_at(const LightmapRecipe& recipe, size_t index) const;
 
-    /// How often inputs are read: for each frame if one of them is a sequence, else once.
-    size_t reads(const LightmapRecipe& recipe) const;
-
     /// The file of frame number frames[index].
     std::string path(const std::string& output, size_t index) const;
 

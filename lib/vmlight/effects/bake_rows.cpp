@@ -10,10 +10,11 @@
 namespace vmlight {
 namespace {
 
-// Of the time of a texel that traces its rays, the part that tracing takes.
+// What tracing takes, relative to all else that a texel does, which kStage of decide.cpp stands for.
 constexpr double kTracing = 0.85;
-// What asking at triangles that are transparent in part adds (bench/cutout_bench.cpp: half as much again as tracing).
-constexpr double kFiltering = 0.3;
+// What asking at triangles that are transparent in part adds to tracing, and what those hits add that ask the texture:
+// bench/cutout_bench.cpp.
+constexpr double kAsking = 0.3, kTexture = 0.5;
 
 // How deep rays go into so many triangles.
 double depth(int64_t triangles)
@@ -21,14 +22,19 @@ double depth(int64_t triangles)
     return std::log2(2.0 + double(triangles));
 }
 
-// The part of tracing that a mesh has among those that are traced.
-double trace_share(const BakeFacts& facts, int64_t triangles)
+double tracing(const BakeFacts& facts)
 {
-    double all = facts.self ? depth(facts.triangles) : 0;
+    return kTracing * (1 - facts.open_share);
+}
+
+// The part of tracing that a mesh has among those that rays may meet.
+double tracing(const BakeFacts& facts, int64_t triangles)
+{
+    double all = depth(facts.triangles);
     for (const CasterReach& caster : facts.occluders)
         if (caster.verdict == CasterReach::reaches)
             all += depth(caster.triangles);
-    return all > 0 ? kTracing * (1 - facts.open_share) * depth(triangles) / all : 0;
+    return tracing(facts) * depth(triangles) / all;
 }
 
 } // namespace
@@ -43,7 +49,7 @@ void decide_self_occlusion(std::vector<EffectDecision>& dst, const Effect& effec
         dst.push_back(decision(effect, true,
                                format("something rises above {} of {}; the rest, {} of the UV area, trace no ray",
                                       bake.triangles - bake.open_triangles, triangles, percent_text(bake.open_share)),
-                               trace_share(bake, bake.triangles)));
+                               tracing(bake, bake.triangles)));
     else
         dst.push_back(
             decision(effect, true,
@@ -51,7 +57,7 @@ void decide_self_occlusion(std::vector<EffectDecision>& dst, const Effect& effec
                                  : format("{}, blocked by each other or by occluders; the few that may be free are not "
                                           "worth a search",
                                           triangles),
-                     trace_share(bake, bake.triangles)));
+                     tracing(bake, bake.triangles)));
 }
 
 void decide_occluders(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
@@ -70,7 +76,7 @@ void decide_occluders(std::vector<EffectDecision>& dst, const Effect& effect, co
                      count_text(bake.triangles, "triangle", "triangles"))
             : format("{}, {:.4g} away, may rise above the horizon of a texel", what, caster.gap);
         const bool reaches = caster.verdict == CasterReach::reaches;
-        dst.push_back(decision(effect, reaches, std::move(reason), trace_share(bake, caster.triangles)));
+        dst.push_back(decision(effect, reaches, std::move(reason), tracing(bake, caster.triangles)));
         dst.back().which = caster.name;
     }
 }
@@ -84,12 +90,15 @@ void decide_ground(std::vector<EffectDecision>& dst, const Effect& effect, const
         return;
     }
     const double below = bake.lowest - bake.ground_height;
-    const bool reaches = below <= bake.reach;
-    dst.push_back(decision(effect, reaches,
-                           reaches ? format("the plane y = {:.4g}, {:.4g} below the mesh; no ray is traced for it",
-                                            bake.ground_height, below)
-                                   : format("the plane y = {:.4g} is {:.4g} below the mesh, and rays reach {:.4g}",
-                                            bake.ground_height, below, bake.reach),
+    const bool is_hidden = bake.faces_up && below >= 0, reaches = below <= bake.reach;
+    const std::string place = below > 0 ? format("is {:.4g} below the mesh", below)
+        : below < 0                     ? format("is {:.4g} above the lowest point of the mesh", -below)
+                                        : std::string("touches the mesh");
+    dst.push_back(decision(effect, reaches && !is_hidden,
+                           format("the plane y = {:.4g} {}{}", bake.ground_height, place,
+                                  is_hidden      ? ", and every texel faces straight up"
+                                      : !reaches ? format(", and rays reach {:.4g}", bake.reach)
+                                                 : "; no ray is traced for it"),
                            0.01));
 }
 
@@ -106,8 +115,10 @@ void decide_cutouts(std::vector<EffectDecision>& dst, const Effect& effect, cons
                      : format("{}: {} opaque, {} transparent, {} in part, where {} of the cells ask the texture",
                               count_text(cutouts.triangles, "triangle", "triangles"), cutouts.opaque,
                               cutouts.transparent, cutouts.mixed, percent_text(unknown)),
-                 cutouts.mixed > 0 ? kFiltering : 0));
-    if (cutouts.triangles == 0)
+                 cutouts.mixed > 0 ? tracing(facts.bake) * (kAsking + kTexture * unknown) : 0));
+    if (facts.bake.no_cutouts)
+        dst.back().impossible = dst.back().reason = "cutouts is off: every material is opaque";
+    else if (cutouts.triangles == 0)
         dst.back().impossible = "no material has an opacity below 1";
 }
 
@@ -129,14 +140,14 @@ void decide_normal_map(std::vector<EffectDecision>& dst, const Effect& effect, c
 void decide_distance(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const BakeFacts& bake = facts.bake;
-    const bool given = std::isfinite(bake.reach);
-    const bool bounds = given && (bake.reach < bake.diagonal || bake.has_ground);
+    const double reach = bake.given_reach;
+    const bool given = std::isfinite(reach);
+    const bool bounds = given && (reach < bake.diagonal || bake.has_ground);
     dst.push_back(decision(
         effect, bounds,
-        !given ? "none is given: rays end at the first thing they meet"
-            : bounds
-            ? format("rays end after {:.4g}, and the scene is {:.4g} across", bake.reach, bake.diagonal)
-            : format("rays of {:.4g} cross the whole scene, which is {:.4g} across", bake.reach, bake.diagonal)));
+        !given       ? "none is given: rays end at the first thing they meet"
+            : bounds ? format("rays end after {:.4g}, and the scene is {:.4g} across", reach, bake.diagonal)
+                     : format("rays of {:.4g} cross the whole scene, which is {:.4g} across", reach, bake.diagonal)));
     if (!given)
         dst.back().impossible = "no --max-distance is given";
 }

@@ -15,25 +15,27 @@ namespace vmlight {
 /// Of a bake. Lengths are in mesh units.
 struct BakeFacts
 {
-    int64_t triangles = 0; ///< of the baked mesh, with UVs
+    int64_t triangles = 0; ///< of the baked mesh, with UVs; where `proven`, also with an area
     int64_t open_triangles = 0; ///< of them, those that nothing rises above
     double open_share = 0; ///< of the area in UV
     bool proven = false; ///< whether every triangle was looked at
-    bool self = true; ///< whether the mesh is in the ray-tracing scene
     int64_t covered = 0, texels = 0; ///< texels that the mesh covers, of the map
 
     int64_t tests = 0; ///< what deciding took: boxes, triangles and vertices compared with a horizon
 
     std::vector<CasterReach> occluders;
     CutoutCounts cutouts;
+    bool no_cutouts = false; ///< not asked for: every material is opaque
 
     bool has_normal_map = false, has_flat_normal_map = false;
     bool has_material_normals = false; ///< it is that of the materials
 
     bool has_ground = false;
     double ground_height = 0, lowest = 0; ///< of the plane; of the mesh
+    bool faces_up = false; ///< every texel, straight: none sees what is below it
     double diagonal = 0; ///< of the box around mesh and occluders
-    double reach = std::numeric_limits<double>::infinity(); ///< length of rays
+    /// Length of rays; and as it is asked for, even if it is switched off.
+    double reach = std::numeric_limits<double>::infinity(), given_reach = reach;
     int margin = 0;
     int udim = 1001;
     bool udim_given = false, half = false;
@@ -50,11 +52,14 @@ struct LightFacts
     std::string color_note;
     double rotation_degrees = 0; ///< angle of the rotation as a whole
     bool has_albedo = false;
-    double albedo_low = 0, albedo_high = 0; ///< least and most of all pixels and channels; crossed: not read
+    /// Least and most of all colours of the albedo, black where the file has none. Crossed: not read, as it is
+    /// switched off.
+    double albedo_low = 0, albedo_high = 0;
     int levels = 0; ///< images of the light that the model reads
     std::string model;
     bool has_environment = false; ///< rather than filtered light
-    bool is_one_color = false; ///< the light, whatever it is filtered by
+    bool is_one_color = false; ///< the light, whatever it is filtered by, without its suns
+    bool is_rest = false; ///< its suns were split off it
     int64_t lit = 0, shadowed = 0; ///< texels with V above 0; of them, with V below 1
     int64_t hidden = 0; ///< pixels with V = 0: texels that see no sky, or none
     bool wants_bounce = false; ///< one is asked for

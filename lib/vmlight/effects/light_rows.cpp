@@ -6,6 +6,16 @@
 
 namespace vmlight {
 
+namespace {
+
+// Whether the albedo that is given is read.
+bool is_read(const LightFacts& light)
+{
+    return light.albedo_low <= light.albedo_high;
+}
+
+} // namespace
+
 void decide_color(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
@@ -31,9 +41,9 @@ void decide_albedo(std::vector<EffectDecision>& dst, const Effect& effect, const
     const bool is_one = light.albedo_low == 1 && light.albedo_high == 1;
     const bool called = light.has_albedo && !is_one;
     dst.push_back(decision(effect, called,
-                           !light.has_albedo                          ? std::string("none is given")
-                               : light.albedo_high < light.albedo_low ? std::string("one is given, and not read")
-                               : is_one                               ? std::string("it is 1 everywhere")
+                           !light.has_albedo     ? std::string("none is given")
+                               : !is_read(light) ? std::string("one is given, and not read")
+                               : is_one          ? std::string("it is 1 everywhere")
                                         : format("values from {:.3g} to {:.3g}", light.albedo_low, light.albedo_high),
                            0.1));
     if (!light.has_albedo)
@@ -45,26 +55,29 @@ void decide_visibility(std::vector<EffectDecision>& dst, const Effect& effect, c
     const LightFacts& light = facts.light;
     const std::string lit = count_text(light.lit, "texel", "texels");
     dst.push_back(decision(effect, light.shadowed > 0,
-                           light.shadowed > 0 ? format("V is below 1 in {} of {}", light.shadowed, lit)
-                                              : format("V is 1 in all of {}: the light of the open sky", lit)));
+                           light.lit == 0           ? std::string("V is 0 everywhere")
+                               : light.shadowed > 0 ? format("V is below 1 in {} of {}", light.shadowed, lit)
+                                                    : format("V is 1 in all of {}: the light of the open sky", lit)));
 }
 
 void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
 {
     const LightFacts& light = facts.light;
-    const bool called = light.wants_bounce && light.has_albedo && light.no_bounce.empty() && light.albedo_high > 0
-        && light.shadowed + light.hidden > 0;
+    const bool sees = light.shadowed + light.hidden > 0;
+    const bool called = light.wants_bounce && light.has_albedo && is_read(light) && light.no_bounce.empty()
+        && light.albedo_high > 0 && sees;
     dst.push_back(decision(effect, called,
                            !light.wants_bounce     ? std::string("not asked for: --bounce auto adds it")
                                : !light.has_albedo ? std::string("no albedo is given, so that nothing is sent back")
-                               : !light.no_bounce.empty()           ? light.no_bounce
-                               : light.shadowed + light.hidden == 0 ? std::string("no texel sees a surface")
-                               : !called                            ? std::string("the albedo is 0 everywhere")
+                               : !is_read(light)   ? std::string("the albedo is switched off: nothing is sent back")
+                               : !light.no_bounce.empty() ? light.no_bounce
+                               : !sees                    ? std::string("no texel sees a surface")
+                               : !called                  ? std::string("the albedo is 0 everywhere")
                                          : format("texels see surfaces that send back up to {:.3g} of "
                                                   "their light; {} rays a texel, once for all light",
                                                   light.albedo_high, light.bounce_rays),
                            light.has_environment ? 0.15 : 0.5));
-    if (!light.wants_bounce || !light.has_albedo || !light.no_bounce.empty())
+    if (!light.wants_bounce || !light.has_albedo || !is_read(light) || !light.no_bounce.empty())
         dst.back().impossible = dst.back().reason;
 }
 
@@ -91,7 +104,9 @@ void decide_filter(std::vector<EffectDecision>& dst, const Effect& effect, const
 {
     const LightFacts& light = facts.light;
     dst.push_back(decision(effect, light.has_environment && !light.is_one_color,
-                           !light.has_environment   ? "the light is filtered already"
+                           !light.has_environment ? "the light is filtered already"
+                               : light.is_one_color && light.is_rest
+                               ? "without its suns the environment is of one colour, which no filter changes"
                                : light.is_one_color ? "the environment is of one colour, which no filter changes"
                                                     : "an environment is given",
                            0.35));

@@ -9,10 +9,11 @@
 
 namespace vmlight {
 
-/// "12 %"; "under 1 %" of more than nothing.
+/// "12 %"; "< 1 %" of more than nothing.
 std::string percent_text(double share);
-/// A decision on the one of its kind; its share of the work is 0 where it is not called for.
-EffectDecision decision(const Effect& effect, bool called_for, std::string reason, double share = 0);
+/// A decision on the one of its kind. `work` is what it takes where it is on, relative to a stage:
+/// EffectDecision::share.
+EffectDecision decision(const Effect& effect, bool called_for, std::string reason, double work = 0);
 
 // Effect::decide of a bake.
 void decide_self_occlusion(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);

@@ -49,11 +49,4 @@ bool EffectSwitches::parse(EffectSwitches& dst, OIIO::string_view text, const st
     return true;
 }
 
-std::string switches_fault(OIIO::string_view text, const std::string& stage)
-{
-    EffectSwitches ignored;
-    std::string error;
-    return EffectSwitches::parse(ignored, text, stage, error) ? "" : error;
-}
-
 } // namespace vmlight

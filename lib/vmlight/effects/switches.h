@@ -20,8 +20,8 @@ enum class Switch
 class EffectSwitches
 {
 public:
-    /// False, with the reason in `error`, if a word is neither a switch nor the name of an effect of this stage (""
-    /// means any; the error suggests the closest name), or an effect is named twice.
+    /// False, with the reason in `error`, if a word is neither a switch nor the name of an effect of this stage (the
+    /// error suggests the closest name), or an effect is named twice.
     static bool parse(EffectSwitches& dst, OIIO::string_view text, const std::string& stage, std::string& error);
 
     Switch of(const std::string& effect) const
@@ -36,8 +36,5 @@ private:
     Switch m_rest = Switch::automatic;
     std::map<std::string, Switch> m_named;
 };
-
-/// What is wrong with the text as switches of this stage, or "".
-std::string switches_fault(OIIO::string_view text, const std::string& stage);
 
 } // namespace vmlight

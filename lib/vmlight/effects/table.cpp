@@ -6,26 +6,27 @@
 namespace vmlight {
 namespace {
 
-// Name, phrase, stage, can be off, decide.
+// Name, phrase, stage; can be off, can be forced, changes texels; decide.
 constexpr Effect kEffects[] = {
-    { "self-occlusion", "the mesh blocks its own rays", "vismap", true, decide_self_occlusion },
-    { "occluders", "other meshes block rays", "vismap", true, decide_occluders },
-    { "ground", "a horizontal plane blocks rays", "vismap", true, decide_ground },
-    { "cut-outs", "light passes where materials are transparent", "vismap", true, decide_cutouts },
-    { "normal-map", "texels have normals of their own", "vismap", true, decide_normal_map },
-    { "max-distance", "what is far away blocks no ray", "vismap", true, decide_distance },
-    { "poses", "the mesh deforms", "vismap", false, decide_poses },
-    { "udim", "a tile of UV space other than the first", "vismap", false, decide_udim },
-    { "margin", "texels around UV islands are filled", "vismap", true, decide_margin },
-    { "half", "16 bits per channel", "vismap", false, decide_half },
-    { "color-conversion", "inputs are brought to one colour space", "lightmap", false, decide_color },
-    { "visibility", "part of the sky is hidden", "lightmap", false, decide_visibility },
-    { "suns", "small strong lights throw shadows with edges", "lightmap", true, decide_suns },
-    { "filter", "the environment is filtered by the cosine", "lightmap", false, decide_filter },
-    { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, decide_levels },
-    { "rotation", "the light is turned", "lightmap", true, decide_rotation },
-    { "albedo", "light is multiplied by a texture", "lightmap", true, decide_albedo },
-    { "bounce", "surfaces light each other, once", "lightmap", true, decide_bounce },
+    { "self-occlusion", "the mesh blocks its own rays", "vismap", true, true, true, decide_self_occlusion },
+    { "occluders", "other meshes block rays", "vismap", true, true, true, decide_occluders },
+    { "ground", "a horizontal plane blocks rays", "vismap", true, false, true, decide_ground },
+    { "cut-outs", "light passes where materials are transparent", "vismap", true, true, true, decide_cutouts },
+    { "normal-map", "texels have normals of their own", "vismap", true, false, true, decide_normal_map },
+    { "max-distance", "what is far away blocks no ray", "vismap", true, false, true, decide_distance },
+    { "poses", "the mesh deforms", "vismap", false, false, true, decide_poses },
+    { "udim", "a tile of UV space other than the first", "vismap", false, false, true, decide_udim },
+    { "margin", "texels around UV islands are filled", "vismap", true, false, false, decide_margin },
+    { "half", "16 bits per channel", "vismap", false, false, true, decide_half },
+    { "color-conversion", "inputs are brought to one colour space", "lightmap", false, false, true, decide_color },
+    { "visibility", "part of the sky is hidden", "lightmap", false, false, true, decide_visibility },
+    { "suns", "small strong lights throw shadows with edges", "lightmap", true, false, true, decide_suns },
+    { "filter", "the environment is filtered by the cosine", "lightmap", false, true, true, decide_filter },
+    { "stack-levels", "the light is read at several widths of the filter", "lightmap", false, true, true,
+      decide_levels },
+    { "rotation", "the light is turned", "lightmap", true, false, true, decide_rotation },
+    { "albedo", "light is multiplied by a texture", "lightmap", true, true, true, decide_albedo },
+    { "bounce", "surfaces light each other, once", "lightmap", true, false, true, decide_bounce },
 };
 
 } // namespace
@@ -33,12 +34,12 @@ constexpr Effect kEffects[] = {
 std::string percent_text(double share)
 {
     const double percent = 100 * share;
-    return percent == 0 ? "0 %" : percent < 1 ? "under 1 %" : format("{:.0f} %", percent);
+    return percent == 0 ? "0 %" : percent < 1 ? "< 1 %" : format("{:.0f} %", percent);
 }
 
-EffectDecision decision(const Effect& effect, bool called_for, std::string reason, double share)
+EffectDecision decision(const Effect& effect, bool called_for, std::string reason, double work)
 {
-    return { effect.name, "", called_for, called_for, std::move(reason), called_for ? share : 0, "" };
+    return { effect.name, "", called_for, called_for, std::move(reason), work, "" };
 }
 
 OIIO::cspan<Effect> all_effects()

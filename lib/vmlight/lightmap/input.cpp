@@ -171,19 +171,43 @@ void AlbedoReader::multiply(ROI roi, float* rgb, std::vector<float>& scratch, Ba
 
 bool AlbedoReader::is_one() const
 {
-    std::vector<float> scratch;
-    BadValues ignored;
-    std::string error;
+    std::vector<float> colors;
     const auto is_one_in = [&](int first, int last, int y) {
-        const ROI own = m_image->roi(), part(first + m_dx, last + m_dx, y + m_dy, y + m_dy + 1, own.zbegin, own.zend);
-        return read(part, scratch, ignored, error)
-            && std::all_of(scratch.begin(), scratch.begin() + 3 * (last - first), [](float v) { return v == 1; });
+        return read_of_map(first, last, y, colors)
+            && std::all_of(colors.begin(), colors.end(), [](float v) { return v == 1; });
     };
     // One pixel tells of most.
     bool is_one = is_one_in(m_map.xbegin, m_map.xbegin + 1, m_map.ybegin);
     for (int y = m_map.ybegin; y < m_map.yend && is_one; ++y)
         is_one = is_one_in(m_map.xbegin, m_map.xend, y);
     return is_one;
+}
+
+bool AlbedoReader::find_range(float& low, float& high) const
+{
+    std::vector<float> colors;
+    low = FLT_MAX, high = -FLT_MAX;
+    for (int y = m_map.ybegin; y < m_map.yend; ++y) {
+        if (!read_of_map(m_map.xbegin, m_map.xend, y, colors))
+            return false;
+        for (const float value : colors) { // NaN is reported by who multiplies by it
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+    }
+    return low <= high;
+}
+
+// Colours of part of a row of the map.
+bool AlbedoReader::read_of_map(int first, int last, int y, std::vector<float>& colors) const
+{
+    BadValues ignored;
+    std::string error;
+    const ROI own = m_image->roi(), part(first + m_dx, last + m_dx, y + m_dy, y + m_dy + 1, own.zbegin, own.zend);
+    if (!read(part, colors, ignored, error))
+        return false;
+    colors.resize(3 * size_t(last - first));
+    return true;
 }
 
 std::string AlbedoReader::fault_text(const BadValues& faults) const

@@ -64,10 +64,14 @@ public:
     /// Whether every pixel is 1, so that it multiplies nothing. Reads pixels until one is not.
     bool is_one() const;
 
+    /// Set `low` and `high` to the least and the most of its colours. False if it cannot be read.
+    bool find_range(float& low, float& high) const;
+
     std::string fault_text(const BadValues& faults) const;
 
 private:
     bool read(OIIO::ROI roi, std::vector<float>& scratch, BadValues& faults, std::string& error) const;
+    bool read_of_map(int first, int last, int y, std::vector<float>& colors) const;
 
     const OIIO::ImageBuf* m_original = nullptr; // as given, for messages
     const OIIO::ImageBuf* m_image = nullptr; // the original, or the resized copy

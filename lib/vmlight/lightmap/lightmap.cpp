@@ -83,7 +83,7 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
         const auto opened = std::make_shared<AlbedoReader>();
         if (!opened->open(*albedo, vismap.roi(), nthreads, error))
             return false;
-        shader.use_albedo(opened, params.skip_identities);
+        shader.use_albedo(opened, params.skip_one_albedo);
     }
 
     ImageSpec spec = describe_lightmap(vismap.spec(), cfem[0].spec(), params, model.name);

@@ -34,9 +34,9 @@ struct LightmapParams
     std::vector<double> env_rotate;
     /// Stops, -64 to 64: the result is multiplied by 2^exposure.
     double exposure = 0;
-    /// Whether what cannot change a bit is left out: lookups in light of one colour, a product with an albedo of 1. The
-    /// same result for less. Not a parameter of the result, and so not in the metadata.
-    bool skip_identities = true;
+    /// Whether lookups in light of one colour, and products with an albedo of 1, are left out: the same result for
+    /// less. Not parameters of the result, and so not in the metadata.
+    bool skip_one_color = true, skip_one_albedo = true;
 
     template <class Visit> void visit(Visit&& field)
     {

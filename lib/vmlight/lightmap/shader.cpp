@@ -158,7 +158,7 @@ bool LightmapShader::prepare(OIIO::cspan<OIIO::ImageBuf> light, const LightmapPa
         input.setup.rotation[i] = float(rotation[i / 3][i % 3]);
     m_shader = nullptr;
     const auto color = error.empty() ? find_one_color(input.light) : std::nullopt;
-    m_looks_up = !color || !params.skip_identities;
+    m_looks_up = !color || !params.skip_one_color;
     if (error.empty() && m_looks_up)
         m_shader = model.entry->prepare(input, error);
     else if (error.empty())

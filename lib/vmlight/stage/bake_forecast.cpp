@@ -2,15 +2,16 @@
 #include <vmlight/stage/bake_forecast.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/effects/bake_facts.h>
+#include <vmlight/math/difference.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/vismap/forecast.h>
 #include <vmlight/vismap/pose_sequence.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace vmlight {
 namespace {
@@ -27,33 +28,95 @@ VismapParams without_pilot(VismapParams params)
     return params;
 }
 
-// How far V of the texels is from that of the recipe without its switches.
-bool compare(double& rms, const BakeScenePointer& scene, const VismapRecipe& recipe, const SceneOf& scene_of,
-             const MakeOptions& options, std::string& error)
+// What is baked of a recipe.
+struct Bake
 {
-    VismapRecipe whole = recipe;
-    whole.effects = "auto";
-    BakeScenePointer other;
-    if (!scene_of(other, whole, error))
-        return false;
-    const VismapRecipe both[2] { with_switches(recipe), whole };
+    VismapParams params;
+    BakeScenePointer scene;
+    NormalMapPointer normal_map;
+};
+
+bool find_bake(Bake& dst, const VismapRecipe& recipe, const SceneOf& scene_of, const MakeOptions& options,
+               std::string& error)
+{
+    const VismapRecipe switched = with_switches(recipe);
+    std::vector<std::string> ignored;
+    dst.params = switched.vismap_params;
+    return scene_of(dst.scene, recipe, error)
+        && read_normal_map(dst.normal_map, switched, { dst.scene, &dst.scene->mesh() }, options.threads, ignored,
+                           ignored, error);
+}
+
+// How far V of the texels is from that of another bake.
+bool compare(Difference& dst, const Bake& bake, const Bake& whole, const MakeOptions& options, std::string& error)
+{
     std::vector<double> seen[2];
     for (int k = 0; k < 2; ++k) {
-        const BakeScenePointer& own = k ? other : scene;
-        NormalMapPointer normal_map;
-        std::vector<std::string> ignored;
-        if (!read_normal_map(normal_map, both[k], { own, &own->mesh() }, options.threads, ignored, ignored, error))
-            return false;
-        if (!sample_visibility(seen[k], *own, normal_map.get(), without_pilot(both[k].vismap_params), kCompared,
+        const Bake& own = k ? whole : bake;
+        if (!sample_visibility(seen[k], *own.scene, own.normal_map.get(), without_pilot(own.params), kCompared,
                                options.threads, options.step("compare", 0, 0))) {
             error = "interrupted";
             return false;
         }
     }
-    double sum = 0;
     for (size_t i = 0; i < seen[0].size(); ++i)
-        sum += std::pow(seen[0][i] - seen[1][i], 2);
-    rms = seen[0].empty() ? 0 : std::sqrt(sum / double(seen[0].size()));
+        dst.add(seen[0][i], seen[1][i]);
+    return true;
+}
+
+// The facts of the recipe. Each effect is judged beside the others as they are switched, itself not switched off.
+bool find_facts(BakeFacts& dst, const Bake& bake, const VismapBaker& baker, int64_t covered, const VismapRecipe& recipe,
+                const SceneOf& scene_of, BakeScenePointer& kept, const MakeOptions& options, std::string& error)
+{
+    VismapRecipe asked = recipe;
+    asked.effects = without_words(recipe.effects, { "-self-occlusion", "-cut-outs" });
+    kept = bake.scene;
+    if (asked.effects != recipe.effects) {
+        VismapBaker other;
+        if (!scene_of(kept, asked, error)
+            || !other.prepare(kept, without_pilot(baker.params()), error, options.threads))
+            return false;
+        dst = bake_facts(*kept, other, covered);
+    } else {
+        dst = bake_facts(*bake.scene, baker, covered);
+    }
+    NormalMapPointer normal_map = bake.normal_map;
+    std::vector<std::string> ignored;
+    if (switches_of(recipe.effects, VismapRecipe::kStage).of("normal-map") == Switch::off
+        && !read_normal_map(normal_map, recipe, { kept, &kept->mesh() }, options.threads, ignored, ignored, error))
+        return false;
+    const VismapParams& given = recipe.vismap_params;
+    dst.has_ground = given.ground;
+    if (given.ground_height != VismapParams::kLowest)
+        dst.ground_height = given.ground_height;
+    dst.faces_up = dst.faces_up && !bake.normal_map;
+    dst.no_cutouts = recipe.cutout_params.cutouts == "off";
+    dst.has_normal_map = recipe.has_normal_map();
+    dst.has_flat_normal_map = recipe.has_normal_map() && !normal_map;
+    dst.has_material_normals = recipe.material_normals;
+    dst.given_reach = given.max_distance;
+    dst.margin = given.margin;
+    dst.udim_given = recipe.udim_given;
+    dst.half = options.half;
+    dst.poses = options.pose_count;
+    dst.pose_error = options.poses ? options.poses->error() : -1;
+    return true;
+}
+
+bool warn_of_missing(const std::string& missing, const Bake& bake, const VismapRecipe& recipe, const SceneOf& scene_of,
+                     const MakeOptions& options, std::string& error)
+{
+    VismapRecipe asked = recipe;
+    asked.effects = "auto";
+    Bake whole;
+    Difference off;
+    if (!find_bake(whole, asked, scene_of, options, error) || !compare(off, bake, whole, options, error))
+        return false;
+    if (off.rms() > 0)
+        options.report_warning(
+            format("effects: the scene calls for {}, left out: V is off by about {:.2g} (RMS), and so is "
+                   "light by that share of the open sky's",
+                   missing, off.rms()));
     return true;
 }
 
@@ -62,43 +125,24 @@ bool compare(double& rms, const BakeScenePointer& scene, const VismapRecipe& rec
 bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const NormalMapPointer& normal_map,
                    const VismapRecipe& recipe, const SceneOf& scene_of, const MakeOptions& options, std::string& error)
 {
-    const VismapRecipe switched = with_switches(recipe);
-    const EffectSwitches switches = switches_of(recipe.effects, VismapRecipe::kStage);
+    const Bake bake { with_switches(recipe).vismap_params, scene, normal_map };
     VismapBaker baker;
-    VismapParams params = options.dry_run ? switched.vismap_params : without_pilot(switched.vismap_params);
+    VismapParams params = options.dry_run ? bake.params : without_pilot(bake.params);
     params.skip_open = true; // a fact, whether it is made use of or not
     MapForecast map;
     if (!baker.prepare(scene, params, error, options.threads, options.step("prepare", 0, 0),
                        options.dry_run ? recipe.time_budget : 0))
         return false;
-    if (!forecast_map(map, *scene, baker, options.dry_run, switched.vismap_params.skip_open, options.threads,
+    if (!forecast_map(map, *scene, baker, options.dry_run, bake.params.skip_open, options.threads,
                       options.step("prepare", 0, 0))) {
         error = "interrupted";
         return false;
     }
     EffectFacts facts;
-    facts.bake = bake_facts(*scene, baker, map.covered);
-    facts.bake.has_ground = recipe.vismap_params.ground;
-    if (recipe.vismap_params.ground_height != VismapParams::kLowest)
-        facts.bake.ground_height = recipe.vismap_params.ground_height;
-    if (switches.of("cut-outs") == Switch::off) {
-        VismapRecipe whole = recipe;
-        whole.effects = "auto";
-        BakeScenePointer other;
-        if (!scene_of(other, whole, error))
-            return false;
-        facts.bake.cutouts = other->occluder().cutouts();
-    }
-    facts.bake.has_normal_map = recipe.has_normal_map();
-    facts.bake.has_flat_normal_map = switched.has_normal_map() && !normal_map;
-    facts.bake.has_material_normals = recipe.material_normals;
-    facts.bake.reach = recipe.vismap_params.max_distance;
-    facts.bake.margin = recipe.vismap_params.margin;
-    facts.bake.udim_given = recipe.udim_given;
-    facts.bake.half = options.half;
-    facts.bake.poses = options.pose_count;
-    facts.bake.pose_error = options.poses ? options.poses->error() : -1;
-    if (!decide_effects(dst.decisions, VismapRecipe::kStage, facts, switches, error))
+    BakeScenePointer kept; // for the comparison to share
+    if (!find_facts(facts.bake, bake, baker, map.covered, recipe, scene_of, kept, options, error)
+        || !decide_effects(dst.decisions, VismapRecipe::kStage, facts,
+                           switches_of(recipe.effects, VismapRecipe::kStage), error))
         return false;
     dst.covered = map.covered;
     dst.bake_seconds = map.seconds;
@@ -109,16 +153,8 @@ bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const Norma
             options.report(line);
     }
     const std::string missing = left_out(dst.decisions);
-    if (missing.empty() || options.repeated_inputs)
-        return true;
-    double rms = 0;
-    if (!compare(rms, scene, recipe, scene_of, options, error))
-        return false;
-    options.report_warning(
-        format("effects: the scene calls for {}, left out: V is off by about {:.2g} (RMS), and so is "
-               "light by that share of the open sky's",
-               missing, rms));
-    return true;
+    return missing.empty() || options.repeated_inputs
+        || warn_of_missing(missing, bake, recipe, scene_of, options, error);
 }
 
 void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, const TimeTaken& taken,
@@ -126,17 +162,26 @@ void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, c
 {
     const OIIO::ImageSpec spec = describe_vismap("", recipe.vismap_params);
     const double values = double(spec.image_pixels()) * spec.nchannels;
-    const double margin = recipe.vismap_params.margin != 0 ? values * kMarginSeconds : 0;
-    const double bake = recipe.time_budget > 0 && forecast.bake_seconds > recipe.time_budget ? recipe.time_budget
-                                                                                             : forecast.bake_seconds;
-    const double write = write_seconds(spec, options.threads);
+    // Poses of a sequence keep texels of each other: how many, only their bakes say.
+    const double poses = options.poses ? double(options.pose_count) : 1;
+    const double margin = poses * (recipe.vismap_params.margin != 0 ? values * kMarginSeconds : 0);
+    const double bake = poses
+        * (recipe.time_budget > 0 && forecast.bake_seconds > recipe.time_budget ? recipe.time_budget
+                                                                                : forecast.bake_seconds);
+    const double write = poses * write_seconds(spec, options.threads), read = poses * taken.read;
     // The map, and what the file's writer holds of it.
     const double bytes = expected_bytes(spec, 1.5);
-    const double start = start_seconds(taken);
-    options.report(format("expected: {:.2f} s: start {:.2f} s, read and build {:.2f} s, bake {:.2f} s, margin and file "
-                          "{:.2f} s; {:.0f} MB of memory",
-                          start + taken.read + bake + margin + write, start, taken.read, bake, margin + write,
-                          bytes / 1e6));
+    const double start = options.forecasts ? options.forecasts->start(taken) : start_seconds(taken);
+    const double seconds = start + read + bake + margin + write;
+    if (options.forecasts)
+        options.forecasts->add(seconds, bytes);
+    const std::string compared = !options.poses && options.pose_count > 1
+        ? format("; comparing {} comes on top", count_text(options.pose_count - 1, "other pose", "other poses"))
+        : "";
+    options.report(format("expected: {}{:.2f} s: start {:.2f} s, read and build {:.2f} s, bake {:.2f} s, margin and "
+                          "file {:.2f} s; {:.0f} MB of memory{}{}",
+                          poses > 1 ? "at most " : "", seconds, start, read, bake, margin + write, bytes / 1e6,
+                          poses > 1 ? format("; each of {:.0f} poses baked whole", poses) : "", compared));
 }
 
 BakeWork BakeWork::so_far(const BakeScene& scene)

@@ -16,7 +16,7 @@
 
 namespace vmlight {
 
-/// The scene of a recipe, with other switches.
+/// The ray-tracing scene of a recipe with its switches, which are not those of the bake.
 using SceneOf = std::function<bool(BakeScenePointer& dst, const VismapRecipe& recipe, std::string& error)>;
 
 struct BakeForecast

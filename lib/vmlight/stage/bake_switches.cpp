@@ -3,6 +3,10 @@
 
 #include <vmlight/effects/effect.h>
 
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+
 namespace vmlight {
 
 EffectSwitches switches_of(const std::string& effects, const char* stage)
@@ -11,6 +15,15 @@ EffectSwitches switches_of(const std::string& effects, const char* stage)
     std::string ignored;
     EffectSwitches::parse(switches, effects, stage, ignored);
     return switches;
+}
+
+std::string without_words(const std::string& effects, const std::vector<std::string>& words)
+{
+    std::vector<std::string> left;
+    for (const std::string& part : OIIO::Strutil::splits(effects, ","))
+        if (std::find(words.begin(), words.end(), std::string(OIIO::Strutil::strip(part))) == words.end())
+            left.push_back(part);
+    return left.empty() ? "auto" : OIIO::Strutil::join(left, ",");
 }
 
 VismapRecipe with_switches(const VismapRecipe& recipe)

@@ -7,11 +7,15 @@
 #include <vmlight/trace/caster_reach.h>
 
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
 /// The recipe's switches, which recipe_fault() has checked.
 EffectSwitches switches_of(const std::string& effects, const char* stage);
+
+/// `effects` without those words of `words` that are in it.
+std::string without_words(const std::string& effects, const std::vector<std::string>& words);
 
 /// What the recipe bakes: without the ground, cut-outs, the normal map, the maximum distance or the margin, if they are
 /// switched off; tracing all texels, if self-occlusion is switched on.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/forecast_costs.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 
 #include <OpenImageIO/sysutil.h>
@@ -31,6 +32,25 @@ double start_seconds(const TimeTaken& taken)
 {
     // On a machine with time to spare a process has used its processor since it was started.
     return std::max(0.0, double(std::clock()) / CLOCKS_PER_SEC - taken.processor);
+}
+
+double Forecasts::start(const TimeTaken& taken)
+{
+    const double seconds = m_started ? 0 : start_seconds(taken);
+    m_started = true;
+    return seconds;
+}
+
+void Forecasts::add(double seconds, double bytes)
+{
+    ++m_count;
+    m_seconds += seconds;
+    m_bytes = std::max(m_bytes, bytes);
+}
+
+std::string Forecasts::text() const
+{
+    return m_count > 1 ? format("expected in all: {:.2f} s; {:.0f} MB of memory", m_seconds, m_bytes / 1e6) : "";
 }
 
 double expected_bytes(const OIIO::ImageSpec& spec, double images)

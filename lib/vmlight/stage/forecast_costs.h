@@ -2,7 +2,12 @@
 /// What every stage takes besides its own work, for --dry-run.
 #pragma once
 
+#include <vmlight/base/export.h>
+
 #include <OpenImageIO/imageio.h>
+
+#include <cstdint>
+#include <string>
 
 namespace vmlight {
 
@@ -17,6 +22,23 @@ struct TimeTaken
 
 /// Seconds from the start of the process to that of a forecast that has taken so long.
 double start_seconds(const TimeTaken& taken);
+
+/// The forecasts of a run, one for each UDIM tile or material.
+class Forecasts
+{
+public:
+    /// start_seconds() of the first; 0 of those after it, before which the first ran.
+    double start(const TimeTaken& taken);
+    /// Add one that takes so long, and as many bytes while it runs.
+    void add(double seconds, double bytes);
+    /// "expected in all: ...", or "" for one.
+    VMLIGHT_API std::string text() const;
+
+private:
+    bool m_started = false;
+    int64_t m_count = 0;
+    double m_seconds = 0, m_bytes = 0;
+};
 
 /// Bytes that are held now, and as many floats of an image as `images` of it.
 double expected_bytes(const OIIO::ImageSpec& spec, double images);

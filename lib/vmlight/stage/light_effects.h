@@ -8,11 +8,17 @@
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/recipe/recipe.h>
 
+#include <OpenImageIO/imagebuf.h>
+
+#include <functional>
 #include <string>
 
 namespace vmlight {
 
-/// The recipe without what its switches of effects leave out: the albedo, the bounce, the suns or the rotation.
+/// What the recipe lights: without the albedo, the bounce, the suns or the rotation, if they are switched off; with
+/// suns and a bounce that are switched on by name, as if suns = "on" and bounce = "on" asked for them; filtering
+/// light of one colour, looking it up, or multiplying by an albedo of 1, where `filter`, `stack-levels` or `albedo` is
+/// switched on, by name or as one of all.
 VMLIGHT_API LightmapRecipe with_switches(const LightmapRecipe& recipe);
 
 /// A lightmap as the user asked for it, and as it is made: with the switches of effects applied.
@@ -21,6 +27,17 @@ struct SwitchedLight
     LightmapRecipe asked;
     LightmapParams asked_params, params; ///< of this frame
 };
+
+/// Whether a reader can follow the switches of a recipe, which recipe_fault() has checked: those that depend on its
+/// inputs.
+///
+/// @param light            what the model reads
+/// @param converts_color   whether light or result change their colour space
+/// @param read_map         reads the visibility map, if that is switched off
+/// @returns false, with the reason in `error`, if what is switched on is impossible, or what is switched off cannot be
+///          left out
+bool check_switches(const LightmapRecipe& recipe, OIIO::cspan<OIIO::ImageBuf> light, bool converts_color,
+                    const std::function<bool(OIIO::ImageBuf& map, std::string& error)>& read_map, std::string& error);
 
 /// Decide on the effects of a lightmap whose inputs, with its switches applied, are `inputs`; report the table if the
 /// options ask for it, and warn of what is left out though it would change the picture, with the difference of the

@@ -29,21 +29,26 @@ bool forecast_light(const LightmapInputs& inputs, const LightmapParams& params, 
     if (!make_lightmap(lightmap, inputs, params, options, error))
         return false;
     const double next = timer.lap();
-    const double read = taken.read * double(plan.reads), light = first + next * double(plan.frames - 1);
+    const double read = taken.read + plan.next_read * double(plan.frames - 1),
+                 light = first + next * double(plan.frames - 1);
     const double write = write_seconds(lightmap.spec(), options.threads) * kColorWrite * double(plan.frames);
-    const double start = start_seconds({ 0, taken.processor + double(std::clock() - begin) / CLOCKS_PER_SEC });
+    const TimeTaken all { 0, taken.processor + double(std::clock() - begin) / CLOCKS_PER_SEC };
+    const double start = options.forecasts ? options.forecasts->start(all) : start_seconds(all);
+    const double seconds = start + read + light + write, bytes = expected_bytes(lightmap.spec(), 0.5);
+    if (options.forecasts)
+        options.forecasts->add(seconds, bytes);
     options.report(format("expected: {:.2f} s: start {:.2f} s, read and filter {:.2f} s, light {:.2f} s, {} {:.2f} s; "
                           "{:.0f} MB of memory",
-                          start + read + light + write, start, read, light,
-                          count_text(int64_t(plan.frames), "file", "files"), write,
-                          expected_bytes(lightmap.spec(), 0.5) / 1e6));
+                          seconds, start, read, light, count_text(int64_t(plan.frames), "file", "files"), write,
+                          bytes / 1e6));
     return true;
 }
 
 LightWork LightWork::so_far()
 {
     const WorkCounts& counts = work_counts();
-    return { counts.filter_passes, counts.texels_looked_up, counts.texels_multiplied, counts.pixels_converted };
+    return { counts.filter_passes,    counts.texels_looked_up, counts.texels_multiplied,
+             counts.pixels_converted, counts.sun_rays,         counts.bounce_rays };
 }
 
 void report_taken(const LightWork& before, const MakeOptions& options)
@@ -55,6 +60,10 @@ void report_taken(const LightWork& before, const MakeOptions& options)
                count_text(now.filter_passes - before.filter_passes, "pass of a filter", "passes of filters"),
                double(now.looked_up - before.looked_up) * 1e-6, double(now.multiplied - before.multiplied) * 1e-6,
                double(now.converted - before.converted) * 1e-6));
+    if (const int64_t rays = now.sun_rays - before.sun_rays; rays > 0)
+        options.report(format("  suns: {:.3f} M rays", double(rays) * 1e-6));
+    if (const int64_t rays = now.bounce_rays - before.bounce_rays; rays > 0)
+        options.report(format("  bounce: {:.3f} M rays", double(rays) * 1e-6));
 }
 
 } // namespace vmlight

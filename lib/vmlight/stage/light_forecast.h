@@ -13,10 +13,12 @@
 
 namespace vmlight {
 
-/// How many lightmaps are made, and how often their inputs are read.
+/// How many lightmaps are made, and how many seconds it takes to read what the inputs of each but the first have of
+/// their own.
 struct LightPlan
 {
-    size_t frames = 1, reads = 1;
+    size_t frames = 1;
+    double next_read = 0;
 };
 
 /// Report the expected time and memory of lightmaps of these inputs, from the start of the process to its end; lights
@@ -27,7 +29,7 @@ VMLIGHT_API bool forecast_light(const LightmapInputs& inputs, const LightmapPara
 /// Work done since the process started.
 struct LightWork
 {
-    int64_t filter_passes = 0, looked_up = 0, multiplied = 0, converted = 0;
+    int64_t filter_passes = 0, looked_up = 0, multiplied = 0, converted = 0, sun_rays = 0, bounce_rays = 0;
 
     VMLIGHT_API static LightWork so_far();
 };

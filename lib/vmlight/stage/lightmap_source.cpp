@@ -10,6 +10,7 @@
 #include <vmlight/lightmap/model.h>
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/lightmap/vismap_check.h>
+#include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/light_effects.h>
 #include <vmlight/stage/lightmap_images.h>
@@ -33,12 +34,19 @@
 namespace vmlight {
 namespace {
 
+void tag_effects(OIIO::ImageSpec& spec, const std::string& off)
+{
+    if (!off.empty())
+        spec.attribute(metadata_name("effects"), off);
+}
+
 class LightmapSource : public PixelSource
 {
 public:
-    LightmapSource(const std::string& key, const LightmapRecipe& recipe, LightmapImages images)
+    LightmapSource(const std::string& key, const LightmapRecipe& given, LightmapImages images)
         : PixelSource(key)
-        , m_recipe(recipe)
+        , m_given(given)
+        , m_recipe(with_switches(given))
         , m_images(std::move(images))
     {
     }
@@ -72,6 +80,7 @@ public:
             m_images.bounce->tag(m_spec);
         tag_no_suns(m_spec, no_suns_text());
         m_output.tag(m_spec);
+        tag_effects(m_spec, switched_off(m_given.effects, LightmapRecipe::kStage));
         tag_udim(m_spec, m_recipe.udim);
         m_spec.tile_width = m_spec.tile_height = kTileSize;
         m_spec.tile_depth = 1;
@@ -107,7 +116,10 @@ public:
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error) override
     {
         LightmapInputs inputs;
-        if (!make_inputs(inputs, options, error))
+        if (!make_inputs(inputs, options, error)
+            || ((options.explain || m_given.effects != "auto")
+                && !explain_light(inputs, { m_given, m_given.lightmap_params, m_recipe.lightmap_params }, options,
+                                  error)))
             return false;
         const Stopwatch timer;
         dst.clear();
@@ -139,11 +151,13 @@ public:
             dst.map = map;
         }
         dst.color = (m_images.light.conversion ? m_images.light.note : std::string()) + m_output.note();
-        dst.finish
-            = [output = m_output, no_suns = no_suns_text(), threads = options.threads](OIIO::ImageBuf& lightmap) {
-                  tag_no_suns(lightmap.specmod(), no_suns);
-                  output.apply(lightmap, threads);
-              };
+        dst.finish = [output = m_output, no_suns = no_suns_text(),
+                      effects = switched_off(m_given.effects, LightmapRecipe::kStage),
+                      threads = options.threads](OIIO::ImageBuf& lightmap) {
+            tag_no_suns(lightmap.specmod(), no_suns);
+            output.apply(lightmap, threads);
+            tag_effects(lightmap.specmod(), effects);
+        };
         // Frames share the points of the mesh that rays start from.
         if (!m_images.suns) {
             dst.suns = nullptr;
@@ -186,6 +200,11 @@ private:
                 return false;
             }
         m_images.light.convert(cfem, 1);
+        const auto read_map
+            = [&](OIIO::ImageBuf& map, std::string& reason) { return read_all(map, *m_images.vismap, reason); };
+        const bool converts = m_images.light.conversion || !m_output.note().empty();
+        if (m_given.effects != "auto" && !check_switches(m_given, cfem, converts, read_map, error))
+            return false;
         TracedLight traced(m_recipe, m_images);
         if (!traced.add_suns(m_shader, error))
             return false;
@@ -195,7 +214,7 @@ private:
         }
         const AlbedoReader* albedo = m_images.albedo ? m_images.albedo->reader(error) : nullptr;
         if (albedo)
-            m_shader.use_albedo({ m_images.albedo, albedo }, m_recipe.lightmap_params.skip_identities);
+            m_shader.use_albedo({ m_images.albedo, albedo }, m_recipe.lightmap_params.skip_one_albedo);
         if (!error.empty() || !traced.add_bounce(m_shader, cfem, albedo, error))
             return false;
         m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes()) + traced.bytes();
@@ -279,7 +298,7 @@ private:
         return true;
     }
 
-    const LightmapRecipe m_recipe;
+    const LightmapRecipe m_given, m_recipe; // as written; and with its switches applied
     const LightmapImages m_images;
     ShadingModel m_model;
     std::vector<int> m_index;
@@ -293,8 +312,8 @@ private:
 std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::string& error, const RecipeChain& chain,
                                               Sharing sharing)
 {
-    const LightmapRecipe recipe = with_switches(resolve_udim(given));
-    error = recipe_fault(recipe, chain);
+    const LightmapRecipe asked = resolve_udim(given), recipe = with_switches(asked);
+    error = recipe_fault(asked, chain);
     if (!error.empty() || !check_params(recipe.lightmap_params, error) || !check_params(recipe.cfem_params, error)
         || !check_params(recipe.bounce_params, error))
         return nullptr;
@@ -305,7 +324,7 @@ std::shared_ptr<LightmapSource> open_lightmap(const LightmapRecipe& given, std::
     const bool shared = sharing == Sharing::process;
     if (PixelSourcePointer known = shared ? find_source(key) : nullptr)
         return std::dynamic_pointer_cast<LightmapSource>(known);
-    auto source = std::make_shared<LightmapSource>(key, recipe, std::move(images));
+    auto source = std::make_shared<LightmapSource>(key, asked, std::move(images));
     if (!source->describe(chain, error))
         return nullptr;
     return shared ? std::dynamic_pointer_cast<LightmapSource>(keep_source(source)) : source;

@@ -12,6 +12,7 @@
 namespace vmlight {
 
 class BakeScene;
+class Forecasts;
 class PoseSequence;
 
 /// How to make a stage: threads, and where progress and messages go.
@@ -28,6 +29,8 @@ struct MakeOptions
     std::function<void(const std::string&)> say, warn;
     /// Say which effects run and why, before the work and after it; or instead of it, with time and memory expected.
     bool explain = false, dry_run = false;
+    /// nullptr, or adds up the forecasts of a dry run.
+    Forecasts* forecasts = nullptr;
     /// Whether the image will be stored as half.
     bool half = false;
     /// nullptr, or keeps the mesh and the ray-tracing scene of the last vismap for the next call to share.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/material_image.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/file_claims.h>
@@ -92,6 +93,35 @@ bool MaterialImage::read(int first, int end, float* dst, std::string& error)
     const std::string reason = oiio::error_line(*m_in);
     error = m_memory ? format("\"{}\": a texture in it: {}", m_path, reason) : oiio::with_path(m_path, reason);
     return false;
+}
+
+bool MaterialImage::read_all(OIIO::ImageBuf& dst, const MaterialTexture& texture, int channels, std::string& error,
+                             OIIO::TypeDesc* stored)
+{
+    MaterialImage image;
+    if (!image.open(texture, error))
+        return false;
+    OIIO::ImageSpec spec = image.spec();
+    if (stored)
+        *stored = spec.format;
+    spec.nchannels = std::min(spec.nchannels, channels);
+    spec.set_format(OIIO::TypeFloat);
+    spec.channelnames.resize(size_t(spec.nchannels));
+    spec.channelformats.clear();
+    spec.alpha_channel = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
+    error = memory_shortage(spec);
+    if (!error.empty())
+        error = format("\"{}\": {}", texture.path, error);
+    else if (spec.depth > 1 || spec.width < 1 || spec.height < 1)
+        error = format("\"{}\": {}x{}x{} pixels; a texture is flat", texture.path, spec.width, spec.height, spec.depth);
+    if (!error.empty())
+        return false;
+    dst.reset(spec, OIIO::InitializePixels::No);
+    if (!dst.localpixels()) {
+        error = format("\"{}\": out of memory for {}x{} pixels", texture.path, spec.width, spec.height);
+        return false;
+    }
+    return image.read(0, spec.nchannels, static_cast<float*>(dst.localpixels()), error);
 }
 
 } // namespace vmlight

@@ -5,6 +5,7 @@
 #include <vmlight/mesh/material.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 
 #include <memory>
@@ -25,6 +26,12 @@ public:
     /// Read channels first ... end - 1 of all pixels, interleaved, as float. False, with the reason and the path in
     /// `error`, if pixels cannot be read.
     bool read(int first, int end, float* dst, std::string& error);
+
+    /// Read all of an image, its first channels up to `channels`, as float, in memory; `stored` is nullptr, or set to
+    /// the format in the file. False, with the reason in `error`, as open(), or if it is no flat image, or memory is
+    /// short.
+    static bool read_all(OIIO::ImageBuf& dst, const MaterialTexture& texture, int channels, std::string& error,
+                         OIIO::TypeDesc* stored = nullptr);
 
 private:
     bool open_embedded(const MaterialTexture& texture, std::string& error);

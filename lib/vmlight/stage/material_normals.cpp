@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/material_normals.h>
 
-#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/selection.h>
@@ -57,22 +56,8 @@ bool read_texture(OIIO::ImageBuf& dst, const MaterialTexture& texture, std::vect
     std::string ignored; // open() says it better
     if (files && !texture.path.empty() && stamp_file(file.stamp, file.path, ignored))
         files->push_back(std::move(file));
-    MaterialImage image;
-    if (!image.open(texture, error))
-        return false;
-    OIIO::ImageSpec spec = image.spec();
-    spec.nchannels = std::min(spec.nchannels, 3);
-    spec.set_format(OIIO::TypeFloat);
-    spec.channelnames.resize(size_t(spec.nchannels));
-    spec.channelformats.clear();
-    spec.alpha_channel = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
-    error = memory_shortage(spec);
-    if (error.empty() && (spec.depth > 1 || spec.width < 1 || spec.height < 1))
-        error = format("\"{}\": {}x{}x{} pixels; a texture is flat", texture.path, spec.width, spec.height, spec.depth);
-    if (!error.empty())
-        return false;
-    dst.reset(spec, OIIO::InitializePixels::No);
-    return image.read(0, spec.nchannels, static_cast<float*>(dst.localpixels()), error);
+    constexpr int kColors = 3;
+    return MaterialImage::read_all(dst, texture, kColors, error);
 }
 
 } // namespace

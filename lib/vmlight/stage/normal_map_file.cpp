@@ -40,6 +40,8 @@ bool read_normal_map(NormalMapPointer& dst, const VismapRecipe& recipe, std::sha
     }
     for (const std::string& doubt : doubts)
         warnings.push_back(format("\"{}\": {}", path, doubt));
+    if (map->points_inwards())
+        warnings.back() += "; if it is in object space, set normal_map_space to object";
     notes.push_back(format("normal map: {}x{}, {}", image.spec().width, image.spec().height,
                            map->is_flat() ? "flat, so that it changes nothing: left out"
                                           : "in " + recipe.normal_map_params.normal_map_space + " space"));

@@ -147,7 +147,7 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     return true;
 }
 
-// The rest of the mesh is one more occluder. The others are read again: `whole` has not kept them.
+// The rest of the mesh goes before the occluders. The others are read again: `whole` has not kept them.
 bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<const Mesh> part, Mesh rest,
                       const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads, const StepListener& at_step,
                       std::string& at, std::string& error)
@@ -161,7 +161,9 @@ bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<co
     at = key_of(0);
     dst.files = whole.files;
     ++work_counts().scenes_built;
-    if (!dst.build(std::move(part), occluders, nthreads, error, scene_choice(recipe), at_step))
+    SceneChoice choice = scene_choice(recipe);
+    choice.own_parts = 1;
+    if (!dst.build(std::move(part), occluders, nthreads, error, choice, at_step))
         return false;
     dst.set_lowest(whole.lowest());
     return true;

@@ -2,12 +2,14 @@
 #include <vmlight/stage/sun_choice.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/stage/lightmap_images.h>
 #include <vmlight/stage/stored_suns.h>
 #include <vmlight/stage/sun_source.h>
 
 #include <algorithm>
+#include <array>
 
 namespace vmlight {
 
@@ -57,17 +59,21 @@ bool suns_of_light(std::vector<Sun>& dst, const LightmapRecipe& recipe, std::str
 
 double sun_share(const std::vector<Sun>& suns, const OIIO::ImageBuf& light, bool is_rest)
 {
+    std::array<int, 3> index;
+    std::string ignored;
+    const OIIO::ImageSpec& spec = light.spec();
+    if (suns.empty() || !light.localpixels() || !find_color_channels(spec, index, ignored))
+        return 0;
     // Irradiance / pi on a surface that faces a sun; that of a sphere of light is its mean radiance over it.
     double narrow = 0;
     for (const Sun& sun : suns)
         narrow += (sun.color[0] + sun.color[1] + sun.color[2]) / 4;
     double all = is_rest ? narrow : 0;
-    const OIIO::ImageSpec& spec = light.spec();
     const auto* pixel = static_cast<const float*>(light.localpixels());
     for (int y = 0; y < spec.height; ++y) {
         double row = 0;
         for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels)
-            row += double(pixel[0]) + double(pixel[1]) + double(pixel[2]);
+            row += double(pixel[index[0]]) + double(pixel[index[1]]) + double(pixel[index[2]]);
         all += row * latlong::row_solid_angle(y, spec.height) / (4 * latlong::pi * spec.width);
     }
     return all > 0 ? std::min(1.0, narrow / all) : 0;

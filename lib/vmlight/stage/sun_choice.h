@@ -24,7 +24,7 @@ std::string why_no_suns(const LightmapRecipe& recipe, const OIIO::ImageSpec& vis
 /// False, with the reason in `error`, if an input cannot be read.
 bool suns_of_light(std::vector<Sun>& dst, const LightmapRecipe& recipe, std::string& error, const RecipeChain& chain);
 
-/// The share of `suns` in all light, 0 to 1.
+/// The share of `suns` in all light, 0 to 1; 0 without suns.
 ///
 /// @param light    a CFEM, or the environment: float, in memory
 /// @param is_rest  whether the suns are no longer in it

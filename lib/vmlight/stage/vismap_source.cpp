@@ -199,10 +199,11 @@ private:
                           const MakeOptions& options, std::string& error) const
     {
         const SceneOf scene_of = [&](BakeScenePointer& other, const VismapRecipe& recipe, std::string& reason) {
+            const VismapRecipe switched = with_switches(recipe);
             SceneStamps stamps;
             std::string at;
-            return stamp_scene(stamps, recipe, at, reason)
-                && share_scene(other, recipe, stamps, options.threads, nullptr, at, reason);
+            return stamp_scene(stamps, switched, at, reason)
+                && share_scene(other, switched, stamps, options.threads, nullptr, at, reason);
         };
         if (forecast_bake(dst, scene, normal_map, m_given, scene_of, options, error))
             return true;
@@ -215,8 +216,12 @@ private:
         std::string at;
         NormalMapPointer normal_map;
         std::vector<std::string> ignored;
+        MakeOptions quiet;
+        quiet.repeated_inputs = true; // whoever asks for tiles is not told what is left out, so nothing is compared
+        BakeForecast decided;
         if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
             || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error, &m_textures)
+            || (m_given.effects != "auto" && !forecast_effects(decided, m_scene, normal_map, quiet, error))
             || !m_baker.prepare(m_scene, m_recipe.vismap_params, error, 0, {}, 0, normal_map))
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);

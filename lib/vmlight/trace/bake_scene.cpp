@@ -126,7 +126,7 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
-        const bool is_traced = m_reach.back().is_traced(m_choice);
+        const bool is_traced = m_reach.back().is_traced(m_choice, m_reach.size() - 1);
         casters.push_back(is_traced ? &occluder : nullptr);
         if (is_traced)
             m_casters.push_back(int(m_reach.size()) - 1);
@@ -160,11 +160,14 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
     return true;
 }
 
-bool BakeScene::leaves_out() const
+const CasterReach* BakeScene::culled_occluder() const
 {
-    return m_choice.occluders && std::any_of(m_reach.begin(), m_reach.end(), [&](const CasterReach& caster) {
-               return !caster.is_traced(m_choice);
-           });
+    SceneChoice whole = m_choice;
+    whole.cull = false;
+    for (size_t i = 0; i < m_reach.size(); ++i)
+        if (m_reach[i].is_traced(whole, i) && !m_reach[i].is_traced(m_choice, i))
+            return &m_reach[i];
+    return nullptr;
 }
 
 size_t BakeScene::bytes() const

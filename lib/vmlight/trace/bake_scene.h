@@ -56,11 +56,11 @@ public:
     double rounding() const { return m_rounding; }
     /// Mesh::warnings of the mesh and its occluders, after their paths.
     const std::vector<std::string>& warnings() const { return m_warnings; }
-    /// What is traced of the meshes given, and each occluder with the reason.
+    /// What is traced of the meshes given, and each occluder with the reason; SceneChoice::own_parts are among them.
     const SceneChoice& choice() const { return m_choice; }
     const std::vector<CasterReach>& reach() const { return m_reach; }
-    /// Whether occluders are left out because no ray of a texel can meet them. They may shade what texels see.
-    bool leaves_out() const;
+    /// An occluder that is left out because no ray of a texel can meet it, or nullptr. It may shade what texels see.
+    const CasterReach* culled_occluder() const;
     /// Of the box around the mesh and its occluders, in mesh units.
     double diagonal() const { return m_diagonal; }
     /// Least y of the whole mesh, in mesh units.

@@ -5,6 +5,7 @@
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/occluder.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -19,6 +20,8 @@ struct SceneChoice
     bool self = true, occluders = true;
     /// Leave out occluders that no ray can meet: the same visibility without them. False builds them nevertheless.
     bool cull = true;
+    /// So many of the first occluders are the rest of the mesh that the baked one is a part of: they go by `self`.
+    size_t own_parts = 0;
     /// How triangles are asked that are transparent in part: the same visibility either way.
     CutoutMode cutouts = CutoutMode::micromaps;
     /// Length of rays, in mesh units.
@@ -49,8 +52,11 @@ struct CasterReach
     /// Boxes and vertices that a horizon was compared with.
     int64_t tests = 0;
 
-    /// Whether it is in the scene.
-    bool is_traced(const SceneChoice& choice) const { return choice.occluders && (verdict == reaches || !choice.cull); }
+    /// Whether it is in the scene, as occluder number `index`.
+    bool is_traced(const SceneChoice& choice, size_t index) const
+    {
+        return (index < choice.own_parts ? choice.self : choice.occluders) && (verdict == reaches || !choice.cull);
+    }
 };
 
 /// Judge one occluder, conservatively: what it says to be out of reach, no ray of a texel of `mesh` can meet. Looks at

@@ -263,12 +263,11 @@ bool LightTransport::prepare(BakeScenePointer scene, const VismapParams& map, OI
                        map.size().height);
         return false;
     }
-    for (const CasterReach& caster : scene->reach())
-        if (scene->choice().occluders && !caster.is_traced(scene->choice())) {
-            error = format("\"{}\" is not in the scene, and may shade what sends light; build it without culling",
-                           caster.name);
-            return false;
-        }
+    if (const CasterReach* culled = scene->culled_occluder()) {
+        error = format("\"{}\" is not in the scene, and may shade what sends light; build it without culling",
+                       culled->name);
+        return false;
+    }
     // Normals and patches of texels, their light, and what they get; then what is kept of rays, at most.
     const double needed = double(texels) * (16 + 4 + 4 + 12 + 12);
     const double available = std::min(double(available_memory()), double(params.memory));

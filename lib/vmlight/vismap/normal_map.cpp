@@ -104,10 +104,10 @@ bool NormalMap::decode(const ImageBuf& image, const NormalMapParams& params, Siz
     m_normals.assign(first, first + directions.spec().image_pixels());
     settle();
     const auto below = std::count_if(m_normals.begin(), m_normals.end(), [](const V3f& n) { return n.z < 0; });
-    if (!m_is_object_space && double(below) > kWarned * double(m_normals.size()))
-        warnings.push_back(format("{:.1f} % of its normals point into the surface; if it is in object space, set "
-                                  "normal_map_space to object",
-                                  100 * double(below) / double(m_normals.size())));
+    m_points_inwards = !m_is_object_space && double(below) > kWarned * double(m_normals.size());
+    if (m_points_inwards)
+        warnings.push_back(
+            format("{:.1f} % of its normals point into the surface", 100 * double(below) / double(m_normals.size())));
     return true;
 }
 

@@ -37,6 +37,9 @@ public:
     /// Whether it leaves every normal as it is: a tangent map whose pixels are all within one step of 8 bits of
     /// straight up, in which programs differ.
     bool is_flat() const { return m_is_flat; }
+    /// Whether more of a tangent map than a few pixels points into the surface, the last of the warnings: maybe it is
+    /// in object space.
+    bool points_inwards() const { return m_points_inwards; }
     /// Whether its normals stay as they are when the surface turns.
     bool is_object_space() const { return m_is_object_space; }
 
@@ -64,7 +67,7 @@ public:
     void apply(SurfacePoint& point, uint32_t triangle, float weight1, float weight2, int x, int y) const;
 
 private:
-    bool m_is_flat = true, m_is_object_space = false;
+    bool m_is_flat = true, m_is_object_space = false, m_points_inwards = false;
     int m_width = 0;
     std::vector<Imath::V3f> m_normals;
     std::shared_ptr<const Mesh> m_mesh;

@@ -110,10 +110,12 @@ void OpenTriangles::find(const BakeScene& scene, double reach, double rays)
             const double own = uv_area(mesh, mesh.triangles[t]);
             if (own == 0)
                 continue;
+            const Facet facet(scene, t);
+            if (!facet.has_area()) // no texel
+                continue;
             area += own;
             ++m_report.triangles;
-            const Facet facet(scene, t);
-            if (!facet.has_area() || is_covered(tree, known, facet.horizon(), facet.box, reach))
+            if (is_covered(tree, known, facet.horizon(), facet.box, reach))
                 continue;
             m_open[t] = 1;
             ++m_report.open;

@@ -14,7 +14,7 @@ namespace vmlight {
 /// What was proven, and what that took.
 struct OpenReport
 {
-    int64_t triangles = 0; ///< of the baked mesh, with UVs
+    int64_t triangles = 0; ///< of the baked mesh, with UVs and an area
     int64_t open = 0; ///< of them, proven
     double open_share = 0; ///< of the area in UV
     bool searched = false; ///< whether every triangle was looked at; the counts are 0 otherwise

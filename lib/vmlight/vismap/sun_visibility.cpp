@@ -2,6 +2,7 @@
 #include <vmlight/vismap/sun_visibility.h>
 
 #include <vmlight/base/parallel.h>
+#include <vmlight/base/work_counts.h>
 #include <vmlight/vismap/disc_look.h>
 #include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/penumbra.h>
@@ -113,6 +114,7 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
         return false;
     m_rays = std::accumulate(workers.begin(), workers.end(), int64_t(0),
                              [](int64_t sum, const Worker& worker) { return sum + worker.rays; });
+    work_counts().sun_rays += m_rays;
     if (m_rays > 0)
         map.margin().fill(dst.data(), int(count));
     return true;

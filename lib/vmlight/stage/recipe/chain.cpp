@@ -2,8 +2,8 @@
 #include <vmlight/stage/recipe/chain.h>
 
 #include <vmlight/base/format.h>
-#include <vmlight/effects/switches.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/stage/recipe/udim.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string missing(const std::string& what, const RecipeChain& chain)
 
 template <class Recipe> std::string effects_fault(const Recipe& recipe, const RecipeChain& chain)
 {
-    const std::string fault = switches_fault(recipe.effects, Recipe::kStage);
+    const std::string fault = switched_fault(recipe);
     return fault.empty() ? "" : with_location(recipe, "effects", chain, (chain.empty() ? "effects: " : "") + fault);
 }
 

@@ -24,7 +24,8 @@ std::string with_location(const Recipe& recipe, const std::string& key, const Re
                           const std::string& reason);
 
 /// Why `recipe` cannot be made, with its location, or "": a missing input, two inputs that exclude each other, an
-/// invalid rotation or more than one. Not checked: that the inputs exist, and the ranges of parameters.
+/// invalid rotation or more than one, switches of effects that the recipe does not allow. Not checked: that the inputs
+/// exist and allow the switches, and the ranges of parameters.
 #define VMLIGHT_DECLARE(Recipe) std::string recipe_fault(const Recipe& recipe, const RecipeChain& chain);
 VMLIGHT_RECIPES(VMLIGHT_DECLARE)
 #undef VMLIGHT_DECLARE

@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/mesh/import/importer.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/strutil.h>
@@ -59,11 +60,10 @@ std::string unused_reason(const LightmapRecipe& recipe, const std::string& key)
         return "only the filter sh uses it";
     if ((key == "albedo_colorspace" || key == "albedo_layer") && recipe.albedo.empty())
         return "no albedo is given";
-    if ((key == "bounce_rays" || key == "bounce_albedo" || key == "ground_albedo")
-        && recipe.bounce_params.bounce == "off")
+    if ((key == "bounce_rays" || key == "bounce_albedo" || key == "ground_albedo") && !wants_bounce(recipe))
         return "no bounced light is asked for: set --bounce auto";
     if (key == "mesh" || key == "occluder") {
-        if (recipe.suns == "off" && recipe.bounce_params.bounce == "off")
+        if (!wants_suns(recipe) && !wants_bounce(recipe))
             return "only suns and bounced light are traced: set --suns auto or --bounce auto";
         if (recipe_stage(recipe.vismap) == VismapRecipe::kStage)
             return "the recipe of the visibility map names its meshes";
