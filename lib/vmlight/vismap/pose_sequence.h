@@ -27,7 +27,7 @@ struct PoseReport
 
 /// Bakes pose after pose of one map: the same size, UDIM tile and parameters for all. The first is baked whole, and is
 /// the base of those after it: each is compared with the base, never with the pose before, so that no error adds up. A
-/// pose that keeps less than half of its texels is baked whole and is the next base.
+/// pose is baked whole, and is the next base, if nothing is known of more than half of the texels that trace rays.
 ///
 /// Of a texel that is kept V stays, and B and the bands of `sh` turn with it. `mask`, `cells` and suns cannot be
 /// turned: with these only texels are kept that do not turn, and with suns only what is proven.
