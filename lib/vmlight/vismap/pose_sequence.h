@@ -56,7 +56,14 @@ public:
 
 private:
     bool bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report);
-    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts);
+    struct BaseRays
+    {
+        RayBits bits;
+        int samples = 0;
+    };
+    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts,
+                   BaseRays& rays);
+    void take_rays(BaseRays& rays);
 
     double m_error;
     PosedMap m_base;
