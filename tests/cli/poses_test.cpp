@@ -129,10 +129,9 @@ TEST_F(Poses, ExplainCountsThem)
 TEST_F(Poses, AFrameOfAnotherMeshIsBakedWhole)
 {
     write("lid.0002.obj", lidded(0) + "f 1/1 2/2 3/3\n");
-    EXPECT_THAT(
-        done(std::string("makevismap lid.####.obj --frames 1-2 -o vm.####.exr") + kFlags),
-        HasSubstr("frame 2: pose: baked whole, as the base of those after it: \"lid.0002.obj\" has 14 triangles, "
-                  "and \"lid.0001.obj\" has 13: poses have the same triangles"));
+    EXPECT_THAT(done(std::string("makevismap lid.####.obj --frames 1-2 -o vm.####.exr") + kFlags),
+                HasSubstr("frame 2: pose: \"lid.0002.obj\" has 14 triangles, "
+                          "and \"lid.0001.obj\" has 13: poses have the same triangles"));
     done(std::string("makevismap lid.0002.obj -o alone.exr") + kFlags);
     EXPECT_EQ(read("vm.0002.exr"), read("alone.exr"));
     refused(1, "\"lid.0002.obj\" has 14 triangles, and \"lid.0001.obj\" has 13",

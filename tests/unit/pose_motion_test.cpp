@@ -4,6 +4,7 @@
 
 #include <vmlight/mesh/same_triangles.h>
 #include <vmlight/trace/pose_motion.h>
+#include <vmlight/vismap/pose_proof.h>
 
 #include <gmock/gmock.h>
 
@@ -89,6 +90,34 @@ TEST(PoseMotion, OccludersAreBodiesToo)
     EXPECT_EQ(motion.body(uint32_t(mesh.triangles.size() - 1)), 0u);
     const BakeScenePointer none = scene_of(mesh);
     EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("1 meshes can be met by rays, and 2 in the other pose"));
+}
+
+TEST(PoseMotion, AWidePlaneThatRisesDoesNotStandStill)
+{
+    const auto water = [](double height) {
+        Mesh mesh;
+        add_quad(mesh, V3d(-5e3, height, 5e3), V3d(5e3, height, 5e3), V3d(5e3, height, -5e3), V3d(-5e3, height, -5e3),
+                 V2f(0, 0), V2f(1, 1));
+        return mesh;
+    };
+    const Mesh mesh = placed(icosphere(1), 1);
+    const BakeScenePointer base = scene_of(mesh, { water(-0.5) }), pose = scene_of(mesh, { water(-0.499) });
+    const PoseMotion motion(*base, *pose), none(*base, *base);
+    ASSERT_EQ(motion.fault(), "");
+    ASSERT_EQ(motion.body_of_traced(0), 0u); // the ball
+    EXPECT_NE(motion.body_of_traced(mesh.triangles.size()), 0u);
+    EXPECT_EQ(none.body_of_traced(mesh.triangles.size()), 0u);
+}
+
+TEST(PoseMotion, AFacetThatMovedALittleIsNotStill)
+{
+    Mesh mesh = door(0), other = mesh;
+    const uint32_t corner = mesh.triangles[20][0];
+    other.positions[corner].y += 1e-6;
+    const BakeScenePointer base = scene_of(mesh), pose = scene_of(other);
+    const std::vector<uint8_t> still = find_still(PoseMotion(*base, *pose), VismapParams());
+    EXPECT_EQ(still[20], 0);
+    EXPECT_EQ(still.back(), 1);
 }
 
 TEST(PoseMotion, OtherTrianglesOrTextureCoordinatesAreNoPose)

@@ -251,3 +251,21 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
     EXPECT_GT(proven, 2);
     RecordProperty("rays", std::to_string(rays / plain));
 }
+
+TEST(PoseSequence, AnInterruptedBaseLeavesTheLastOne)
+{
+    const VismapParams params = pose_params(64, 32);
+    const BakeScenePointer before = scene_of(door(0)), after = scene_of(door(35));
+    PoseSequence sequence(0);
+    OIIO::ImageBuf map, whole;
+    ASSERT_TRUE(sequence.bake(map, { before, params, 1, {}, 0, nullptr }, "a", nullptr));
+    const Progress stop = [](double done) { return done < 0.3; };
+    OIIO::ImageBuf stopped;
+    ASSERT_FALSE(sequence.bake(stopped, { scene_of(skin(0)), params, 1, stop, 0, nullptr }, "b", nullptr));
+    ASSERT_TRUE(sequence.bake(map, { after, params, 1, {}, 0, nullptr }, "c", nullptr));
+    EXPECT_EQ(sequence.last().base, "a");
+    ASSERT_TRUE(make_vismap(whole, after, params, nullptr, 1, {}, 0, nullptr)) << whole.geterror();
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            ASSERT_EQ(map.getchannel(x, y, 0, 0), whole.getchannel(x, y, 0, 0)) << x << " " << y;
+}

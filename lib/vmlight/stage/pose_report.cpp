@@ -89,7 +89,7 @@ void report_pose(const PoseReport& pose, const MakeOptions& options)
 {
     if (pose.base.empty()) {
         if (!pose.why.empty())
-            options.report(format("pose: baked whole, as the base of those after it: {}", pose.why));
+            options.report(format("pose: {}: baked whole; later poses are compared with it", pose.why));
         return;
     }
     const std::string traced = format("{:.1f} % of the texels are traced again, the others are kept from {}",

@@ -18,6 +18,8 @@ namespace {
 
 // Nearer than this in both poses is the same place: rays do not tell such triangles apart.
 constexpr double kSamePlace = kTinyTriangle;
+// Four roundings of a coordinate to a float.
+constexpr double kFloatRounding = 1.0 / (1 << 22);
 // Seeds that are tried for a body, and triangles that are asked whether they belong to it.
 constexpr uint32_t kTries = 32;
 constexpr size_t kAsked = 1024;
@@ -73,7 +75,7 @@ PoseMotion::PoseMotion(const BakeScene& base, const BakeScene& pose)
             m_fault = format("mesh {} has {} triangles that rays can meet, and {} in the other pose", i, after[i].count,
                              before[i].count);
     if (m_before.baked() != m_after.baked())
-        m_fault = "the baked mesh has another number of triangles";
+        m_fault = "the baked mesh has a different number of triangles";
     if (!m_fault.empty())
         return;
     m_tolerance = std::max(kSamePlace, 4 * (base.rounding() + pose.rounding()));
@@ -96,6 +98,18 @@ bool PoseMotion::fits(size_t triangle, const RigidMotion& motion, double slack) 
     std::array<V3d, 3> before, after;
     m_before.corners(triangle, before.data());
     m_after.corners(triangle, after.data());
+    // Without a turn each coordinate is rounded on its own: a wide plane may pass close by, however far its corners
+    // are.
+    if (is_straight(motion.turn)) {
+        for (size_t k = 0; k < 3; ++k)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double far = std::max(std::abs(before[k][axis]), std::abs(after[k][axis]));
+                const double off = std::abs(before[k][axis] + motion.shift[axis] - after[k][axis]);
+                if (!(off <= slack * (m_tolerance + kFloatRounding * far)))
+                    return false;
+            }
+        return true;
+    }
     for (size_t k = 0; k < 3; ++k) {
         const double far = std::max(1.0, std::max(before[k].length(), after[k].length()) / 2);
         if (!((motion(before[k]) - after[k]).length() <= m_tolerance * slack * far))

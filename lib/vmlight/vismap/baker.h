@@ -108,8 +108,8 @@ public:
     ///
     /// @param texels   the tile's first texel, of channels() floats; rows are `pitch` floats apart. Texels that no
     ///                 triangle covers are not written: there is no margin yet
-    /// @param only     nullptr, or the texels to bake: the others are neither traced nor written, nor counted as dark
-    ///                 or open
+    /// @param hints    nullptr, or more about the tile. Texels not in its `only` are neither traced nor written, nor
+    ///                 counted as dark or open
     BakeCounts bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered,
                          const BakeHints* hints = nullptr) const;
 

@@ -120,7 +120,8 @@ std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& pa
     for (uint32_t t = 0; t < still.size(); ++t) {
         bool same = motion.body(t) == 0;
         for (size_t k = 0; k < 3 && same; ++k) // exactly: directions of rays are made of them
-            same = before.normals[before.triangles[t][k]] == after.normals[after.triangles[t][k]];
+            same = before.normals[before.triangles[t][k]] == after.normals[after.triangles[t][k]]
+                && before.positions[before.triangles[t][k]] == after.positions[after.triangles[t][k]];
         still[t] = same;
     }
     return still;

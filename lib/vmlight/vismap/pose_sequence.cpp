@@ -150,11 +150,13 @@ PosePlan::MayKeep may_keep(const PosePair& poses)
 
 bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
 {
+    BaseRays rays;
     const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
-        return bake_base(baker, job, pixels, coverage, counts);
+        return bake_base(baker, job, pixels, coverage, counts, rays);
     };
     if (!make_map(dst, job, bake, report))
         return false;
+    take_rays(rays);
     m_base = { job.scene, job.normal_map };
     m_base_name = name;
     m_map = dst;
@@ -162,17 +164,23 @@ bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std:
 }
 
 bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage,
-                             BakeCounts& counts)
+                             BakeCounts& counts, BaseRays& rays)
 {
-    m_samples = baker.params().samples;
-    m_rays = {};
-    if (double(baker.width()) * baker.height() * m_samples / kPacketSize <= kMostKnown)
-        m_rays = RayBits(baker.width(), baker.height(), m_samples);
+    rays = { {}, baker.params().samples };
+    if (double(baker.width()) * baker.height() * rays.samples / kPacketSize <= kMostKnown)
+        rays.bits = RayBits(baker.width(), baker.height(), rays.samples);
     BakeHints hints;
-    hints.record = m_rays.empty() ? nullptr : &m_rays;
+    hints.record = rays.bits.empty() ? nullptr : &rays.bits;
     const bool done = baker.bake_all(pixels, coverage, counts, job.nthreads, job.progress, &hints);
     m_last.covered = counts.covered;
     return done;
+}
+
+// Only after the bake: the rays of a base that was interrupted are not those of m_map.
+void PoseSequence::take_rays(BaseRays& rays)
+{
+    m_rays = std::move(rays.bits);
+    m_samples = rays.samples;
 }
 
 bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
@@ -197,6 +205,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     if (!m_last.why.empty())
         return bake_whole(dst, next, name, report);
 
+    BaseRays rays;
     const PosedMap pose { job.scene, job.normal_map };
     // A map does not know of less than a ray. A sun may be in few rays.
     const double error
@@ -222,7 +231,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         if (double(plan.unknown()) > kMostUnknown * double(plan.tracing())) {
             m_last.kept = 0;
             m_last.why = "most of it changes";
-            return bake_base(baker, next, pixels, coverage, counts);
+            return bake_base(baker, next, pixels, coverage, counts, rays);
         }
         return bake_changed(m_map, poses, plan, job, pixels, coverage, counts);
     };
@@ -232,6 +241,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     if (const OIIO::ParamValue* target = m_map.spec().find_attribute("vmlight:target_error"))
         spec.extra_attribs.add_or_replace(*target);
     if (!m_last.why.empty()) {
+        take_rays(rays);
         m_base = pose;
         m_base_name = name;
         m_map = dst;

@@ -27,7 +27,7 @@ struct PoseReport
 
 /// Bakes pose after pose of one map: the same size, UDIM tile and parameters for all. The first is baked whole, and is
 /// the base of those after it: each is compared with the base, never with the pose before, so that no error adds up. A
-/// pose that keeps less than half of its texels is baked whole and is the next base.
+/// pose is baked whole, and is the next base, if nothing is known of more than half of the texels that trace rays.
 ///
 /// Of a texel that is kept V stays, and B and the bands of `sh` turn with it. `mask`, `cells` and suns cannot be
 /// turned: with these only texels are kept that do not turn, and with suns only what is proven.
@@ -56,7 +56,14 @@ public:
 
 private:
     bool bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report);
-    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts);
+    struct BaseRays
+    {
+        RayBits bits;
+        int samples = 0;
+    };
+    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts,
+                   BaseRays& rays);
+    void take_rays(BaseRays& rays);
 
     double m_error;
     PosedMap m_base;
