@@ -9,6 +9,7 @@
 #include <vmlight/uv/tile_progress.h>
 #include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/pose_proof.h>
+#include <vmlight/vismap/texel_spacing.h>
 #include <vmlight/vismap/turned_texels.h>
 
 #include <algorithm>
@@ -36,12 +37,20 @@ std::string area_fault(const Mesh& base, const Mesh& pose)
     return "";
 }
 
+// What a base was traced to be, row by row.
+struct BaseTexels
+{
+    const float* pixels;
+    const TexelContexts& contexts;
+};
+
 // Puts a pose's texels together: those that are kept from the base, and those that are traced.
 class Texels
 {
 public:
-    Texels(const OIIO::ImageBuf& base, const PosePair& poses, const PosePlan& plan)
-        : m_from(static_cast<const float*>(base.localpixels()))
+    Texels(const BaseTexels& base, const PosePair& poses, const PosePlan& plan)
+        : m_base(base)
+        , m_scene(*poses.pose.scene)
         , m_motion(poses.motion)
         , m_baker(poses.baker)
         , m_hints(*poses.hints)
@@ -55,10 +64,11 @@ public:
     {
         VismapBaker::ScratchPointer scratch;
         std::unique_ptr<TileCover> cover = std::make_unique<TileCover>();
+        std::unique_ptr<Surface> surface;
         BakeCounts counts;
     };
 
-    void bake_tile(int tile, float* pixels, Coverage& coverage, Worker& worker) const
+    void bake_tile(int tile, BakedTexels& map, Worker& worker) const
     {
         const int x = tile % m_baker.tiles_across() * kTileSize, y = tile / m_baker.tiles_across() * kTileSize;
         const auto channels = size_t(m_baker.channels());
@@ -69,17 +79,27 @@ public:
             others[row] = ~kept[row];
         BakeHints hints = m_hints;
         hints.only = &others;
-        worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, pixels + first, pitch, covered, &hints));
+        hints.contexts = map.contexts.texels.empty() ? nullptr : &map.contexts;
+        worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, map.pixels + first, pitch, covered, &hints));
         for (int row = 0; row < std::min(kTileSize, m_baker.height() - y); ++row)
-            coverage.set_word(x, y + row, covered[size_t(row)]);
+            map.coverage.set_word(x, y + row, covered[size_t(row)]);
         if (std::all_of(kept.begin(), kept.end(), [](uint64_t bits) { return bits == 0; }))
             return;
         m_baker.raster().cover(tile, *worker.cover);
+        TexelSpacing spacing(m_scene.mesh(), m_scene.frame(), m_baker.width(), m_baker.height());
         for (size_t i = 0; i < worker.cover->triangle.size(); ++i)
             if (kept[i / kTileSize] >> i % kTileSize & 1) {
+                const uint32_t triangle = worker.cover->triangle[i];
                 const size_t at = first + i / kTileSize * pitch + i % kTileSize * channels;
-                copy(worker.cover->triangle[i], m_from + at, pixels + at);
-                worker.counts.dark += pixels[at] < 0.01f;
+                copy(triangle, m_base.pixels + at, map.pixels + at);
+                worker.counts.dark += map.pixels[at] < 0.01f;
+                if (!hints.contexts)
+                    continue;
+                const SurfacePoint point
+                    = worker.surface->at(triangle, worker.cover->weight1[i], worker.cover->weight2[i]);
+                const int column = x + int(i % kTileSize), row = y + int(i / kTileSize);
+                map.contexts.at(column, row) = { point.near_origin, point.normal, spacing.of(triangle),
+                                                 m_base.contexts.at(column, row).variance, false };
             }
     }
 
@@ -93,7 +113,8 @@ private:
             TexelTurn(m_baker.params(), m_motion.turn(triangle)).copy(from, to);
     }
 
-    const float* m_from;
+    const BaseTexels& m_base;
+    const BakeScene& m_scene;
     const PoseMotion& m_motion;
     const VismapBaker& m_baker;
     const BakeHints& m_hints;
@@ -102,26 +123,28 @@ private:
 };
 
 // False if stopped.
-bool bake_changed(const OIIO::ImageBuf& base, const PosePair& poses, const PosePlan& plan, const MapJob& job,
-                  float* pixels, Coverage& coverage, BakeCounts& counts)
+bool bake_changed(const BaseTexels& base, const PosePair& poses, const PosePlan& plan, const MapJob& job,
+                  BakedTexels& map)
 {
     const VismapBaker& baker = poses.baker;
     const Texels texels(base, poses, plan);
     std::vector<Texels::Worker> workers(static_cast<size_t>(worker_count(job.nthreads)));
-    for (Texels::Worker& worker : workers)
+    for (Texels::Worker& worker : workers) {
         worker.scratch = baker.scratch();
+        worker.surface = std::make_unique<Surface>(poses.pose.scene->mesh(), poses.pose.scene->frame());
+    }
     TileProgress done(baker.raster(), job.nthreads, job.progress);
     const auto work = [&](int64_t tile, int index) {
         Texels::Worker& worker = workers[size_t(index)];
         const int64_t covered = worker.counts.covered;
-        texels.bake_tile(int(tile), pixels, coverage, worker);
+        texels.bake_tile(int(tile), map, worker);
         done.add(worker.counts.covered - covered);
     };
     if (done.stopped()
         || !parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), job.nthreads, work, done.listener()))
         return false;
     for (const Texels::Worker& worker : workers)
-        counts.add(worker.counts);
+        map.counts.add(worker.counts);
     return true;
 }
 
@@ -145,9 +168,7 @@ PosePlan::MayKeep may_keep(const PosePair& poses)
 
 bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
 {
-    const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
-        return bake_base(baker, job, pixels, coverage, counts);
-    };
+    const BakeTexels bake = [&](const VismapBaker& baker, BakedTexels& map) { return bake_base(baker, job, map); };
     if (!make_map(dst, job, bake, report))
         return false;
     m_base = { job.scene, job.normal_map };
@@ -156,8 +177,7 @@ bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std:
     return true;
 }
 
-bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage,
-                             BakeCounts& counts)
+bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, BakedTexels& map)
 {
     m_samples = baker.params().samples;
     m_rays = {};
@@ -165,8 +185,15 @@ bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, float*
         m_rays = RayBits(baker.width(), baker.height(), m_samples);
     BakeHints hints;
     hints.record = m_rays.empty() ? nullptr : &m_rays;
-    const bool done = baker.bake_all(pixels, coverage, counts, job.nthreads, job.progress, &hints);
-    m_last.covered = counts.covered;
+    const bool reconstructs = !map.contexts.texels.empty();
+    hints.contexts = reconstructs ? &map.contexts : nullptr;
+    const bool done = baker.bake_all(map.pixels, map.coverage, map.counts, job.nthreads, job.progress, &hints);
+    m_last.covered = map.counts.covered;
+    // Kept texels are reconstructed again, from what this and their next neighbours were traced to be.
+    m_contexts = map.contexts;
+    m_baked.clear();
+    if (reconstructs)
+        m_baked.assign(map.pixels, map.pixels + size_t(baker.width()) * baker.height() * baker.channels());
     return done;
 }
 
@@ -194,7 +221,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     // A map does not know of less than a ray. A sun may be in few rays.
     const double error
         = m_error > 0 && next.params.sun_directions.empty() ? std::max(m_error, 1.0 / double(m_samples)) : 0;
-    const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
+    const BakeTexels bake = [&](const VismapBaker& baker, BakedTexels& map) {
         const MovedBoxes moved(*motion);
         const std::vector<uint8_t> still = find_still(*motion, next.params);
         BakeHints hints;
@@ -211,13 +238,15 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         m_last.change = plan.change();
         m_last.kept = plan.kept();
         m_last.covered = plan.covered();
-        counts.rays += plan.change().rays;
+        map.counts.rays += plan.change().rays;
         if (double(plan.unknown()) > kMostUnknown * double(plan.tracing())) {
             m_last.kept = 0;
             m_last.why = "most of it changes";
-            return bake_base(baker, next, pixels, coverage, counts);
+            return bake_base(baker, next, map);
         }
-        return bake_changed(m_map, poses, plan, job, pixels, coverage, counts);
+        const BaseTexels base { m_baked.empty() ? static_cast<const float*>(m_map.localpixels()) : m_baked.data(),
+                                m_contexts };
+        return bake_changed(base, poses, plan, job, map);
     };
     if (!make_map(dst, next, bake, report))
         return false;

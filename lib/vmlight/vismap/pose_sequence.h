@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -58,12 +59,14 @@ public:
 
 private:
     bool bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report);
-    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts);
+    bool bake_base(const VismapBaker& baker, const MapJob& job, BakedTexels& map);
 
     double m_error;
     PosedMap m_base;
     std::string m_base_name;
     OIIO::ImageBuf m_map; // of the base
+    std::vector<float> m_baked; // its texels before they were reconstructed; empty if they were not
+    TexelContexts m_contexts; // of them
     RayBits m_rays; // of its texels; empty if they would take too much memory
     int m_samples = 0; // that it was baked with
     PoseReport m_last;
