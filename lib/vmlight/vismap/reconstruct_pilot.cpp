@@ -17,7 +17,7 @@ namespace vmlight {
 namespace {
 
 // One window for so many covered texels, within limits.
-constexpr int64_t kTexelsPerWindow = 256, kLeastWindows = 64, kMostWindows = 256;
+constexpr int64_t kTexelsPerWindow = 128, kLeastWindows = 64, kMostWindows = 256;
 // Rays of a probe, in those of a texel.
 constexpr int kProbeRays = 4;
 constexpr int kMostRays = 1 << 20;
@@ -44,8 +44,11 @@ bool ReconstructPilot::pick(const UvRaster& raster, const OpenTriangles& open)
     const int64_t wanted = std::clamp(m_pilot.covered() / kTexelsPerWindow, kLeastWindows, kMostWindows);
     m_windows.resize(size_t(std::min(wanted, m_pilot.texels())));
     const int width = m_params.size().width, height = m_params.size().height;
+    const double run = double(m_pilot.texels()) / double(std::max<size_t>(1, m_windows.size()));
     for (size_t k = 0; k < m_windows.size(); ++k) {
-        const auto [left, top] = m_pilot.place(int64_t(k) * m_pilot.texels() / int64_t(m_windows.size()));
+        // A random one of each run: equal steps might all fall into one column of a tile.
+        const double chance = texel_hash(uint32_t(k), 1, 0).u * 0x1p-32;
+        const auto [left, top] = m_pilot.place(std::min(m_pilot.texels() - 1, int64_t((double(k) + chance) * run)));
         for (int i = 0; i < kSide * kSide; ++i) {
             Texel& texel = m_windows[k][size_t(i)];
             texel.x = left + i % kSide - kSide / 2;
@@ -94,8 +97,10 @@ bool ReconstructPilot::pick(const UvRaster& raster, const OpenTriangles& open)
     return parallel_items(int64_t(raster.tiles_across()) * raster.tiles_down(), m_threads, fill, m_progress);
 }
 
-bool ReconstructPilot::measure(int samples, double lane_scale, ReconstructError& dst) const
+bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) const
 {
+    const int samples = plain.samples;
+    const double lane_scale = plain.lane_rms > 0 ? plain.rms / plain.lane_rms : 1;
     constexpr int kAcross = NeighbourWindow::kSide / kSide;
     const auto most = size_t(std::clamp(kRaysPerGroup / (kSide * kSide * samples), 1, kAcross * kAcross));
     const int probe_samples = std::max(samples, std::min(samples * kProbeRays, kMostRays));
@@ -120,7 +125,7 @@ bool ReconstructPilot::measure(int samples, double lane_scale, ReconstructError&
     }
     struct Sums
     {
-        double squares = 0, fourth = 0, expected = 0;
+        double squares = 0, plain = 0, fourth = 0, expected = 0;
         int64_t texels = 0;
     };
     std::vector<Sums> sums((m_windows.size() + most - 1) / most);
@@ -165,14 +170,18 @@ bool ReconstructPilot::measure(int samples, double lane_scale, ReconstructError&
                 if (texel.spacing == 0)
                     continue;
                 const Imath::V2i at = slot(k, inside);
-                const float* found = &texels[size_t(at.y) * kPitch + size_t(at.x) * kChannels];
-                double square = 1;
-                for (size_t p = 1; p < 3; ++p)
-                    square *= double(found[0])
-                        - integrators[p]->integrate(texel.point, texel.x, texel.y, texel.open).visibility;
+                const size_t channel = size_t(at.y) * kPitch + size_t(at.x) * kChannels;
+                double square = 1, plain_square = 1;
+                for (size_t p = 1; p < 3; ++p) {
+                    const double truth
+                        = integrators[p]->integrate(texel.point, texel.x, texel.y, texel.open).visibility;
+                    square *= double(texels[channel]) - truth;
+                    plain_square *= double(raw[channel]) - truth;
+                }
+                sum.plain += plain_square;
                 sum.squares += square;
                 sum.fourth += square * square;
-                sum.expected += double(found[4]) * double(found[4]);
+                sum.expected += double(texels[channel + 4]) * double(texels[channel + 4]);
                 ++sum.texels;
             }
     };
@@ -181,6 +190,7 @@ bool ReconstructPilot::measure(int samples, double lane_scale, ReconstructError&
     Sums all;
     for (const Sums& sum : sums) {
         all.squares += sum.squares;
+        all.plain += sum.plain;
         all.fourth += sum.fourth;
         all.expected += sum.expected;
         all.texels += sum.texels;
@@ -188,9 +198,10 @@ bool ReconstructPilot::measure(int samples, double lane_scale, ReconstructError&
     const double count = double(std::max<int64_t>(1, all.texels));
     // Where chance makes the estimate negative, its standard error is all that is known.
     const double square = all.squares > 0 ? all.squares / count : std::sqrt(all.fourth) / count;
-    const double expected = std::sqrt(all.expected / count);
-    dst.rms = std::sqrt(square);
-    dst.scale = expected > 0 ? dst.rms / expected : 1;
+    // In proportion to the error without reconstruction, which is known from more texels: windows happen to lie where
+    // errors are large, or small.
+    dst.rms = all.plain > 0 ? plain.rms * std::sqrt(square * count / all.plain) : std::sqrt(square);
+    dst.scale = all.expected > 0 ? std::sqrt(square * count / all.expected) : 1;
     return true;
 }
 

@@ -22,7 +22,7 @@ struct ReconstructError
 {
     /// Root mean square of V's, bias included.
     double rms = 0;
-    /// Factor for the standard error that the filter expects that makes its root mean square `rms`.
+    /// Factor for the standard error that the filter expects that makes its root mean square that of V.
     double scale = 1;
 };
 
@@ -41,8 +41,8 @@ public:
     /// product of the two differences is an unbiased estimate of the squared error. Measured on nine scenes: within 25
     /// % of the root mean square of the map. The same bits for every number of threads. False if stopped.
     ///
-    /// @param lane_scale   as in SampleCount, of this number of rays
-    bool measure(int samples, double lane_scale, ReconstructError& dst) const;
+    /// @param plain    the error of rays alone, and their number, as the pilot measured it
+    bool measure(const PilotError& plain, ReconstructError& dst) const;
 
 private:
     /// Texels whose error is measured, squared; and around them what they are reconstructed from.

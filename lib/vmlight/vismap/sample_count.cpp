@@ -149,7 +149,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         ReconstructError reconstructed;
         if (!windows)
             return true;
-        if (!windows->measure(samples, lane_scale, reconstructed))
+        if (!windows->measure(error_there, reconstructed))
             return false;
         error_there.rms = reconstructed.rms;
         error_scale = reconstructed.scale;
