@@ -18,20 +18,20 @@ using namespace vmlight::scenes;
 
 namespace {
 
-using Window = NeighbourWindow;
-constexpr size_t kTexels = size_t(kTileSize) * kTileSize;
+using Neighbours = NeighbourWindow;
+constexpr size_t kTileTexels = size_t(kTileSize) * kTileSize;
 
 // A flat tile whose texels are 1 apart, with visibility(x, y), and noise of that deviation.
-void fill(Window& window, double deviation, const std::function<double(int x, int y)>& visibility)
+void fill_window(Neighbours& window, double deviation, const std::function<double(int x, int y)>& visibility)
 {
     std::mt19937 chance(5);
     std::normal_distribution<float> noise(0, 1);
     window.clear();
-    for (int y = -Window::kHalo; y < kTileSize + Window::kHalo; ++y)
-        for (int x = -Window::kHalo; x < kTileSize + Window::kHalo; ++x) {
-            const size_t i = Window::index(x, y);
+    for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
+        for (int x = -Neighbours::kHalo; x < kTileSize + Neighbours::kHalo; ++x) {
+            const size_t i = Neighbours::index(x, y);
             window.visibility[i] = float(visibility(x, y)) + float(deviation) * noise(chance);
-            for (Window::Plane* plane : { &window.x, &window.y, &window.z })
+            for (Neighbours::Plane* plane : { &window.x, &window.y, &window.z })
                 (*plane)[i] = float(deviation) * 0.43f * noise(chance);
             window.variance[i] = float(deviation * deviation);
             window.normal[2][i] = 1;
@@ -41,14 +41,14 @@ void fill(Window& window, double deviation, const std::function<double(int x, in
         }
 }
 
-std::vector<float> reconstructed(Window& window)
+std::vector<float> reconstructed(Neighbours& window)
 {
     weigh_neighbours(window);
-    std::vector<float> result(kTexels);
+    std::vector<float> result(kTileTexels);
     mean_change(window, window.visibility.data(), result.data());
     for (int y = 0; y < kTileSize; ++y)
         for (int x = 0; x < kTileSize; ++x)
-            result[size_t(y) * kTileSize + size_t(x)] += window.visibility[Window::index(x, y)];
+            result[size_t(y) * kTileSize + size_t(x)] += window.visibility[Neighbours::index(x, y)];
     return result;
 }
 
@@ -72,7 +72,7 @@ VismapParams reconstruct_params(int side, int samples)
     return params;
 }
 
-bool same_pixels(const BakedMap& a, const BakedMap& b)
+bool are_equal_maps(const BakedMap& a, const BakedMap& b)
 {
     std::vector<float> left(size_t(a.spec().image_pixels()) * size_t(a.spec().nchannels)), right(left.size());
     a.image().get_pixels(a.image().roi(), OIIO::TypeFloat, left.data());
@@ -80,7 +80,7 @@ bool same_pixels(const BakedMap& a, const BakedMap& b)
         && b.image().get_pixels(b.image().roi(), OIIO::TypeFloat, right.data()) && left == right;
 }
 
-BakeInput boxes()
+BakeInput three_boxes()
 {
     BakeInput scene { floor_facing_z(1), {} };
     for (double x : { -0.7, 0.0, 0.7 })
@@ -92,21 +92,21 @@ BakeInput boxes()
 
 TEST(Reconstruct, AConstantStaysAsItIsToTheBit)
 {
-    Window window;
-    fill(window, 0, [](int, int) { return 0.3; });
+    Neighbours window;
+    fill_window(window, 0, [](int, int) { return 0.3; });
     std::fill(window.variance.begin(), window.variance.end(), 1e-3f);
     weigh_neighbours(window);
-    std::vector<float> change(kTexels, 1);
+    std::vector<float> change(kTileTexels, 1);
     mean_change(window, window.visibility.data(), change.data());
-    EXPECT_EQ(change, std::vector<float>(kTexels, 0.0f));
-    EXPECT_LT(window.scale[kTexels / 2], 0.1f) << "neighbours have weight";
+    EXPECT_EQ(change, std::vector<float>(kTileTexels, 0.0f));
+    EXPECT_LT(window.scale[kTileTexels / 2], 0.1f) << "neighbours have weight";
 }
 
 TEST(Reconstruct, NoiseOnAConstantFalls)
 {
-    Window window;
+    Neighbours window;
     const auto flat = [](int, int) { return 0.5; };
-    fill(window, 0.02, flat);
+    fill_window(window, 0.02, flat);
     const auto [bias, rms] = error_between(reconstructed(window), 0, kTileSize, flat);
     EXPECT_LT(rms, 0.02 / 3);
     EXPECT_LT(std::abs(bias), 0.02 / 20);
@@ -116,9 +116,9 @@ TEST(Reconstruct, AStepKeepsItsHeightAndItsPlace)
 {
     const auto step = [](int x, int) { return x < 30 ? 0.35 : 0.65; };
     const auto higher = [](int x, int) { return x < 30 ? 0.35 : 0.8; };
-    Window low, high;
-    fill(low, 0.02, step);
-    fill(high, 0.02, higher);
+    Neighbours low, high;
+    fill_window(low, 0.02, step);
+    fill_window(high, 0.02, higher);
     const std::vector<float> found = reconstructed(low), beside = reconstructed(high);
     for (const auto& [left, right] : { std::pair(29, 30), { 30, 31 } }) {
         const auto [bias, rms] = error_between(found, left, right, step);
@@ -132,9 +132,9 @@ TEST(Reconstruct, AStepKeepsItsHeightAndItsPlace)
 
 TEST(Reconstruct, ARampIsUnbiased)
 {
-    Window window;
+    Neighbours window;
     const auto ramp = [](int x, int y) { return 0.2 + 0.004 * x + 0.002 * y; };
-    fill(window, 0.02, ramp);
+    fill_window(window, 0.02, ramp);
     const auto [bias, rms] = error_between(reconstructed(window), 0, kTileSize, ramp);
     EXPECT_LT(rms, 0.02 / 2.5);
     EXPECT_LT(std::abs(bias), 0.001);
@@ -143,22 +143,22 @@ TEST(Reconstruct, ARampIsUnbiased)
 TEST(Reconstruct, NothingPassesBetweenUnlikeSides)
 {
     const auto flat = [](int, int) { return 0.5; };
-    const std::pair<const char*, std::function<void(Window&, size_t)>> apart[] = {
-        { "facing away", [](Window& window, size_t i) { window.normal[2][i] = -1; } },
-        { "at right angles", [](Window& window, size_t i) { window.normal[2][i] = 0, window.normal[0][i] = 1; } },
-        { "another sheet", [](Window& window, size_t i) { window.position[2][i] = 8; } },
-        { "not covered", [](Window& window, size_t i) { window.spacing[i] = 0; } },
+    const std::pair<const char*, std::function<void(Neighbours&, size_t)>> apart[] = {
+        { "facing away", [](Neighbours& window, size_t i) { window.normal[2][i] = -1; } },
+        { "at right angles", [](Neighbours& window, size_t i) { window.normal[2][i] = 0, window.normal[0][i] = 1; } },
+        { "another sheet", [](Neighbours& window, size_t i) { window.position[2][i] = 8; } },
+        { "not covered", [](Neighbours& window, size_t i) { window.spacing[i] = 0; } },
     };
     for (const auto& [what, set_apart] : apart) {
-        Window window;
-        fill(window, 0.02, flat);
-        for (int y = -Window::kHalo; y < kTileSize + Window::kHalo; ++y)
-            for (int x = 30; x < kTileSize + Window::kHalo; ++x)
-                set_apart(window, Window::index(x, y));
+        Neighbours window;
+        fill_window(window, 0.02, flat);
+        for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
+            for (int x = 30; x < kTileSize + Neighbours::kHalo; ++x)
+                set_apart(window, Neighbours::index(x, y));
         const std::vector<float> before = reconstructed(window);
-        for (int y = -Window::kHalo; y < kTileSize + Window::kHalo; ++y)
-            for (int x = 30; x < kTileSize + Window::kHalo; ++x)
-                window.visibility[Window::index(x, y)] += 0.01f;
+        for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
+            for (int x = 30; x < kTileSize + Neighbours::kHalo; ++x)
+                window.visibility[Neighbours::index(x, y)] += 0.01f;
         const std::vector<float> after = reconstructed(window);
         for (int y = 0; y < kTileSize; ++y)
             for (int x = 0; x < 30; ++x)
@@ -176,7 +176,7 @@ TEST(Reconstruct, OpenTexelsStayOpenAndClosedOnesClosed)
         const BakeInput open { floor_facing_z(1), {} }, closed { floor_facing_z(0.3), { sphere(V3d(0), 1, 24, true) } };
         for (const auto& [scene, visibility] : { std::pair(open, 1.0f), { closed, 0.0f } }) {
             const BakedMap plain(scene.mesh, scene.occluders, params), map(scene.mesh, scene.occluders, with);
-            EXPECT_TRUE(same_pixels(map, plain));
+            EXPECT_TRUE(are_equal_maps(map, plain));
             EXPECT_EQ(map.at(32, 32).visibility, visibility);
         }
     }
@@ -184,7 +184,7 @@ TEST(Reconstruct, OpenTexelsStayOpenAndClosedOnesClosed)
 
 TEST(Reconstruct, TheErrorOfVisibilityAndDirectionFalls)
 {
-    for (const BakeInput& scene : { ball_over_floor(), boxes(), spot_on_the_ground() })
+    for (const BakeInput& scene : { ball_over_floor(), three_boxes(), spot_on_the_ground() })
         for (const int samples : { 16, 64 }) {
             VismapParams params = error_params(96, samples), with = reconstruct_params(96, samples);
             const BakedMap reference = reference_of(scene, 96, samples);
@@ -213,7 +213,7 @@ TEST(Reconstruct, DirectionsAreNoLongerThanASurfaceCanSee)
 TEST(Reconstruct, TheErrorThatIsSaidIsThatOfTheReconstructedMap)
 {
     int number = 0;
-    for (const BakeInput& scene : { ball_over_floor(), boxes(), spot_on_the_ground() }) {
+    for (const BakeInput& scene : { ball_over_floor(), three_boxes(), spot_on_the_ground() }) {
         SCOPED_TRACE(number++);
         for (const auto& [samples, side] : { std::pair(16, 128), { 64, 96 } }) {
             const BakedMap reference = reference_of(scene, side, samples);
@@ -241,7 +241,7 @@ TEST(Reconstruct, TheSameBytesForAnyThreads)
     VismapParams params = reconstruct_params(160, 8);
     params.basis = "sh";
     const BakedMap one(scene.mesh, scene.occluders, params, 1), many(scene.mesh, scene.occluders, params, 5);
-    EXPECT_TRUE(same_pixels(one, many));
+    EXPECT_TRUE(are_equal_maps(one, many));
     EXPECT_EQ(one.report.error, many.report.error);
 }
 
@@ -257,7 +257,7 @@ TEST(Reconstruct, ItIsOffUnlessAskedForAndTheMapSaysWhether)
     VismapParams plain = params;
     plain.reconstruct = "off";
     const BakedMap map(scene.mesh, scene.occluders, params);
-    EXPECT_TRUE(same_pixels(map, BakedMap(scene.mesh, scene.occluders, plain)));
+    EXPECT_TRUE(are_equal_maps(map, BakedMap(scene.mesh, scene.occluders, plain)));
     EXPECT_FALSE(map.spec().find_attribute("vmlight:reconstruct"));
 }
 

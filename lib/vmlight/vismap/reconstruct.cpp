@@ -20,7 +20,7 @@ using Imath::V3f;
 namespace {
 
 // Of the length of a float vector.
-constexpr double kRounding = 1e-6;
+constexpr double kLengthRounding = 1e-6;
 
 } // namespace
 
@@ -115,7 +115,7 @@ int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int
                 + V3d(context.normal) * (2.0 / 3 * double(change[0]));
             const double length = direction.length(), longest = longest_direction(visibility);
             m_narrowed[i] = 1;
-            if (length > std::min(visibility, longest * (1 + kRounding))) {
+            if (length > std::min(visibility, longest * (1 + kLengthRounding))) {
                 m_narrowed[i] = float(longest / length);
                 direction *= longest / length;
             }

@@ -20,7 +20,7 @@ namespace {
 constexpr int64_t kTexelsPerWindow = 128, kLeastWindows = 64, kMostWindows = 256;
 // Rays of a probe, in those of a texel.
 constexpr int kProbeRays = 4;
-constexpr int kMostRays = 1 << 20;
+constexpr int kMostProbeRays = 1 << 20;
 // Between two progress checks, of the windows.
 constexpr int kRaysPerGroup = 1 << 18;
 
@@ -103,7 +103,7 @@ bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) c
     const double lane_scale = plain.lane_rms > 0 ? plain.rms / plain.lane_rms : 1;
     constexpr int kAcross = NeighbourWindow::kSide / kSide;
     const auto most = size_t(std::clamp(kRaysPerGroup / (kSide * kSide * samples), 1, kAcross * kAcross));
-    const int probe_samples = std::max(samples, std::min(samples * kProbeRays, kMostRays));
+    const int probe_samples = std::max(samples, std::min(samples * kProbeRays, kMostProbeRays));
     const SamplePattern pattern(m_params.sampler, samples, false), probe(m_params.sampler, probe_samples, false);
     std::array<VismapParams, 3> params { m_params, m_params, m_params };
     for (size_t k = 0; k < params.size(); ++k) // no user seed has the highest bit set
