@@ -134,6 +134,26 @@ TEST(VismapTiles, EachBasisIsThatOfTheWholeMapInTheMarginToo)
         }
 }
 
+TEST(VismapTiles, ReconstructedTilesAreThoseOfTheWholeMap)
+{
+    for (const char* basis : { "vector", "sh" })
+        for (int margin : { 0, 16, -1 }) {
+            VismapParams params = quick(200, 333, margin);
+            params.reconstruct = "auto";
+            params.basis = basis;
+            params.order = 3;
+            params.channels = { "coverage", "error" };
+            VismapBaker baker;
+            std::string error;
+            ASSERT_TRUE(baker.prepare(spot_mesh(), {}, params, 0, error)) << error;
+            VismapTiles tiles(baker, margin);
+            const std::vector<float> whole = whole_map(params);
+            EXPECT_EQ(tiled_map(tiles, baker, 1, 3), whole) << basis << " " << margin;
+            params.reconstruct = "off";
+            EXPECT_NE(whole_map(params), whole);
+        }
+}
+
 TEST(VismapTiles, ErrorsAndWhatWasChosenForOneAreThoseOfTheWholeMap)
 {
     for (int margin : { 0, 16, -1 }) {
@@ -192,4 +212,16 @@ TEST(VismapTiles, ATileOfALargeMapCostsItselfAndWhatReachesIntoItsMargin)
     tiles.tile(rim);
     EXPECT_GE(work_counts().tiles_baked, before + 1);
     EXPECT_LE(work_counts().tiles_baked, before + 9);
+
+    // Reconstruction reads the tiles around, and the margin those around them.
+    params.reconstruct = "auto";
+    VismapBaker reconstructing;
+    ASSERT_TRUE(reconstructing.prepare(spot_mesh(), {}, params, 0, error)) << error;
+    for (const auto& [tile, most] : { std::pair(inside, 9), { rim, 25 } }) {
+        VismapTiles smooth(reconstructing, params.margin);
+        before = work_counts().tiles_baked;
+        smooth.tile(tile);
+        EXPECT_GT(work_counts().tiles_baked, before + 1);
+        EXPECT_LE(work_counts().tiles_baked, before + most);
+    }
 }

@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/stage/overlap_hint.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <algorithm>
 
@@ -85,8 +86,11 @@ void report_rounding(const MakeOptions& options, const VismapReport& report)
                    report.rounding));
 }
 
-std::string error_line(const VismapReport& report)
+std::string error_line(const VismapReport& report, bool is_reconstructed)
 {
+    if (is_reconstructed)
+        return format("error: {:.2g} (RMS of V, from texels that were traced with more rays) at {} per texel; {:.2f} s",
+                      report.error, count_text(report.samples, "ray", "rays"), report.pilot_seconds);
     const std::string texels = count_text(report.error_texels, "texel", "texels");
     const std::string rays = count_text(report.samples, "ray", "rays");
     if (report.error == 0)
@@ -117,8 +121,13 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
                double(report.rays) * 1e-6, report.bake_seconds,
                double(report.rays) * 1e-6 / std::max(report.bake_seconds, 1e-9), report.build_seconds,
                report.margin_seconds));
+    if (is_reconstructed(recipe.vismap_params))
+        say(format("reconstruct: from neighbours within {} texels; {:.2f} s", NeighbourWindow::kReach,
+                   report.reconstruct_seconds));
+    else if (recipe.vismap_params.reconstruct != "off")
+        say("reconstruct: off, " + reconstruct_fault(recipe.vismap_params));
     if (report.error_texels > 0)
-        say(error_line(report));
+        say(error_line(report, is_reconstructed(recipe.vismap_params)));
     if (report.expected_seconds > recipe.time_budget)
         warn(format("time_budget: even {} per texel, the minimum, {} about {:.2g} s, more than {:.6g}",
                     count_text(report.samples, "ray", "rays"), plural(report.samples, "takes", "take"),

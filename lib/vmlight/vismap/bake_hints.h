@@ -4,6 +4,7 @@
 #include <vmlight/trace/moved_boxes.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/ray_bits.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,8 @@ struct BakeHints
     const std::vector<uint8_t>* still = nullptr;
     /// nullptr, or set to the rays of all texels.
     RayBits* record = nullptr;
+    /// nullptr, or set to what reconstruction needs of all texels that are baked.
+    TexelContexts* contexts = nullptr;
 };
 
 /// Of a texel, whose ray origin is settled.

@@ -5,6 +5,7 @@
 #include <vmlight/uv/tile_progress.h>
 #include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/baker_setup.h>
+#include <vmlight/vismap/texel_spacing.h>
 
 #include <algorithm>
 #include <array>
@@ -50,6 +51,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
                           disc_rays(m_setup->suns[k].half_angle),
                           float(m_setup->params.max_distance * m_setup->scene->frame().scale), m_setup->params.seed,
                           m_setup->ground);
+    TexelSpacing spacing(m_setup->scene->mesh(), m_setup->scene->frame(), width(), height());
     const int64_t rays_before = scratch.integrator.rays();
     // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).
     for (int i = 0; i < kTileSize * kTileSize / 8; ++i) {
@@ -83,6 +85,10 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             const Visibility seen = scratch.integrator.integrate(points[size_t(k)], tile_x + x, tile_y + y,
                                                                  open[size_t(k)], out + basis_at, memory);
             counts.dark += seen.visibility < 0.01;
+            if (hints.contexts)
+                hints.contexts->at(tile_x + x, tile_y + y)
+                    = { points[size_t(k)].near_origin, points[size_t(k)].normal, spacing.of(triangles[size_t(k)]),
+                        float(seen.error * seen.error), open[size_t(k)] };
             out[0] = float(seen.visibility);
             for (int c = 0; c < 3; ++c)
                 out[1 + c] = float(seen.direction[c]);

@@ -61,6 +61,8 @@ bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, st
         return false;
     VismapParams settled = params;
     settled.samples = chosen.samples;
+    if (normal_map)
+        settled.reconstruct = "off"; // normals that change from texel to texel hide what neighbours share
     m_setup = std::make_unique<Setup>(std::move(scene), std::move(raster), std::move(open), settled, chosen,
                                       std::move(normal_map), suns);
     return true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -22,8 +23,17 @@ struct MapJob
     StepListener at_step {}; ///< hears of the steps before and after those of `progress`
 };
 
-/// Set all covered texels of the map, their coverage and their counts, without the margin. False if stopped.
-using BakeTexels = std::function<bool(const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts)>;
+/// A map without its margin.
+struct BakedTexels
+{
+    float* pixels;
+    Coverage coverage;
+    BakeCounts counts;
+    TexelContexts contexts; ///< empty if the map is not reconstructed
+};
+
+/// Set all covered texels of the map, their coverage, counts and contexts. False if stopped.
+using BakeTexels = std::function<bool(const VismapBaker& baker, BakedTexels& dst)>;
 
 /// make_vismap(), with the texels of `bake`.
 bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report);

@@ -31,7 +31,7 @@ VismapPilot::VismapPilot(const BakeScene& scene, const NormalMap* normal_map, co
 {
 }
 
-bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open)
+bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open, int64_t most, int64_t least_step)
 {
     struct Worker
     {
@@ -52,7 +52,7 @@ bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open)
     for (size_t tile = 1; tile < before.size(); ++tile)
         before[tile] += before[tile - 1];
     m_covered = before.back();
-    m_texels.resize(size_t(std::min(m_covered, kTexels)));
+    m_texels.resize(size_t(std::min((m_covered + least_step - 1) / least_step, most)));
 
     // A random one of each run of equal length: equal steps might all fall into one column.
     std::vector<int64_t> ranks(m_texels.size());

@@ -41,13 +41,16 @@ public:
     VismapPilot(const BakeScene& scene, const NormalMap* normal_map, const VismapParams& params, int nthreads,
                 const Progress& progress);
 
-    /// Pick covered texels evenly over the map. A function of coverage alone. False if stopped.
-    bool pick(const UvRaster& raster, const OpenTriangles& open);
+    /// Pick covered texels evenly over the map, at most `most` and one of `least_step`. A function of coverage alone.
+    /// False if stopped.
+    bool pick(const UvRaster& raster, const OpenTriangles& open, int64_t most = kTexels, int64_t least_step = 1);
 
     // After pick().
     /// Covered texels of the whole map, and picked ones.
     int64_t covered() const { return m_covered; }
     int64_t texels() const { return int64_t(m_texels.size()); }
+    /// Of a picked texel in the map.
+    Imath::V2i place(int64_t i) const { return { m_texels[size_t(i)].x, m_texels[size_t(i)].y }; }
 
     /// Bake the texels twice, with two seeds other than the map's: the root mean square of the difference over sqrt(2)
     /// estimates the root mean square standard error for any sampler, and its square is unbiased. The same bits for

@@ -9,6 +9,7 @@
 #include <vmlight/uv/tile_progress.h>
 #include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/pose_proof.h>
+#include <vmlight/vismap/texel_spacing.h>
 #include <vmlight/vismap/turned_texels.h>
 
 #include <algorithm>
@@ -41,12 +42,20 @@ bool have_same_normals(const NormalMapPointer& base, const NormalMapPointer& pos
     return base && pose ? base->is_same_image(*pose) : base == pose;
 }
 
+// What a base was traced to be, row by row.
+struct BaseTexels
+{
+    const float* pixels;
+    const TexelContexts& contexts;
+};
+
 // Puts a pose's texels together: those that are kept from the base, and those that are traced.
 class Texels
 {
 public:
-    Texels(const OIIO::ImageBuf& base, const PosePair& poses, const PosePlan& plan)
-        : m_from(static_cast<const float*>(base.localpixels()))
+    Texels(const BaseTexels& base, const PosePair& poses, const PosePlan& plan)
+        : m_base(base)
+        , m_scene(*poses.pose.scene)
         , m_motion(poses.motion)
         , m_baker(poses.baker)
         , m_hints(*poses.hints)
@@ -60,10 +69,11 @@ public:
     {
         VismapBaker::ScratchPointer scratch;
         std::unique_ptr<TileCover> cover = std::make_unique<TileCover>();
+        std::unique_ptr<Surface> surface;
         BakeCounts counts;
     };
 
-    void bake_tile(int tile, float* pixels, Coverage& coverage, Worker& worker) const
+    void bake_tile(int tile, BakedTexels& map, Worker& worker) const
     {
         const int x = tile % m_baker.tiles_across() * kTileSize, y = tile / m_baker.tiles_across() * kTileSize;
         const auto channels = size_t(m_baker.channels());
@@ -74,17 +84,27 @@ public:
             others[row] = ~kept[row];
         BakeHints hints = m_hints;
         hints.only = &others;
-        worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, pixels + first, pitch, covered, &hints));
+        hints.contexts = map.contexts.texels.empty() ? nullptr : &map.contexts;
+        worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, map.pixels + first, pitch, covered, &hints));
         for (int row = 0; row < std::min(kTileSize, m_baker.height() - y); ++row)
-            coverage.set_word(x, y + row, covered[size_t(row)]);
+            map.coverage.set_word(x, y + row, covered[size_t(row)]);
         if (std::all_of(kept.begin(), kept.end(), [](uint64_t bits) { return bits == 0; }))
             return;
         m_baker.raster().cover(tile, *worker.cover);
+        TexelSpacing spacing(m_scene.mesh(), m_scene.frame(), m_baker.width(), m_baker.height());
         for (size_t i = 0; i < worker.cover->triangle.size(); ++i)
             if (kept[i / kTileSize] >> i % kTileSize & 1) {
+                const uint32_t triangle = worker.cover->triangle[i];
                 const size_t at = first + i / kTileSize * pitch + i % kTileSize * channels;
-                copy(worker.cover->triangle[i], m_from + at, pixels + at);
-                worker.counts.dark += pixels[at] < 0.01f;
+                copy(triangle, m_base.pixels + at, map.pixels + at);
+                worker.counts.dark += map.pixels[at] < 0.01f;
+                if (!hints.contexts)
+                    continue;
+                const SurfacePoint point
+                    = worker.surface->at(triangle, worker.cover->weight1[i], worker.cover->weight2[i]);
+                const int column = x + int(i % kTileSize), row = y + int(i / kTileSize);
+                map.contexts.at(column, row) = { point.near_origin, point.normal, spacing.of(triangle),
+                                                 m_base.contexts.at(column, row).variance, false };
             }
     }
 
@@ -98,7 +118,8 @@ private:
             TexelTurn(m_baker.params(), m_motion.turn(triangle)).copy(from, to);
     }
 
-    const float* m_from;
+    const BaseTexels& m_base;
+    const BakeScene& m_scene;
     const PoseMotion& m_motion;
     const VismapBaker& m_baker;
     const BakeHints& m_hints;
@@ -107,26 +128,28 @@ private:
 };
 
 // False if stopped.
-bool bake_changed(const OIIO::ImageBuf& base, const PosePair& poses, const PosePlan& plan, const MapJob& job,
-                  float* pixels, Coverage& coverage, BakeCounts& counts)
+bool bake_changed(const BaseTexels& base, const PosePair& poses, const PosePlan& plan, const MapJob& job,
+                  BakedTexels& map)
 {
     const VismapBaker& baker = poses.baker;
     const Texels texels(base, poses, plan);
     std::vector<Texels::Worker> workers(static_cast<size_t>(worker_count(job.nthreads)));
-    for (Texels::Worker& worker : workers)
+    for (Texels::Worker& worker : workers) {
         worker.scratch = baker.scratch();
+        worker.surface = std::make_unique<Surface>(poses.pose.scene->mesh(), poses.pose.scene->frame());
+    }
     TileProgress done(baker.raster(), job.nthreads, job.progress);
     const auto work = [&](int64_t tile, int index) {
         Texels::Worker& worker = workers[size_t(index)];
         const int64_t covered = worker.counts.covered;
-        texels.bake_tile(int(tile), pixels, coverage, worker);
+        texels.bake_tile(int(tile), map, worker);
         done.add(worker.counts.covered - covered);
     };
     if (done.stopped()
         || !parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), job.nthreads, work, done.listener()))
         return false;
     for (const Texels::Worker& worker : workers)
-        counts.add(worker.counts);
+        map.counts.add(worker.counts);
     return true;
 }
 
@@ -150,37 +173,35 @@ PosePlan::MayKeep may_keep(const PosePair& poses)
 
 bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
 {
-    BaseRays rays;
-    const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
-        return bake_base(baker, job, pixels, coverage, counts, rays);
-    };
+    Traced traced;
+    const BakeTexels bake
+        = [&](const VismapBaker& baker, BakedTexels& map) { return bake_base(baker, job, map, traced); };
     if (!make_map(dst, job, bake, report))
         return false;
-    take_rays(rays);
+    m_traced = std::move(traced);
     m_base = { job.scene, job.normal_map };
     m_base_name = name;
     m_map = dst;
     return true;
 }
 
-bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage,
-                             BakeCounts& counts, BaseRays& rays)
+bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, BakedTexels& map, Traced& traced)
 {
-    rays = { {}, baker.params().samples };
-    if (double(baker.width()) * baker.height() * rays.samples / kPacketSize <= kMostKnown)
-        rays.bits = RayBits(baker.width(), baker.height(), rays.samples);
+    traced = {};
+    traced.samples = baker.params().samples;
+    if (double(baker.width()) * baker.height() * traced.samples / kPacketSize <= kMostKnown)
+        traced.rays = RayBits(baker.width(), baker.height(), traced.samples);
     BakeHints hints;
-    hints.record = rays.bits.empty() ? nullptr : &rays.bits;
-    const bool done = baker.bake_all(pixels, coverage, counts, job.nthreads, job.progress, &hints);
-    m_last.covered = counts.covered;
+    hints.record = traced.rays.empty() ? nullptr : &traced.rays;
+    const bool reconstructs = !map.contexts.texels.empty();
+    hints.contexts = reconstructs ? &map.contexts : nullptr;
+    const bool done = baker.bake_all(map.pixels, map.coverage, map.counts, job.nthreads, job.progress, &hints);
+    m_last.covered = map.counts.covered;
+    // Kept texels are reconstructed again, from what this and their next neighbours were traced to be.
+    traced.contexts = map.contexts;
+    if (reconstructs)
+        traced.texels.assign(map.pixels, map.pixels + size_t(baker.width()) * baker.height() * baker.channels());
     return done;
-}
-
-// Only after the bake: the rays of a base that was interrupted are not those of m_map.
-void PoseSequence::take_rays(BaseRays& rays)
-{
-    m_rays = std::move(rays.bits);
-    m_samples = rays.samples;
 }
 
 bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
@@ -199,23 +220,23 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         m_last.why = motion.emplace(*m_base.scene, *job.scene).fault();
     // As many rays as the base has.
     MapJob next = job;
-    next.params.samples = m_samples;
+    next.params.samples = m_traced.samples;
     next.params.target_error = 0;
     next.time_budget = 0;
     if (!m_last.why.empty())
         return bake_whole(dst, next, name, report);
 
-    BaseRays rays;
+    Traced traced;
     const PosedMap pose { job.scene, job.normal_map };
     // A map does not know of less than a ray. A sun may be in few rays.
     const double error
-        = m_error > 0 && next.params.sun_directions.empty() ? std::max(m_error, 1.0 / double(m_samples)) : 0;
-    const BakeTexels bake = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
+        = m_error > 0 && next.params.sun_directions.empty() ? std::max(m_error, 1.0 / double(m_traced.samples)) : 0;
+    const BakeTexels bake = [&](const VismapBaker& baker, BakedTexels& map) {
         const MovedBoxes moved(*motion);
         const std::vector<uint8_t> still = find_still(*motion, next.params);
         BakeHints hints;
-        if (!m_rays.empty() && !m_base.normal_map && !pose.normal_map) { // tangents are of neighbours too
-            hints.known = &m_rays;
+        if (!m_traced.rays.empty() && !m_base.normal_map && !pose.normal_map) { // tangents are of neighbours too
+            hints.known = &m_traced.rays;
             hints.moved = &moved;
             hints.still = &still;
         }
@@ -227,13 +248,16 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         m_last.change = plan.change();
         m_last.kept = plan.kept();
         m_last.covered = plan.covered();
-        counts.rays += plan.change().rays;
+        map.counts.rays += plan.change().rays;
         if (double(plan.unknown()) > kMostUnknown * double(plan.tracing())) {
             m_last.kept = 0;
             m_last.why = "most of it changes";
-            return bake_base(baker, next, pixels, coverage, counts, rays);
+            return bake_base(baker, next, map, traced);
         }
-        return bake_changed(m_map, poses, plan, job, pixels, coverage, counts);
+        const BaseTexels base { m_traced.texels.empty() ? static_cast<const float*>(m_map.localpixels())
+                                                        : m_traced.texels.data(),
+                                m_traced.contexts };
+        return bake_changed(base, poses, plan, job, map);
     };
     if (!make_map(dst, next, bake, report))
         return false;
@@ -241,7 +265,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     if (const OIIO::ParamValue* target = m_map.spec().find_attribute("vmlight:target_error"))
         spec.extra_attribs.add_or_replace(*target);
     if (!m_last.why.empty()) {
-        take_rays(rays);
+        m_traced = std::move(traced);
         m_base = pose;
         m_base_name = name;
         m_map = dst;

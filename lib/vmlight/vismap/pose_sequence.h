@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -56,21 +57,21 @@ public:
 
 private:
     bool bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report);
-    struct BaseRays
+    // What a base was traced to be.
+    struct Traced
     {
-        RayBits bits;
+        std::vector<float> texels; // before they were reconstructed; empty if they were not
+        TexelContexts contexts; // of them
+        RayBits rays; // empty if they would take too much memory
         int samples = 0;
     };
-    bool bake_base(const VismapBaker& baker, const MapJob& job, float* pixels, Coverage& coverage, BakeCounts& counts,
-                   BaseRays& rays);
-    void take_rays(BaseRays& rays);
+    bool bake_base(const VismapBaker& baker, const MapJob& job, BakedTexels& map, Traced& traced);
 
     double m_error;
     PosedMap m_base;
     std::string m_base_name;
     OIIO::ImageBuf m_map; // of the base
-    RayBits m_rays; // of its texels; empty if they would take too much memory
-    int m_samples = 0; // that it was baked with
+    Traced m_traced; // of the base; replaced only once a bake is done
     PoseReport m_last;
 };
 

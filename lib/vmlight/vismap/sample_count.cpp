@@ -4,9 +4,13 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/vismap/pilot.h>
+#include <vmlight/vismap/reconstruct.h>
+#include <vmlight/vismap/reconstruct_pilot.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 namespace vmlight {
 namespace {
@@ -14,6 +18,8 @@ namespace {
 constexpr int kFirst = 64, kMost = 1 << 20;
 // The error is known to a few per cent only: closer counts are equally good.
 constexpr double kNear = 1.04;
+// Texels that are enough to scale the scatter of lanes, and one of how many.
+constexpr int64_t kScaleTexels = 1024, kScaleStep = 64;
 // All of fewer texels may agree by chance.
 constexpr int64_t kTelling = 256;
 
@@ -51,17 +57,20 @@ enum class Outcome
     OutOfReach
 };
 
+// The error at a number of rays; false if stopped.
+using Measure = std::function<bool(int samples, PilotError& dst)>;
+
 // `dst` is the lowest count that reaches the target, or the highest that was tried.
-Outcome reach(PilotError& dst, const VismapPilot& pilot, double target, int least)
+Outcome reach(PilotError& dst, int64_t texels, const Measure& measure, double target, int least)
 {
     PilotError misses, reaches; // samples 0: none yet
     int samples = kFirst;
     bool still = false; // nothing scatters
     for (int tries = 1;; ++tries) {
-        if (!pilot.measure(samples, dst))
+        if (!measure(samples, dst))
             return Outcome::Stopped;
         if (tries == 1 && dst.rms == 0) {
-            still = pilot.texels() == 0 || pilot.texels() >= kTelling;
+            still = texels == 0 || texels >= kTelling;
             least = still ? least : samples;
         }
         // A few rays may agree by chance.
@@ -107,25 +116,48 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
     dst = {};
     dst.samples = params.samples;
     const double target = params.target_error;
-    if (target <= 0 && time_budget <= 0 && !params.has("error"))
+    const bool reconstructs = is_reconstructed(params) && !normal_map;
+    const bool wants_error = target > 0 || time_budget > 0 || params.has("error");
+    if (!wants_error && !reconstructs)
         return true;
     const auto stopped = [&] {
         error = "interrupted";
         return false;
     };
     // One ray does not scatter.
-    const int least = params.has("error") ? 2 : 1;
+    const int least = params.has("error") || reconstructs ? 2 : 1;
     if (target <= 0 && time_budget <= 0 && params.samples < least) {
         error = "samples: 1 is too few for the channel error, which needs 2";
         return false;
     }
     const Stopwatch timer;
     VismapPilot pilot(scene, normal_map, params, nthreads, progress);
-    if (!pilot.pick(raster, open))
+    // Where only the scatter of lanes is scaled, less will do.
+    if (!(wants_error ? pilot.pick(raster, open) : pilot.pick(raster, open, kScaleTexels, kScaleStep)))
         return stopped();
+    std::unique_ptr<ReconstructPilot> windows;
+    if (reconstructs && wants_error) {
+        windows = std::make_unique<ReconstructPilot>(scene, pilot, params, nthreads, progress);
+        if (!windows->pick(raster, open))
+            return stopped();
+    }
+    double lane_scale = 1, error_scale = 1; // of the last measurement
+    const Measure measure = [&](int samples, PilotError& error_there) {
+        if (!pilot.measure(samples, error_there))
+            return false;
+        lane_scale = error_there.lane_rms > 0 ? error_there.rms / error_there.lane_rms : 1;
+        ReconstructError reconstructed;
+        if (!windows)
+            return true;
+        if (!windows->measure(error_there, reconstructed))
+            return false;
+        error_there.rms = reconstructed.rms;
+        error_scale = reconstructed.scale;
+        return true;
+    };
     PilotError measured;
     if (target > 0) {
-        const Outcome outcome = reach(measured, pilot, target, least);
+        const Outcome outcome = reach(measured, pilot.texels(), measure, target, least);
         if (outcome == Outcome::Stopped)
             return stopped();
         if (outcome == Outcome::OutOfReach) {
@@ -143,14 +175,19 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
             samples = seconds > 0 ? std::max(least, int(std::min(time_budget / seconds, double(kMost)))) : least;
             dst.bake_seconds = seconds * samples;
         }
-        if (!pilot.measure(samples, measured))
+        if (!measure(samples, measured))
             return stopped();
     }
     dst.samples = measured.samples;
+    if (windows && target > 0 && !measure(dst.samples, measured)) // the last try may have been another count
+        return stopped();
+    dst.pilot_seconds = timer();
+    dst.lane_scale = windows || measured.lane_rms == 0 ? lane_scale : measured.rms / measured.lane_rms;
+    dst.error_scale = error_scale;
+    if (!wants_error)
+        return true;
     dst.rms = measured.rms;
     dst.texels = pilot.texels();
-    dst.pilot_seconds = timer();
-    dst.lane_scale = measured.lane_rms > 0 ? measured.rms / measured.lane_rms : 1;
     return true;
 }
 

@@ -23,8 +23,12 @@ struct SampleCount
     double rms = 0;
     /// Texels that were baked twice to measure it; 0 if it was not measured.
     int64_t texels = 0;
-    /// Factor for Visibility::error that makes its root mean square `rms`.
+    /// Factor for Visibility::error that makes its root mean square that of the rays' error; measured for the channel
+    /// `error`, and where the map is reconstructed.
     double lane_scale = 1;
+    /// Of a map that is reconstructed, the factor for the standard error that is expected of its texels that makes its
+    /// root mean square `rms`.
+    double error_scale = 1;
     /// Expected time of the bake, if it has a time budget; time of the measurement.
     double bake_seconds = 0, pilot_seconds = 0;
 };

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/work_counts.h>
 #include <vmlight/uv/margin.h>
+#include <vmlight/vismap/bake_hints.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,8 +14,16 @@ namespace {
 // A margin up to this needs two tiles on each side; beyond it the whole map is baked.
 constexpr int kFarthestMargin = 2 * kTileSize;
 
-// Map, tile, and whether its margin is filled.
-using TileKey = std::tuple<uint64_t, int, bool>;
+// What was done to a tile.
+enum class Step
+{
+    baked,
+    reconstructed,
+    filled
+};
+
+// Map, tile, and the last step.
+using TileKey = std::tuple<uint64_t, int, Step>;
 
 // Never destroyed: threads of the host may still read while the process exits.
 OnceCache<TileKey, MapTile>& cache()
@@ -68,7 +77,7 @@ VismapTiles::VismapTiles(const VismapBaker& baker, int margin)
 
 VismapTiles::~VismapTiles()
 {
-    cache().erase({ m_id, 0, false }, { m_id + 1, 0, false });
+    cache().erase({ m_id, 0, Step::baked }, { m_id + 1, 0, Step::baked });
 }
 
 void VismapTiles::set_cache_limit(size_t bytes)
@@ -79,13 +88,13 @@ void VismapTiles::set_cache_limit(size_t bytes)
 MapTilePointer VismapTiles::tile(int tile)
 {
     if (m_margin == 0)
-        return baked(tile);
-    return cache().get({ m_id, tile, true }, [&] { return m_whole ? copied(tile) : filled(tile); });
+        return reconstructed(tile);
+    return cache().get({ m_id, tile, Step::filled }, [&] { return m_whole ? copied(tile) : filled(tile); });
 }
 
 MapTilePointer VismapTiles::baked(int tile)
 {
-    return cache().get({ m_id, tile, false }, [&] {
+    return cache().get({ m_id, tile, Step::baked }, [&] {
         auto result = std::make_shared<MapTile>();
         const auto scratch = m_baker.scratch();
         m_baker.cover_tile(tile, *scratch, result->covered);
@@ -93,10 +102,61 @@ MapTilePointer VismapTiles::baked(int tile)
             return result;
         const size_t pitch = size_t(kTileSize) * m_baker.channels();
         result->texels.resize(pitch * kTileSize);
-        m_baker.bake_tile(tile, *scratch, result->texels.data(), pitch, result->covered);
+        BakeHints hints;
+        if (is_reconstructed(m_baker.params())) {
+            const OIIO::ROI own = tile_roi(m_baker, tile);
+            result->contexts = TexelContexts(own.xbegin, own.ybegin, own.width(), own.height());
+            hints.contexts = &result->contexts;
+        }
+        m_baker.bake_tile(tile, *scratch, result->texels.data(), pitch, result->covered, &hints);
         ++work_counts().tiles_baked;
         return result;
     });
+}
+
+// Those of the eight tiles around are baked that have a covered texel within reach.
+MapTilePointer VismapTiles::reconstructed(int tile)
+{
+    if (!is_reconstructed(m_baker.params()))
+        return baked(tile);
+    return cache().get({ m_id, tile, Step::reconstructed }, [&] {
+        constexpr int kHalo = NeighbourWindow::kHalo;
+        const MapTilePointer raw = baked(tile);
+        auto result = std::make_shared<MapTile>();
+        result->texels = raw->texels;
+        result->covered = raw->covered;
+        if (raw->texels.empty())
+            return result;
+        Reconstruction reconstruction(m_baker.params(), m_baker.error().lane_scale, m_baker.error().error_scale);
+        const OIIO::ROI own = tile_roi(m_baker, tile);
+        const OIIO::ROI reach(std::max(0, own.xbegin - kHalo), std::min(m_baker.width(), own.xend + kHalo),
+                              std::max(0, own.ybegin - kHalo), std::min(m_baker.height(), own.yend + kHalo));
+        const auto scratch = m_baker.scratch();
+        for (int ty = reach.ybegin / kTileSize; ty <= (reach.yend - 1) / kTileSize; ++ty)
+            for (int tx = reach.xbegin / kTileSize; tx <= (reach.xend - 1) / kTileSize; ++tx)
+                add_neighbours(reconstruction, ty * m_baker.tiles_across() + tx, own, reach, *scratch);
+        const size_t pitch = size_t(kTileSize) * m_baker.channels();
+        reconstruction.apply(raw->texels.data(), result->texels.data(), pitch, own.xbegin, own.ybegin, raw->contexts);
+        return result;
+    });
+}
+
+void VismapTiles::add_neighbours(Reconstruction& reconstruction, int tile, OIIO::ROI centre, OIIO::ROI reach,
+                                 VismapBaker::Scratch& scratch)
+{
+    TileBits bits;
+    m_baker.cover_tile(tile, scratch, bits);
+    const OIIO::ROI own = tile_roi(m_baker, tile), both = OIIO::roi_intersection(own, reach);
+    MapTilePointer raw;
+    for (int y = both.ybegin; y < both.yend; ++y)
+        for (int x = both.xbegin; x < both.xend; ++x)
+            if (bits[size_t(y - own.ybegin)] >> (x - own.xbegin) & 1) {
+                if (!raw)
+                    raw = baked(tile);
+                const size_t at = size_t(y - own.ybegin) * kTileSize + size_t(x - own.xbegin);
+                reconstruction.add(x - centre.xbegin, y - centre.ybegin, &raw->texels[at * size_t(m_baker.channels())],
+                                   raw->contexts.at(x, y));
+            }
 }
 
 // Add a tile to the window; baked only if the window has one of its covered texels. Returns whether it does.
@@ -114,7 +174,7 @@ bool VismapTiles::add_tile(Window& window, int tile, VismapBaker::Scratch& scrat
             }
     if (!any)
         return false;
-    const MapTilePointer raw = baked(tile);
+    const MapTilePointer raw = reconstructed(tile);
     const size_t row = size_t(both.width()) * m_baker.channels();
     for (int y = both.ybegin; y < both.yend; ++y) {
         const size_t first = size_t(y - own.ybegin) * kTileSize + size_t(both.xbegin - own.xbegin);
@@ -132,7 +192,7 @@ MapTilePointer VismapTiles::filled(int tile)
     const uint64_t full = ~uint64_t(0) >> (kTileSize - own.width());
     if (std::all_of(result->covered.begin(), result->covered.begin() + own.height(),
                     [&](uint64_t row) { return row == full; }))
-        return baked(tile);
+        return reconstructed(tile);
 
     Window window({ std::max(0, own.xbegin - m_margin), std::min(m_baker.width(), own.xend + m_margin),
                     std::max(0, own.ybegin - m_margin), std::min(m_baker.height(), own.yend + m_margin) },
@@ -160,7 +220,15 @@ MapTilePointer VismapTiles::copied(int tile)
             std::vector<float> map(size_t(m_baker.width()) * m_baker.height() * m_baker.channels());
             Coverage covered(m_baker.width(), m_baker.height());
             BakeCounts counts;
-            m_baker.bake_all(map.data(), covered, counts, 0);
+            TexelContexts contexts;
+            BakeHints hints;
+            if (is_reconstructed(m_baker.params())) {
+                contexts = TexelContexts(0, 0, m_baker.width(), m_baker.height());
+                hints.contexts = &contexts;
+            }
+            m_baker.bake_all(map.data(), covered, counts, 0, {}, &hints);
+            if (hints.contexts)
+                reconstruct_map(m_baker, map.data(), contexts, counts.dark, 0, {});
             fill_margin(map.data(), m_baker.channels(), covered, m_margin, m_baker.margin_channels());
             work_counts().tiles_baked += counts.tiles;
             m_map.swap(map);

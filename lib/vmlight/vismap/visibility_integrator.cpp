@@ -28,21 +28,35 @@ int64_t count_rays(const RayFan& fan)
     return rays;
 }
 
+// Rays in each lane, over all packets.
+using LaneCounts = std::array<int, kPacketSize>;
+
+LaneCounts count_lanes(const std::vector<uint8_t>& packets)
+{
+    constexpr uint64_t kOnes = 0x0101010101010101, kDiagonal = 0x8040201008040201;
+    constexpr size_t kBlock = 255; // that a byte can count
+    LaneCounts counts {};
+    for (size_t first = 0; first < packets.size(); first += kBlock) {
+        uint64_t sums = 0; // byte k has lane k
+        for (size_t i = first; i < std::min(packets.size(), first + kBlock); ++i)
+            sums += ((packets[i] * kOnes & kDiagonal) + 0x7f * kOnes) >> 7 & kOnes;
+        for (size_t lane = 0; lane < kPacketSize; ++lane)
+            counts[lane] += int(sums >> 8 * lane & 0xff);
+    }
+    return counts;
+}
+
 } // namespace
 
 double lane_scatter(const std::vector<uint8_t>& traced, const std::vector<uint8_t>& open)
 {
-    std::array<int, kPacketSize> all {}, unblocked {};
-    for (size_t packet = 0; packet < traced.size(); ++packet)
-        for (size_t lane = 0; lane < kPacketSize; ++lane) {
-            all[lane] += traced[packet] >> lane & 1;
-            unblocked[lane] += open[packet] >> lane & 1;
-        }
+    const LaneCounts all = count_lanes(traced), unblocked = count_lanes(open);
     const double rays = std::accumulate(all.begin(), all.end(), 0);
     const double share = std::accumulate(unblocked.begin(), unblocked.end(), 0) / std::max(1.0, rays);
     double squares = 0, lanes = 0;
     for (size_t lane = 0; lane < kPacketSize; ++lane) {
-        squares += std::pow(unblocked[lane] - share * all[lane], 2);
+        const double excess = unblocked[lane] - share * all[lane];
+        squares += excess * excess;
         lanes += all[lane] > 0;
     }
     return lanes > 1 ? std::sqrt(squares * lanes / (lanes - 1)) / rays : 0;

@@ -8,6 +8,7 @@
 #include <vmlight/trace/surface.h>
 #include <vmlight/vismap/basis.h>
 #include <vmlight/vismap/ray_bits.h>
+#include <vmlight/vismap/reconstruct.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
@@ -46,7 +47,7 @@ public:
         , m_params(params)
         , m_ground(ground)
         , m_length(float(params.max_distance * scale))
-        , m_wants_error(params.has("error"))
+        , m_wants_error(params.has("error") || is_reconstructed(params))
         , m_fan(pattern.count())
         , m_basis(make_accumulator(params))
     {

@@ -6,6 +6,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/uv/margin.h>
+#include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/make_map.h>
 
@@ -48,8 +49,10 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
                  int nthreads, const Progress& progress, double time_budget, NormalMapPointer normal_map,
                  const StepListener& at_step)
 {
-    const BakeTexels all = [&](const VismapBaker& baker, float* pixels, Coverage& coverage, BakeCounts& counts) {
-        return baker.bake_all(pixels, coverage, counts, nthreads, progress);
+    const BakeTexels all = [&](const VismapBaker& baker, BakedTexels& map) {
+        BakeHints hints;
+        hints.contexts = map.contexts.texels.empty() ? nullptr : &map.contexts;
+        return baker.bake_all(map.pixels, map.coverage, map.counts, nthreads, progress, &hints);
     };
     return make_map(dst, { scene, params, nthreads, progress, time_budget, std::move(normal_map), at_step }, all,
                     report);
@@ -81,14 +84,23 @@ bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, Vi
         baker.count_islands(counts.uv);
     counts.build_seconds = timer.lap() - baker.error().pilot_seconds;
 
-    Coverage coverage(spec.width, spec.height);
-    BakeCounts baked;
-    if (!bake(baker, pixels, coverage, baked))
+    BakedTexels map { pixels, Coverage(spec.width, spec.height), {}, {} };
+    const bool reconstructs = is_reconstructed(baker.params());
+    if (reconstructs)
+        map.contexts = TexelContexts(0, 0, spec.width, spec.height);
+    if (!bake(baker, map))
         return fail_with(dst, "interrupted");
     counts.bake_seconds = timer.lap();
+    BakeCounts& baked = map.counts;
+    if (reconstructs) {
+        begin_step(at_step, "reconstruct");
+        if (!reconstruct_map(baker, pixels, map.contexts, baked.dark, nthreads, {}))
+            return fail_with(dst, "interrupted");
+        counts.reconstruct_seconds = timer.lap();
+    }
     if (params.margin != 0)
         begin_step(at_step, "margin");
-    fill_margin(pixels, spec.nchannels, coverage, params.margin, baker.margin_channels());
+    fill_margin(pixels, spec.nchannels, map.coverage, params.margin, baker.margin_channels());
     counts.margin_seconds = timer.lap();
 
     counts.texels = int64_t(spec.width) * spec.height;

@@ -35,6 +35,10 @@ struct VismapParams
     /// The largest VismapReport::error, 0 to 1: the bake then chooses the rays per texel from some texels that it bakes
     /// twice, and ignores `samples`. 0 is off; as text, only the word "none" is.
     double target_error = 0;
+    /// `auto`: V, B and the bands of `sh` of a texel are means over its own rays and those of neighbours that see the
+    /// same, where the basis and the measure allow it (docs/accuracy.md). `off`: of its own rays alone. Does not apply
+    /// to `sun_directions`, nor to maps with normals of their own.
+    std::string reconstruct = "off";
     /// Sample pattern. `fibonacci` has the least error at a fixed number of rays (docs/accuracy.md); `halton` is the
     /// paper's.
     std::string sampler = "fibonacci";
@@ -89,6 +93,10 @@ struct VismapParams
         field("samples", samples, Range { 1, 1 << 20 }, "Rays per texel");
         field("target_error", target_error, Range { 1e-9, 1, "none", 0 },
               "Instead of a fixed count, choose one for this RMS error of visibility, such as 0.01");
+        field("reconstruct", reconstruct,
+              Choices { { { "auto", "also from the rays of neighbouring texels that see the same" },
+                          { "off", "from each texel's own rays" } } },
+              "Denoise visibility: less error from the same rays");
         field("sampler", sampler,
               Choices { { { "fibonacci", "Fibonacci lattice: lowest error at a fixed ray count" },
                           { "sobol", "Sobol sequence, Owen-scrambled" },
@@ -140,14 +148,15 @@ struct VismapReport
     /// Estimated root mean square error of V over the covered texels, against infinitely many rays from the same points
     /// by the same measure: from the scatter of `error_texels` texels that were baked twice. It excludes what none of
     /// their rays hit, errors of the mesh, the margin, and how V varies within a texel. Measured on eight scenes:
-    /// within 5 %. 0 unless a target error, a time budget or the channel `error` was asked for.
+    /// within 5 %. Of a map that is reconstructed, bias included: from texels that are also traced with more rays. 0
+    /// unless a target error, a time budget or the channel `error` was asked for.
     double error = 0;
     int64_t error_texels = 0;
     double expected_seconds = 0; ///< of the bake, if it had a time budget
     double pilot_seconds = 0; ///< of the texels that were baked twice
     int64_t rays = 0; ///< rays traced: directions below the surface are not, nor those that the ground blocks
     int64_t open = 0; ///< covered texels of triangles that nothing rises above: they trace no ray
-    double build_seconds = 0, bake_seconds = 0, margin_seconds = 0;
+    double build_seconds = 0, bake_seconds = 0, reconstruct_seconds = 0, margin_seconds = 0;
 };
 
 /// Bake the visibility map of `mesh`.

@@ -5,6 +5,7 @@
 #include <vmlight/image/color.h>
 #include <vmlight/version.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/reconstruct.h>
 #include <vmlight/vismap/sun_visibility.h>
 
 namespace vmlight {
@@ -36,6 +37,8 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
     for (const char* name : { "ground", "ground_height" })
         if (!params.ground)
             spec.erase_attribute(metadata_name(name));
+    if (!is_reconstructed(params))
+        spec.erase_attribute("vmlight:reconstruct");
     spec.attribute("vmlight:stage", kVismapStage);
     spec.attribute("vmlight:version", VMLIGHT_VERSION_STRING);
     spec.attribute("vmlight:mesh", mesh_name);

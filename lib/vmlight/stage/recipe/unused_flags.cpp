@@ -6,6 +6,7 @@
 #include <vmlight/mesh/import/importer.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -32,6 +33,9 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "width and height override it";
     if (key == "ground_height" && !recipe.vismap_params.ground)
         return "no ground is given";
+    if (key == "reconstruct" && recipe.vismap_params.reconstruct != "off")
+        return recipe.has_normal_map() ? "with a normal map, neighbouring texels have normals of their own"
+                                       : reconstruct_fault(recipe.vismap_params);
     const std::string other_basis = unused_basis_parameter(recipe.vismap_params, key);
     if (!other_basis.empty())
         return other_basis;

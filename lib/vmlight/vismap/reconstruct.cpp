@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/vismap/reconstruct.h>
+
+#include <vmlight/base/parallel.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/math/harmonics.h>
+#include <vmlight/math/longest_direction.h>
+#include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/sun_visibility.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vmlight {
+
+using Imath::V3d;
+using Imath::V3f;
+
+namespace {
+
+// Of the length of a float vector.
+constexpr double kLengthRounding = 1e-6;
+
+} // namespace
+
+std::string reconstruct_fault(const VismapParams& params)
+{
+    if (params.reconstruct == "off")
+        return "it is switched off";
+    if (params.measure != "cosine")
+        return "the measure uniform makes of B no mean of rays";
+    if (find_basis(params.basis).whole_numbers)
+        return "what the basis " + params.basis + " packs of each ray has no mean";
+    if (params.samples < 2 && params.target_error <= 0)
+        return "one ray does not scatter: give at least 2";
+    return "";
+}
+
+Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, double error_scale)
+    : m_layout { size_t(describe_vismap("", params).nchannels), kVismapChannels.size() + (params.has("normal") ? 3 : 0),
+                 kVismapChannels.size() + (params.has("normal") ? 3 : 0) + (params.has("error") ? 1 : 0)
+                     + sun_channels(params.sun_directions).size(),
+                 params.basis == "sh" ? params.order : 0, params.has("error") }
+    , m_lane_scale(float(lane_scale))
+    , m_error_scale(float(error_scale))
+{
+    if (m_layout.order > 0)
+        m_harmonics = std::make_unique<Harmonics>(m_layout.order);
+    m_bands.assign(m_layout.order > 0 ? size_t(m_layout.order * m_layout.order) - 4 : 0,
+                   NeighbourWindow::Plane(m_window.spacing.size()));
+    m_open = m_bands;
+    m_values.resize(size_t(m_layout.order * m_layout.order) * Harmonics::kLanes);
+    for (std::vector<float>& change : m_change)
+        change.resize(size_t(kTileSize) * kTileSize);
+    m_narrowed = m_band_change = m_change[0];
+}
+
+Reconstruction::~Reconstruction() = default;
+
+void Reconstruction::add(int x, int y, const float* texel, const TexelContext& context)
+{
+    const size_t i = NeighbourWindow::index(x, y);
+    const float open = 2.0f / 3 * texel[0];
+    m_window.visibility[i] = texel[0];
+    m_window.x[i] = texel[1] - open * context.normal.x;
+    m_window.y[i] = texel[2] - open * context.normal.y;
+    m_window.z[i] = texel[3] - open * context.normal.z;
+    m_window.variance[i] = context.variance * m_lane_scale * m_lane_scale;
+    for (int c = 0; c < 3; ++c) {
+        m_window.normal[size_t(c)][i] = context.normal[c];
+        m_window.position[size_t(c)][i] = context.position[c];
+    }
+    m_window.spacing[i] = context.spacing;
+    if (m_bands.empty())
+        return;
+    std::array<float, Harmonics::kLanes> nx, ny, nz;
+    nx.fill(context.normal.x), ny.fill(context.normal.y), nz.fill(context.normal.z);
+    m_harmonics->evaluate(nx.data(), ny.data(), nz.data(), m_values.data());
+    for (int l = 2; l < m_layout.order; ++l)
+        for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
+            const float lobe = float(cosine_eigenvalue(l)) * m_values[size_t(k) * Harmonics::kLanes];
+            m_open[size_t(k - 4)][i] = lobe;
+            m_bands[size_t(k - 4)][i] = texel[m_layout.bands_at + size_t(k - 4)] - lobe * texel[0];
+        }
+}
+
+int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int left, int top,
+                              const TexelContexts& contexts)
+{
+    weigh_neighbours(m_window);
+    const std::array<const float*, 4> planes { m_window.visibility.data(), m_window.x.data(), m_window.y.data(),
+                                               m_window.z.data() };
+    for (size_t c = 0; c < 4; ++c)
+        mean_change(m_window, planes[c], m_change[c].data());
+    std::vector<float> variance(m_layout.has_error ? m_change[0].size() : 0);
+    if (m_layout.has_error)
+        mean_variance(m_window, variance.data());
+    int64_t dark = 0;
+    std::vector<size_t> changed;
+    for (size_t i = 0; i < m_change[0].size(); ++i) {
+        const int x = int(i % kTileSize), y = int(i / kTileSize);
+        if (m_window.spacing[NeighbourWindow::index(x, y)] == 0)
+            continue;
+        const size_t at = size_t(y) * pitch + size_t(x) * m_layout.channels;
+        const TexelContext& context = contexts.at(left + x, top + y);
+        if (context.is_open)
+            continue;
+        if (m_layout.has_error)
+            texels[at + m_layout.error_at] = std::sqrt(variance[i]) * m_error_scale;
+        const std::array<float, 4> change { m_change[0][i], m_change[1][i], m_change[2][i], m_change[3][i] };
+        if (change != std::array<float, 4> {} || !m_bands.empty()) {
+            const double visibility = std::clamp(double(raw[at]) + double(change[0]), 0.0, 1.0);
+            V3d direction = V3d(raw[at + 1], raw[at + 2], raw[at + 3]) + V3d(change[1], change[2], change[3])
+                + V3d(context.normal) * (2.0 / 3 * double(change[0]));
+            const double length = direction.length(), longest = longest_direction(visibility);
+            m_narrowed[i] = 1;
+            if (length > std::min(visibility, longest * (1 + kLengthRounding))) {
+                m_narrowed[i] = float(longest / length);
+                direction *= longest / length;
+            }
+            if (change != std::array<float, 4> {}) {
+                texels[at] = float(visibility);
+                for (int c = 0; c < 3; ++c)
+                    texels[at + 1 + size_t(c)] = float(direction[c]);
+            }
+            changed.push_back(i);
+        }
+        dark += texels[at] < 0.01f;
+    }
+    if (!m_bands.empty())
+        change_bands(raw, texels, pitch, changed);
+    return dark;
+}
+
+void Reconstruction::change_bands(const float* raw, float* texels, size_t pitch, const std::vector<size_t>& changed)
+{
+    for (int l = 2; l < m_layout.order; ++l)
+        for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
+            mean_change(m_window, m_bands[size_t(k - 4)].data(), m_band_change.data());
+            for (const size_t i : changed) {
+                const int x = int(i % kTileSize), y = int(i / kTileSize);
+                const size_t window = NeighbourWindow::index(x, y);
+                const size_t at = size_t(y) * pitch + size_t(x) * m_layout.channels;
+                const float sum = raw[at + m_layout.bands_at + size_t(k - 4)] + m_band_change[i]
+                    + m_open[size_t(k - 4)][window] * m_change[0][i];
+                texels[at + m_layout.bands_at + size_t(k - 4)]
+                    = m_narrowed[i] == 1 ? sum : sum * float(std::pow(double(m_narrowed[i]), 0.5 * l * (l + 1)));
+            }
+        }
+}
+
+bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContexts& contexts, int64_t& dark,
+                     int nthreads, const Progress& progress)
+{
+    constexpr int kHalo = NeighbourWindow::kHalo;
+    struct Worker
+    {
+        std::unique_ptr<Reconstruction> reconstruction;
+        int64_t dark = 0;
+    };
+    std::vector<Worker> workers(static_cast<size_t>(worker_count(nthreads)));
+    for (Worker& worker : workers)
+        worker.reconstruction
+            = std::make_unique<Reconstruction>(baker.params(), baker.error().lane_scale, baker.error().error_scale);
+    const int width = baker.width(), height = baker.height();
+    const auto channels = size_t(baker.channels());
+    const size_t pitch = size_t(width) * channels;
+    const std::vector<float> raw(pixels, pixels + pitch * size_t(height));
+    const auto work = [&](int64_t tile, int index) {
+        Worker& worker = workers[size_t(index)];
+        const int left = int(tile % baker.tiles_across()) * kTileSize;
+        const int top = int(tile / baker.tiles_across()) * kTileSize;
+        worker.reconstruction->clear();
+        bool any = false;
+        for (int y = std::max(0, top - kHalo); y < std::min(height, top + kTileSize + kHalo); ++y)
+            for (int x = std::max(0, left - kHalo); x < std::min(width, left + kTileSize + kHalo); ++x)
+                if (const TexelContext& context = contexts.at(x, y); context.spacing > 0) {
+                    worker.reconstruction->add(x - left, y - top, &raw[size_t(y) * pitch + size_t(x) * channels],
+                                               context);
+                    any = true;
+                }
+        if (any)
+            worker.dark += worker.reconstruction->apply(&raw[size_t(top) * pitch + size_t(left) * channels],
+                                                        pixels + size_t(top) * pitch + size_t(left) * channels, pitch,
+                                                        left, top, contexts);
+    };
+    if (!parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), nthreads, work, progress))
+        return false;
+    dark = 0;
+    for (const Worker& worker : workers)
+        dark += worker.dark;
+    return true;
+}
+
+} // namespace vmlight

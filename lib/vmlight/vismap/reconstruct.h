@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Reconstruction: V, B and the bands of `sh` of a texel from its own rays and those of its neighbours, where they see
+/// the same. A step between the bake and the margin.
+#pragma once
+
+#include <vmlight/base/progress.h>
+#include <vmlight/vismap/neighbour_weights.h>
+#include <vmlight/vismap/vismap.h>
+
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+/// Why maps of these parameters are not reconstructed, a phrase, or "".
+std::string reconstruct_fault(const VismapParams& params);
+
+/// Whether they are.
+inline bool is_reconstructed(const VismapParams& params)
+{
+    return reconstruct_fault(params).empty();
+}
+
+/// What a bake knows of a texel beside its channels.
+struct TexelContext
+{
+    Imath::V3f position { 0 }, normal { 0 }; ///< in the scene's space; of unit length
+    float spacing = 0; ///< the longest distance to the next texel, in the scene's space; 0: not covered
+    float variance = 0; ///< of V, up to SampleCount::lane_scale squared
+    bool is_open = false; ///< no ray was traced, and nothing blocks one: V and B are exact
+};
+
+/// The contexts of a rectangle of texels.
+struct TexelContexts
+{
+    TexelContexts() = default;
+    TexelContexts(int the_left, int the_top, int the_width, int the_height)
+        : left(the_left)
+        , top(the_top)
+        , width(the_width)
+        , height(the_height)
+        , texels(size_t(the_width) * size_t(the_height))
+    {
+    }
+    TexelContext& at(int x, int y) { return texels[index(x, y)]; }
+    const TexelContext& at(int x, int y) const { return texels[index(x, y)]; }
+
+    int left = 0, top = 0, width = 0, height = 0;
+    std::vector<TexelContext> texels;
+
+private:
+    size_t index(int x, int y) const { return size_t(y - top) * size_t(width) + size_t(x - left); }
+};
+
+class Harmonics;
+
+/// Reconstructs one tile at a time. One per thread.
+class Reconstruction
+{
+public:
+    /// @param params   is_reconstructed()
+    /// @param lane_scale, error_scale  as in SampleCount
+    Reconstruction(const VismapParams& params, double lane_scale, double error_scale = 1);
+    ~Reconstruction();
+
+    /// Forget all texels.
+    void clear() { m_window.clear(); }
+    /// Add a covered texel at (x, y) from the first of the tile: at least -NeighbourWindow::kHalo, and less than
+    /// kTileSize + kHalo. In any order.
+    void add(int x, int y, const float* texel, const TexelContext& context);
+    /// Once all covered texels are added, set those of the tile.
+    /// @param raw, texels  the tile's first texel, as it was baked and to be set; rows are `pitch` floats apart
+    /// @param contexts     has those of the tile
+    /// @returns how many of them have V below 0.01
+    int64_t apply(const float* raw, float* texels, size_t pitch, int left, int top, const TexelContexts& contexts);
+
+private:
+    void change_bands(const float* raw, float* texels, size_t pitch, const std::vector<size_t>& changed);
+
+    struct Layout
+    {
+        size_t channels, error_at, bands_at;
+        int order; // 0: no bands
+        bool has_error;
+    };
+    const Layout m_layout;
+    const float m_lane_scale, m_error_scale;
+    NeighbourWindow m_window;
+    std::unique_ptr<Harmonics> m_harmonics;
+    std::vector<NeighbourWindow::Plane> m_bands, m_open; // less those of an open texel of the same V; and those, by V
+    std::vector<float> m_values;
+    std::array<std::vector<float>, 4> m_change;
+    std::vector<float> m_narrowed, m_band_change;
+};
+
+class VismapBaker;
+
+/// Reconstruct a whole map. False if `progress` stopped it.
+bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContexts& contexts, int64_t& dark,
+                     int nthreads, const Progress& progress);
+
+} // namespace vmlight

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The error of a map that is reconstructed, from small windows of it and texels in them that are traced with more
+/// rays.
+#pragma once
+
+#include <vmlight/base/progress.h>
+#include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/surface.h>
+#include <vmlight/uv/raster.h>
+#include <vmlight/vismap/neighbour_weights.h>
+#include <vmlight/vismap/open_triangles.h>
+#include <vmlight/vismap/pilot.h>
+#include <vmlight/vismap/vismap.h>
+
+#include <array>
+#include <vector>
+
+namespace vmlight {
+
+/// The error of a reconstructed map at some number of rays.
+struct ReconstructError
+{
+    /// Root mean square of V's, bias included.
+    double rms = 0;
+    /// Factor for the standard error that the filter expects that makes its root mean square that of V.
+    double scale = 1;
+};
+
+class ReconstructPilot
+{
+public:
+    /// @param scene, pilot must outlive this; the latter has picked its texels
+    /// @param params   is_reconstructed()
+    ReconstructPilot(const BakeScene& scene, const VismapPilot& pilot, const VismapParams& params, int nthreads,
+                     const Progress& progress);
+
+    /// Find what the windows cover: around texels of the pilot, evenly over the map. False if stopped.
+    bool pick(const UvRaster& raster, const OpenTriangles& open);
+
+    /// Bake and reconstruct the windows, and trace their middles twice with 4 times the rays and other seeds: the
+    /// product of the two differences is an unbiased estimate of the squared error. Measured on nine scenes: within 25
+    /// % of the root mean square of the map. The same bits for every number of threads. False if stopped.
+    ///
+    /// @param plain    the error of rays alone, and their number, as the pilot measured it
+    bool measure(const PilotError& plain, ReconstructError& dst) const;
+
+private:
+    /// Texels whose error is measured, squared; and around them what they are reconstructed from.
+    static constexpr int kMiddle = 3, kSide = kMiddle + 2 * NeighbourWindow::kHalo;
+    struct Texel
+    {
+        SurfacePoint point;
+        int x = 0, y = 0;
+        float spacing = 0; // 0: not covered
+        bool open = false;
+    };
+    using Window = std::array<Texel, kSide * kSide>;
+
+    const BakeScene& m_scene;
+    const VismapPilot& m_pilot;
+    VismapParams m_params;
+    const int m_threads;
+    const Progress m_progress;
+    std::vector<Window> m_windows;
+};
+
+} // namespace vmlight

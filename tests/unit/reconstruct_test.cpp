@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+// What texels take from their neighbours, and what they keep.
+#include "error_scenes.h"
+#include "pose_scenes.h"
+
+#include <vmlight/math/longest_direction.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/recipe/unused_flags.h>
+#include <vmlight/vismap/neighbour_weights.h>
+#include <vmlight/vismap/reconstruct.h>
+
+#include <random>
+#include <string>
+#include <utility>
+
+using namespace vmlight;
+using namespace vmlight::scenes;
+
+namespace {
+
+using Neighbours = NeighbourWindow;
+constexpr size_t kTileTexels = size_t(kTileSize) * kTileSize;
+
+// A flat tile whose texels are 1 apart, with visibility(x, y), and noise of that deviation.
+void fill_window(Neighbours& window, double deviation, const std::function<double(int x, int y)>& visibility)
+{
+    std::mt19937 chance(5);
+    std::normal_distribution<float> noise(0, 1);
+    window.clear();
+    for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
+        for (int x = -Neighbours::kHalo; x < kTileSize + Neighbours::kHalo; ++x) {
+            const size_t i = Neighbours::index(x, y);
+            window.visibility[i] = float(visibility(x, y)) + float(deviation) * noise(chance);
+            for (Neighbours::Plane* plane : { &window.x, &window.y, &window.z })
+                (*plane)[i] = float(deviation) * 0.43f * noise(chance);
+            window.variance[i] = float(deviation * deviation);
+            window.normal[2][i] = 1;
+            window.position[0][i] = float(x);
+            window.position[1][i] = float(y);
+            window.spacing[i] = 1;
+        }
+}
+
+std::vector<float> reconstructed(Neighbours& window)
+{
+    weigh_neighbours(window);
+    std::vector<float> result(kTileTexels);
+    mean_change(window, window.visibility.data(), result.data());
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = 0; x < kTileSize; ++x)
+            result[size_t(y) * kTileSize + size_t(x)] += window.visibility[Neighbours::index(x, y)];
+    return result;
+}
+
+// Mean error, and root mean square, of the columns from `left` to `right`.
+std::pair<double, double> error_between(const std::vector<float>& found, int left, int right,
+                                        const std::function<double(int x, int y)>& truth)
+{
+    double sum = 0, squares = 0, count = 0;
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = left; x < right; ++x) {
+            const double error = double(found[size_t(y) * kTileSize + size_t(x)]) - truth(x, y);
+            sum += error, squares += error * error, ++count;
+        }
+    return { sum / count, std::sqrt(squares / count) };
+}
+
+VismapParams reconstruct_params(int side, int samples)
+{
+    VismapParams params = error_params(side, samples);
+    params.reconstruct = "auto";
+    return params;
+}
+
+bool are_equal_maps(const BakedMap& a, const BakedMap& b)
+{
+    std::vector<float> left(size_t(a.spec().image_pixels()) * size_t(a.spec().nchannels)), right(left.size());
+    a.image().get_pixels(a.image().roi(), OIIO::TypeFloat, left.data());
+    return b.spec().nchannels == a.spec().nchannels
+        && b.image().get_pixels(b.image().roi(), OIIO::TypeFloat, right.data()) && left == right;
+}
+
+BakeInput three_boxes()
+{
+    BakeInput scene { floor_facing_z(1), {} };
+    for (double x : { -0.7, 0.0, 0.7 })
+        scene.occluders.push_back(box(V3d(x - 0.2, -0.8, 0), V3d(x + 0.2, 0.7, 0.6), false));
+    return scene;
+}
+
+} // namespace
+
+TEST(Reconstruct, AConstantStaysAsItIsToTheBit)
+{
+    Neighbours window;
+    fill_window(window, 0, [](int, int) { return 0.3; });
+    std::fill(window.variance.begin(), window.variance.end(), 1e-3f);
+    weigh_neighbours(window);
+    std::vector<float> change(kTileTexels, 1);
+    mean_change(window, window.visibility.data(), change.data());
+    EXPECT_EQ(change, std::vector<float>(kTileTexels, 0.0f));
+    EXPECT_LT(window.scale[kTileTexels / 2], 0.1f) << "neighbours have weight";
+}
+
+TEST(Reconstruct, NoiseOnAConstantFalls)
+{
+    Neighbours window;
+    const auto flat = [](int, int) { return 0.5; };
+    fill_window(window, 0.02, flat);
+    const auto [bias, rms] = error_between(reconstructed(window), 0, kTileSize, flat);
+    EXPECT_LT(rms, 0.02 / 3);
+    EXPECT_LT(std::abs(bias), 0.02 / 20);
+}
+
+TEST(Reconstruct, AStepKeepsItsHeightAndItsPlace)
+{
+    const auto step = [](int x, int) { return x < 30 ? 0.35 : 0.65; };
+    const auto higher = [](int x, int) { return x < 30 ? 0.35 : 0.8; };
+    Neighbours low, high;
+    fill_window(low, 0.02, step);
+    fill_window(high, 0.02, higher);
+    const std::vector<float> found = reconstructed(low), beside = reconstructed(high);
+    for (const auto& [left, right] : { std::pair(29, 30), { 30, 31 } }) {
+        const auto [bias, rms] = error_between(found, left, right, step);
+        EXPECT_LT(std::abs(bias), 3 * 0.02 / 8) << left; // chance, over 64 texels
+        EXPECT_LT(rms, 0.02) << left;
+    }
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = 0; x < 30; ++x)
+            ASSERT_EQ(found[size_t(y) * kTileSize + size_t(x)], beside[size_t(y) * kTileSize + size_t(x)]) << x;
+}
+
+TEST(Reconstruct, ARampIsUnbiased)
+{
+    Neighbours window;
+    const auto ramp = [](int x, int y) { return 0.2 + 0.004 * x + 0.002 * y; };
+    fill_window(window, 0.02, ramp);
+    const auto [bias, rms] = error_between(reconstructed(window), 0, kTileSize, ramp);
+    EXPECT_LT(rms, 0.02 / 2.5);
+    EXPECT_LT(std::abs(bias), 0.001);
+}
+
+TEST(Reconstruct, NothingPassesBetweenUnlikeSides)
+{
+    const auto flat = [](int, int) { return 0.5; };
+    const std::pair<const char*, std::function<void(Neighbours&, size_t)>> apart[] = {
+        { "facing away", [](Neighbours& window, size_t i) { window.normal[2][i] = -1; } },
+        { "at right angles", [](Neighbours& window, size_t i) { window.normal[2][i] = 0, window.normal[0][i] = 1; } },
+        { "another sheet", [](Neighbours& window, size_t i) { window.position[2][i] = 8; } },
+        { "not covered", [](Neighbours& window, size_t i) { window.spacing[i] = 0; } },
+    };
+    for (const auto& [what, set_apart] : apart) {
+        Neighbours window;
+        fill_window(window, 0.02, flat);
+        for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
+            for (int x = 30; x < kTileSize + Neighbours::kHalo; ++x)
+                set_apart(window, Neighbours::index(x, y));
+        const std::vector<float> before = reconstructed(window);
+        for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
+            for (int x = 30; x < kTileSize + Neighbours::kHalo; ++x)
+                window.visibility[Neighbours::index(x, y)] += 0.01f;
+        const std::vector<float> after = reconstructed(window);
+        for (int y = 0; y < kTileSize; ++y)
+            for (int x = 0; x < 30; ++x)
+                ASSERT_EQ(before[size_t(y) * kTileSize + size_t(x)], after[size_t(y) * kTileSize + size_t(x)]) << what;
+    }
+}
+
+TEST(Reconstruct, OpenTexelsStayOpenAndClosedOnesClosed)
+{
+    for (const char* basis : { "vector", "sh" }) {
+        VismapParams params = map_params(64, 64, 16);
+        params.basis = basis;
+        VismapParams with = params;
+        with.reconstruct = "auto";
+        const BakeInput open { floor_facing_z(1), {} }, closed { floor_facing_z(0.3), { sphere(V3d(0), 1, 24, true) } };
+        for (const auto& [scene, visibility] : { std::pair(open, 1.0f), { closed, 0.0f } }) {
+            const BakedMap plain(scene.mesh, scene.occluders, params), map(scene.mesh, scene.occluders, with);
+            EXPECT_TRUE(are_equal_maps(map, plain));
+            EXPECT_EQ(map.at(32, 32).visibility, visibility);
+        }
+    }
+}
+
+TEST(Reconstruct, TheErrorOfVisibilityAndDirectionFalls)
+{
+    for (const BakeInput& scene : { ball_over_floor(), three_boxes(), spot_on_the_ground() })
+        for (const int samples : { 16, 64 }) {
+            VismapParams params = error_params(96, samples), with = reconstruct_params(96, samples);
+            const BakedMap reference = reference_of(scene, 96, samples);
+            const BakedMap plain(scene.mesh, scene.occluders, params), map(scene.mesh, scene.occluders, with);
+            const auto direction_rms = [&](const BakedMap& of) {
+                return rms(of, [&](const float* texel, int x, int y) {
+                    return double((V3f(texel[1], texel[2], texel[3]) - reference.at(x, y).direction).length());
+                });
+            };
+            EXPECT_LT(true_rms(map, reference), true_rms(plain, reference) / 1.3) << samples;
+            EXPECT_LT(direction_rms(map), direction_rms(plain) / 1.3) << samples;
+        }
+}
+
+TEST(Reconstruct, DirectionsAreNoLongerThanASurfaceCanSee)
+{
+    const BakeInput scene = spot_on_the_ground();
+    const BakedMap map(scene.mesh, scene.occluders, reconstruct_params(96, 8));
+    map.each([](const Texel& t, int x, int y) {
+        ASSERT_GE(t.visibility, 0) << x << " " << y;
+        ASSERT_LE(t.visibility, 1) << x << " " << y;
+        ASSERT_LE(double(t.direction.length()), longest_direction(t.visibility) * (1 + 2e-6)) << x << " " << y;
+    });
+}
+
+TEST(Reconstruct, TheErrorThatIsSaidIsThatOfTheReconstructedMap)
+{
+    int number = 0;
+    for (const BakeInput& scene : { ball_over_floor(), three_boxes(), spot_on_the_ground() }) {
+        SCOPED_TRACE(number++);
+        for (const auto& [samples, side] : { std::pair(16, 128), { 64, 96 } }) {
+            const BakedMap reference = reference_of(scene, side, samples);
+            const BakedMap map(scene.mesh, scene.occluders, reconstruct_params(side, samples));
+            const double truth = true_rms(map, reference);
+            EXPECT_NEAR(map.report.error / truth, 1, 0.25) << samples;
+            EXPECT_NEAR(channel_rms(map) / truth, 1, 0.25) << samples;
+        }
+    }
+}
+
+TEST(Reconstruct, ATargetErrorTakesFewerRays)
+{
+    const BakeInput scene = ball_over_floor();
+    VismapParams plain = error_params(96, 1), with = reconstruct_params(96, 1);
+    plain.target_error = with.target_error = 0.005;
+    const BakedMap before(scene.mesh, scene.occluders, plain), after(scene.mesh, scene.occluders, with);
+    EXPECT_LT(after.report.samples * 1.5, before.report.samples);
+    EXPECT_LE(after.report.error, 0.005);
+}
+
+TEST(Reconstruct, TheSameBytesForAnyThreads)
+{
+    const BakeInput scene = spot_on_the_ground();
+    VismapParams params = reconstruct_params(160, 8);
+    params.basis = "sh";
+    const BakedMap one(scene.mesh, scene.occluders, params, 1), many(scene.mesh, scene.occluders, params, 5);
+    EXPECT_TRUE(are_equal_maps(one, many));
+    EXPECT_EQ(one.report.error, many.report.error);
+}
+
+TEST(Reconstruct, ItIsOffUnlessAskedForAndTheMapSaysWhether)
+{
+    const BakeInput scene = ball_over_floor();
+    VismapParams params = map_params(64, 64, 16);
+    EXPECT_FALSE(BakedMap(scene.mesh, scene.occluders, params).spec().find_attribute("vmlight:reconstruct"));
+    params.reconstruct = "auto";
+    EXPECT_EQ(BakedMap(scene.mesh, scene.occluders, params).spec().get_string_attribute("vmlight:reconstruct"), "auto");
+    // Where it cannot be, the map is what it was.
+    params.basis = "mask";
+    VismapParams plain = params;
+    plain.reconstruct = "off";
+    const BakedMap map(scene.mesh, scene.occluders, params);
+    EXPECT_TRUE(are_equal_maps(map, BakedMap(scene.mesh, scene.occluders, plain)));
+    EXPECT_FALSE(map.spec().find_attribute("vmlight:reconstruct"));
+}
+
+TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
+{
+    VismapRecipe recipe;
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
+    recipe.vismap_params.reconstruct = "auto";
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
+    recipe.vismap_params.basis = "cells";
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "what the basis cells packs of each ray has no mean");
+    recipe.vismap_params.basis = "sh";
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
+    recipe.vismap_params.measure = "uniform";
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "the measure uniform makes of B no mean of rays");
+    recipe.vismap_params.measure = "cosine";
+    recipe.vismap_params.samples = 1;
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "one ray does not scatter: give at least 2");
+    recipe.vismap_params.samples = 2;
+    recipe.normal_map = "bumps.png";
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "with a normal map, neighbouring texels have normals of their own");
+}
+
+TEST(Reconstruct, APoseThatChangesNothingHasTheBytesOfItsBase)
+{
+    VismapParams params = pose_params(128, 32);
+    params.reconstruct = "auto";
+    PoseSequence sequence(0);
+    const auto base = bake_pose(sequence, scene_of(door(20)), params, "a");
+    const auto same = bake_pose(sequence, scene_of(door(20)), params, "b");
+    EXPECT_EQ(same->pose.base, "a");
+    EXPECT_EQ(same->report.rays, 0);
+    EXPECT_TRUE(same->has_bytes_of(*base));
+    const auto moved = bake_pose(sequence, scene_of(door(40)), params, "c");
+    EXPECT_TRUE(moved->has_bytes_of(*bake_alone(scene_of(door(40)), params)));
+}
