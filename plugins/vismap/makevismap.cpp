@@ -11,6 +11,9 @@
 #include <vmlight/vismap/basis.h>
 #include <vmlight/vismap/pose_sequence.h>
 
+#include <set>
+#include <string>
+
 using namespace vmlight;
 
 int main(int argc, const char** argv)
@@ -92,6 +95,14 @@ int main(int argc, const char** argv)
             : "";
     });
 
+    stage.check([&] {
+        return recipe.unwrap && (poses.count() > 1 || !poses.compared(recipe).empty())
+            ? "--unwrap would give each pose UVs of its own: unwrap the first with --write-mesh, give its UVs to all, "
+              "and "
+              "bake those"
+            : "";
+    });
+
     std::string written; // one mesh for all tiles, unless each has its own
     Forecasts forecasts;
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
@@ -114,13 +125,23 @@ int main(int argc, const char** argv)
         if (const auto others = poses.compared(tile);
             !others.empty() && !report_pose_changes(tile, others, poses.error(), options, error))
             return false;
+        // What holds for all poses is said once; what is wrong with one of them, then.
+        std::set<std::string> said;
+        const auto once = [&said](const auto& listener) {
+            return [&said, listener](const std::string& line) {
+                const bool is_of_pose = line.compare(0, 5, "pose:") == 0;
+                if ((said.insert(line).second || is_of_pose) && listener)
+                    listener(line);
+            };
+        };
         for (size_t i = 0; i < poses.count(); ++i) {
             MakeOptions own = options;
             if (poses.is_sequence()) {
                 own.pose = poses.name(i);
                 own.explain = explain && i == 0;
-                own.repeated_inputs = own.repeated_inputs || i > 0;
                 prefix_messages(own, own.pose + ": ");
+                own.say = once(own.say);
+                own.warn = once(own.warn);
             }
             OIIO::ImageBuf vismap;
             if (!make_image(vismap, poses.at(tile, i), own))

@@ -148,6 +148,7 @@ TEST_F(Poses, WhatMakesNoSenseIsRefused)
     refused(2, "--time-budget is for one map", bake + "--frames 1-2 --time-budget 1");
     refused(2, "is the same in all frames", "makevismap lid.0001.obj --frames 1-2 -o x.####.exr");
     refused(2, "--write-mesh writes one mesh", bake + "--frames 1-2 --write-mesh x.glb");
+    refused(2, "--unwrap would give each pose UVs of its own", bake + "--frames 1-2 --unwrap");
     refused(2, "--frames cannot be saved in a recipe", bake + "--frames 1-2 --print-recipe");
     refused(1, "lid.0007.obj", bake + "--frames 7");
     write("nan.obj", lidded(0, "nan"));

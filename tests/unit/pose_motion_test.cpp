@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a scene moves together from one pose to another.
+#include "cutout_scene.h"
 #include "pose_scenes.h"
 
 #include <vmlight/mesh/same_triangles.h>
@@ -90,6 +91,25 @@ TEST(PoseMotion, OccludersAreBodiesToo)
     EXPECT_EQ(motion.body(uint32_t(mesh.triangles.size() - 1)), 0u);
     const BakeScenePointer none = scene_of(mesh);
     EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("1 meshes can be met by rays, and 2 in the other pose"));
+}
+
+TEST(PoseMotion, OtherCutOutsAreAnotherMesh)
+{
+    using namespace cutout_scene;
+    const auto card = [](float low, const V2f& shift) {
+        Mesh mesh;
+        add_quad(mesh, V3d(0, 2, 0), V3d(1, 2, 0), V3d(1, 3, 0), V3d(0, 3, 0), V2f(0, 0), V2f(1, 1));
+        for (V2f& uv : mesh.uvs)
+            uv += shift;
+        const auto alpha = texture(
+            4, 4, [low](int x, int y) { return (x + y) % 2 ? low : 1.0f; }, TextureWrap::periodic,
+            TextureWrap::periodic);
+        return scene_of(door(0), { with_material(mesh, material(AlphaMode::blend, alpha)) });
+    };
+    const BakeScenePointer base = card(0, V2f(0));
+    EXPECT_EQ(PoseMotion(*base, *card(0, V2f(0))).fault(), "");
+    for (const BakeScenePointer& other : { card(0.5f, V2f(0)), card(0, V2f(0.25f)) })
+        EXPECT_EQ(PoseMotion(*base, *other).fault(), "other parts of the meshes are cut out");
 }
 
 TEST(PoseMotion, AWidePlaneThatRisesDoesNotStandStill)

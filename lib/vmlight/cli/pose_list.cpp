@@ -30,7 +30,7 @@ PoseList::PoseList(StageMain& stage, VismapRecipe& recipe)
         [&](auto text, auto& error) { return parse_frames(m_frames, std::string(text), error); });
     stage.option(
         "pose", "MESH",
-        "The same mesh in another pose: say before the bake by how much the map changes in it; with #### in -o "
+        "The same mesh in another pose: report before the bake how much the map changes in it; with #### in -o "
         "also bake it, as number 1 (the mesh is number 0). May be repeated",
         [&](auto text, auto&) {
             m_meshes.emplace_back(text);
@@ -38,8 +38,8 @@ PoseList::PoseList(StageMain& stage, VismapRecipe& recipe)
         });
     stage.option(
         "pose_error", "0..1",
-        "Of several frames or poses, by how much V may be off in texels that are not traced again, at least 99 % of "
-        "them; 0: trace again all that is not proven the same [0.02]",
+        "With several frames or poses: the largest error of V in texels kept from another pose, for at least 99 % of "
+        "them; 0 keeps only texels proven unchanged [0.02]",
         [&](auto text, auto& error) {
             m_has_error = true;
             if (parse_value(m_error, text, Range { 0, 1 }, error))

@@ -73,9 +73,9 @@ void decide_bounce(std::vector<EffectDecision>& dst, const Effect& effect, const
                                : !light.no_bounce.empty() ? light.no_bounce
                                : !sees                    ? std::string("no texel sees a surface")
                                : !called                  ? std::string("the albedo is 0 everywhere")
-                                         : format("texels see surfaces that send back up to {:.3g} of "
-                                                  "their light; {} rays a texel, once for all light",
-                                                  light.albedo_high, light.bounce_rays),
+                                                          : format("texels see surfaces that send back up to {:.3g} of "
+                                                                                    "their light; {} rays a texel, once for all light",
+                                                                   light.albedo_high, light.bounce_rays),
                            light.has_environment ? 0.15 : 0.5));
     if (!light.wants_bounce || !light.has_albedo || !is_read(light) || !light.no_bounce.empty())
         dst.back().impossible = dst.back().reason;

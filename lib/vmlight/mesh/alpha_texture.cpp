@@ -72,6 +72,12 @@ double AlphaTexture::coordinate(double st, int n) const
     return std::floor(std::clamp(st * n - (m_is_nearest ? 0.0 : 0.5), -kFarthestTexel, kFarthestTexel));
 }
 
+bool AlphaTexture::operator==(const AlphaTexture& other) const
+{
+    return m_width == other.m_width && m_height == other.m_height && m_wrap_s == other.m_wrap_s
+        && m_wrap_t == other.m_wrap_t && m_is_nearest == other.m_is_nearest && m_texels == other.m_texels;
+}
+
 double AlphaTexture::lookup(const Imath::V2d& st) const
 {
     const double s = coordinate(st.x, m_width), t = coordinate(st.y, m_height);

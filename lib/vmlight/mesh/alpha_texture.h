@@ -29,10 +29,12 @@ class AlphaTexture
 {
 public:
     /// @param texels   rows from the top, where t = 0. NaN becomes 1, so that what is broken is seen; others are
-    /// clamped
-    ///                 to [0, 1]
+    ///                 clamped to [0, 1]
     AlphaTexture(int width, int height, std::vector<float> texels, TextureWrap wrap_s, TextureWrap wrap_t,
                  bool is_nearest = false);
+
+    /// The same values at all points.
+    bool operator==(const AlphaTexture& other) const;
 
     /// The value at a point, between texel centres (i + 0.5) / n bilinearly, unless `is_nearest`. Texel coordinates
     /// beyond 1e9 are those of 1e9. Not checked: that `st` is finite.

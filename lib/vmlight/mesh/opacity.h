@@ -38,6 +38,12 @@ struct MaterialOpacity
         /// As in MaterialTexture.
         Imath::M33d uv_transform;
         int uv_set = 0;
+
+        bool operator==(const Texture& other) const
+        {
+            return (image && other.image ? *image == *other.image : image == other.image)
+                && uv_transform == other.uv_transform && uv_set == other.uv_set;
+        }
     };
 
     AlphaMode mode = AlphaMode::opaque;
@@ -46,6 +52,13 @@ struct MaterialOpacity
     double factor = 1;
     /// Those that are there come first.
     std::array<Texture, 2> textures;
+
+    bool operator==(const MaterialOpacity& other) const
+    {
+        return mode == other.mode && cutoff == other.cutoff && factor == other.factor && textures == other.textures;
+    }
+
+    bool operator!=(const MaterialOpacity& other) const { return !(*this == other); }
 
     /// Whether no point, whatever its texture coordinates, lets light through.
     bool is_opaque() const;

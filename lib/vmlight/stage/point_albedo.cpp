@@ -169,15 +169,27 @@ private:
 void PointAlbedo::find(const MapScene& scene, const std::vector<LightPoint>& points, const V3f& ground,
                        const CasterColor& color)
 {
-    m_before = 0;
-    m_colors.clear();
-    m_texels.clear();
+    m_sources.clear();
+    m_files.clear();
     for (const LightPoint& point : points) {
-        if (point.caster == BakeScene::kWhole)
-            m_texels.push_back(texel_of(*scene.scene(), scene.params(), point, kMean));
+        if (point.caster == LightPoint::kGround)
+            m_sources.push_back({ Source::kColor, ground });
+        else if (point.caster == BakeScene::kWhole)
+            m_sources.push_back({ texel_of(scene, point) });
         else
-            m_colors.push_back(point.caster == LightPoint::kGround ? ground : non_negative(color(point)));
+            m_sources.push_back({ Source::kColor, non_negative(color(point)) });
     }
+}
+
+int PointAlbedo::texel_of(const MapScene& scene, const LightPoint& point)
+{
+    if (point.caster != BakeScene::kWhole || point.triangle == LightPoint::kOtherPart)
+        return Source::kMean;
+    const Size size = scene.params().size();
+    const V2d uv = uv_of(scene.scene()->mesh(), point) - V2d(udim_corner(scene.params().udim));
+    const double x = uv.x * size.width, y = (1 - uv.y) * size.height;
+    const bool is_on_map = x >= 0 && x < size.width && y >= 0 && y < size.height;
+    return is_on_map ? int(y) * size.width + int(x) : Source::kMean;
 }
 
 bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& points, const LightmapRecipe& recipe,
@@ -189,17 +201,6 @@ bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& poi
     const ColorSettings settings { recipe.colorconfig, "", OIIO::TypeUInt8, space };
     const V3f ground(float(recipe.bounce_params.ground_albedo)), otherwise(float(recipe.bounce_params.bounce_albedo));
     std::vector<std::optional<CasterColors>> casters(bake.occluder.size());
-    // The texel, in a map of the tile, that a point of the baked mesh has its uvs in.
-    const Mesh& mesh = scene.scene()->mesh();
-    const Size size = scene.params().size();
-    const auto texel_of = [&](const LightPoint& point) {
-        if (point.caster != BakeScene::kWhole || point.triangle == LightPoint::kOtherPart)
-            return Source::kMean;
-        const V2d uv = uv_of(mesh, point) - V2d(udim_corner(scene.params().udim));
-        const double x = uv.x * size.width, y = (1 - uv.y) * size.height;
-        const bool is_on_map = x >= 0 && x < size.width && y >= 0 && y < size.height;
-        return is_on_map ? int(y) * size.width + int(x) : Source::kMean;
-    };
     m_sources.clear();
     m_files.clear();
     for (const LightPoint& point : points) {
@@ -209,7 +210,7 @@ bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& poi
             continue;
         }
         if (occluder < 0) {
-            m_sources.push_back({ texel_of(point) });
+            m_sources.push_back({ texel_of(scene, point) });
             continue;
         }
         auto& caster = casters[size_t(occluder)];

@@ -51,6 +51,9 @@ private:
         int texel; // its index in the map; or one of these
         Imath::V3f color { 0 };
     };
+    // The texel, in a map of the tile, that a point of the baked mesh has its uvs in; or Source::kMean.
+    static int texel_of(const MapScene& scene, const LightPoint& point);
+
     std::vector<Source> m_sources; // of each point
     std::vector<FileStamp> m_files;
 };

@@ -23,6 +23,8 @@ double percent_of(int64_t part, int64_t whole)
 
 std::string change_text(const PoseChange& change, double allowed)
 {
+    if (change.probes == 0)
+        return "none of its texels trace a ray: nothing to compare";
     return format(
         "V changes by at most {:.2g} in 99 % of the texels, and by {:.2g} at most; in {:.1f} % by more than {:.3g} "
         "({} looked at)",
@@ -50,6 +52,24 @@ VismapParams looking(VismapParams params)
     return params;
 }
 
+bool has_same_normals(const PosedMap& base, const PosedMap& pose, bool is_turned)
+{
+    return base.normal_map && pose.normal_map
+        ? base.normal_map->is_same_image(*pose.normal_map) && !(is_turned && pose.normal_map->is_object_space())
+        : base.normal_map == pose.normal_map;
+}
+
+// What of the map is bound to the axes, as a clause, or "".
+std::string unturned_text(const VismapParams& params)
+{
+    const bool has_basis = params.basis == "mask" || params.basis == "cells", has_suns = !params.sun_directions.empty();
+    return !has_basis && !has_suns ? ""
+                                   : format("; {} must be baked again",
+                                            has_basis && has_suns ? "its basis and its suns"
+                                                : has_basis       ? "its basis"
+                                                                  : "its suns");
+}
+
 bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allowed, const MakeOptions& options,
                    std::string& error)
 {
@@ -66,8 +86,10 @@ bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allo
     }
     const VismapParams params = looking(with_switches(recipe).vismap_params);
     const std::vector<uint8_t> same = prove_same_view(motion, params, false, options.threads);
-    if (std::find(same.begin(), same.end(), 0) == same.end()) {
-        options.report(format("pose \"{}\": everything moves as one body: V stays, and B turns with it", recipe.mesh));
+    const bool is_turned = !is_straight(motion.turn(0));
+    if (std::find(same.begin(), same.end(), 0) == same.end() && has_same_normals(base, pose, is_turned)) {
+        options.report(format("pose \"{}\": everything moves as one body: V stays, and B turns with it{}", recipe.mesh,
+                              is_turned ? unturned_text(params) : ""));
         return true;
     }
     VismapBaker baker;
@@ -92,11 +114,13 @@ void report_pose(const PoseReport& pose, const MakeOptions& options)
             options.report(format("pose: {}: baked whole; later poses are compared with it", pose.why));
         return;
     }
-    const std::string traced = format("{:.1f} % of the texels are traced again, the others are kept from {}",
-                                      percent_of(pose.covered - pose.kept, pose.covered), pose.base);
+    const std::string traced = pose.kept == 0
+        ? format("all texels are traced again, none is kept from {}", pose.base)
+        : format("{:.1f} % of the texels are traced again, the others are kept from {}",
+                 percent_of(pose.covered - pose.kept, pose.covered), pose.base);
     if (pose.change.probes > 0)
-        options.report(
-            format("pose: V changes by at most {:.2g} in 99 % of the texels; {}", pose.change.bound, traced));
+        options.report(format("pose: V changes by at most {:.2g} in 99 % of the texels that could be kept; {}",
+                              pose.change.bound, traced));
     else
         options.report(format("pose: {}{}", pose.is_rigid ? "everything moves as one body; " : "", traced));
 }

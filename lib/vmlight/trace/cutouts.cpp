@@ -5,6 +5,7 @@
 #include <vmlight/base/unique_index.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace vmlight {
 namespace {
@@ -167,6 +168,19 @@ double Cutouts::opacity(uint32_t mixed, double u, double v, CutoutWork& work) co
             return found == CellState::opaque ? 1 : 0;
     ++work.lookups;
     return TriangleOpacity(m_opacity->materials[m_material_of[mixed]], m_uvs[mixed]).at(u, v);
+}
+
+bool Cutouts::operator==(const Cutouts& other) const
+{
+    if (m_opaque != other.m_opaque || m_mixed != other.m_mixed || m_material_of != other.m_material_of
+        || m_opacity->materials != other.m_opacity->materials)
+        return false;
+    for (size_t i = 0; i < m_uvs.size(); ++i)
+        for (size_t t = 0; t < 2; ++t) // by their bits: uvs that are missing are NaN
+            if (m_opacity->materials[m_material_of[i]].textures[t].image
+                && std::memcmp(&m_uvs[i][t], &other.m_uvs[i][t], sizeof(m_uvs[i][t])) != 0)
+                return false;
+    return true;
 }
 
 bool Cutouts::passes(uint32_t mixed, double opacity, uint64_t ray) const

@@ -77,6 +77,9 @@ public:
     /// @param ray          bits that identify the ray
     bool passes(uint32_t mixed, double opacity, uint64_t ray) const;
 
+    /// Whether light passes the same points of the same triangles.
+    bool operator==(const Cutouts& other) const;
+
 private:
     struct Map
     {

@@ -79,6 +79,12 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
     return m_scene != nullptr;
 }
 
+bool Occluder::has_cutouts_of(const Occluder& other) const
+{
+    return std::equal(m_cutouts.begin(), m_cutouts.end(), other.m_cutouts.begin(), other.m_cutouts.end(),
+                      [](const auto& a, const auto& b) { return a && b ? *a == *b : !a && !b; });
+}
+
 void Occluder::count(const CutoutWork& work) const
 {
     if (work.hits == 0)

@@ -93,6 +93,8 @@ public:
 
     /// After build().
     const CutoutCounts& cutouts() const { return m_counts; }
+    /// Whether light passes the same points of the same triangles of the same meshes.
+    bool has_cutouts_of(const Occluder& other) const;
     /// What rays have asked so far.
     CutoutWork cutout_work() const { return { m_hits, m_lookups }; }
     /// All triangles that rays can meet. Valid as long as this is.

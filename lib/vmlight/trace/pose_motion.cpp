@@ -74,6 +74,8 @@ PoseMotion::PoseMotion(const BakeScene& base, const BakeScene& pose)
         if (before[i].count != after[i].count)
             m_fault = format("mesh {} has {} triangles that rays can meet, and {} in the other pose", i, after[i].count,
                              before[i].count);
+    if (m_fault.empty() && !base.occluder().has_cutouts_of(pose.occluder()))
+        m_fault = "other parts of the meshes are cut out";
     if (m_before.baked() != m_after.baked())
         m_fault = "the baked mesh has a different number of triangles";
     if (!m_fault.empty())

@@ -8,12 +8,11 @@
 #include <vmlight/vismap/bounce_rays.h>
 #include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/map_patches.h>
+#include <vmlight/vismap/transport_tile.h>
 
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 
 namespace vmlight {
 
@@ -21,29 +20,11 @@ using Imath::V3f;
 
 namespace {
 
-// Of an entry: the number of what is met, and how often.
-constexpr int kCountBits = 8;
-constexpr uint32_t kMostNumbers = 1u << (32 - kCountBits), kMostCount = (1u << kCountBits) - 1;
-static_assert(TransportParams::kRays.max <= kMostCount);
+static_assert(TransportParams::kRays.max <= TransportTile::kMostCount);
 // Of the bake, traced again for a texel: more would find nothing that matters.
 constexpr int kMostBakeRays = 4096;
 
 } // namespace
-
-// What the rays of a tile met.
-struct LightTransport::Tile
-{
-    struct Receiver
-    {
-        uint16_t texel; // in the tile
-        uint16_t entries; // after those of the receivers before
-        float scale; // of a ray
-    };
-    std::vector<Receiver> receivers;
-    std::vector<uint32_t> entries; // numbers of patches and then cells, each shifted by kCountBits, and counts
-
-    size_t bytes() const { return receivers.capacity() * sizeof(Receiver) + entries.capacity() * sizeof(uint32_t); }
-};
 
 struct LightTransport::Setup
 {
@@ -67,19 +48,6 @@ struct LightTransport::Setup
     std::vector<uint32_t> first_point; // of each cell, and the end
 };
 
-// What the rays of a tile met, one after the other: patches, and cells by their numbers in `cells`.
-struct LightTransport::Traced
-{
-    std::vector<Tile::Receiver> receivers;
-    std::vector<uint32_t> met;
-    LightCells cells;
-
-    size_t bytes() const
-    {
-        return receivers.capacity() * sizeof(Tile::Receiver) + met.capacity() * sizeof(uint32_t) + cells.bytes();
-    }
-};
-
 struct LightTransport::Worker
 {
     explicit Worker(const Setup& setup)
@@ -88,55 +56,9 @@ struct LightTransport::Worker
     }
     BounceRays rays;
     MapPoints::ScratchPointer points;
-    Traced traced;
+    TracedTile traced;
     std::vector<uint32_t> numbers;
-    Tile tile;
-};
-
-// Numbers the cells of tiles in the order of the tiles, whichever is traced first.
-class LightTransport::CellOrder
-{
-public:
-    explicit CellOrder(LightCells& cells)
-        : m_cells(cells)
-    {
-    }
-
-    struct Numbered
-    {
-        int64_t tile;
-        Traced traced;
-        std::vector<uint32_t> numbers; // of its cells
-    };
-    // Take a tile; returns those whose cells can be numbered now.
-    std::vector<Numbered> add(int64_t tile, Traced traced)
-    {
-        const std::lock_guard<std::mutex> lock(m_mutex);
-        m_waiting_bytes += traced.bytes();
-        m_waiting.emplace(tile, std::move(traced));
-        std::vector<Numbered> ready;
-        for (auto first = m_waiting.begin(); first != m_waiting.end() && first->first == m_next; ++m_next) {
-            Numbered& own = ready.emplace_back(Numbered { m_next, std::move(first->second), {} });
-            m_waiting_bytes -= own.traced.bytes();
-            m_cells.merge(own.traced.cells, own.numbers);
-            own.traced.cells = {};
-            first = m_waiting.erase(first);
-        }
-        // The points are copied in the end.
-        m_bytes = m_waiting_bytes + m_cells.bytes() + m_cells.count() * (sizeof(LightPoint) + sizeof(SurfacePoint));
-        m_count = m_cells.count();
-        return ready;
-    }
-    size_t bytes() const { return m_bytes; }
-    size_t count() const { return m_count; }
-
-private:
-    std::mutex m_mutex;
-    LightCells& m_cells;
-    std::map<int64_t, Traced> m_waiting;
-    int64_t m_next = 0;
-    size_t m_waiting_bytes = 0;
-    std::atomic<size_t> m_bytes { 0 }, m_count { 0 };
+    TransportTile tile;
 };
 
 LightTransport::LightTransport() = default;
@@ -146,7 +68,7 @@ void LightTransport::trace(int tile, Worker& worker) const
 {
     const MapPoints& map = m_setup->map;
     const bool has_visibility = !m_setup->visibility.empty(), is_cosine = map.params().measure == "cosine";
-    Traced& traced = worker.traced;
+    TracedTile& traced = worker.traced;
     worker.rays.cells().clear();
     traced.receivers.clear();
     traced.met.clear();
@@ -173,31 +95,6 @@ void LightTransport::trace(int tile, Worker& worker) const
     }
 }
 
-// Sort and count what trace() found; `numbers` are those of its cells among all.
-void LightTransport::count(Tile& dst, Traced& traced, const std::vector<uint32_t>& numbers) const
-{
-    const uint32_t patches = m_setup->patches.count();
-    dst.receivers = traced.receivers;
-    dst.entries.clear();
-    auto met = traced.met.begin();
-    for (Tile::Receiver& receiver : dst.receivers) {
-        const auto end = met + receiver.entries;
-        for (auto number = met; number != end; ++number)
-            if (*number & BounceRays::kCell)
-                *number = patches + numbers[*number & ~BounceRays::kCell];
-        std::sort(met, end);
-        const size_t before = dst.entries.size();
-        for (; met != end; ++met) {
-            uint32_t* last = dst.entries.size() > before ? &dst.entries.back() : nullptr;
-            if (last && *last >> kCountBits == *met && (*last & kMostCount) < kMostCount)
-                ++*last;
-            else
-                dst.entries.push_back(*met << kCountBits | 1);
-        }
-        receiver.entries = uint16_t(dst.entries.size() - before);
-    }
-}
-
 bool LightTransport::trace_all(double memory, std::string& error, int nthreads, const Progress& progress)
 {
     Setup& setup = *m_setup;
@@ -210,7 +107,7 @@ bool LightTransport::trace_all(double memory, std::string& error, int nthreads, 
         if (!worker)
             worker = std::make_unique<Worker>(setup);
         trace(int(tile), *worker);
-        Traced own;
+        TracedTile own;
         own.cells = worker->rays.cells();
         if (m_is_kept) {
             own.receivers = worker->traced.receivers;
@@ -219,22 +116,23 @@ bool LightTransport::trace_all(double memory, std::string& error, int nthreads, 
         for (CellOrder::Numbered& ready : order.add(tile, std::move(own))) {
             if (!m_is_kept)
                 continue;
-            Tile& dst = m_tiles[size_t(ready.tile)];
-            count(dst, ready.traced, ready.numbers);
+            TransportTile& dst = m_tiles[size_t(ready.tile)];
+            ready.traced.count(dst, ready.numbers, setup.patches.count());
             dst.entries.shrink_to_fit();
             kept += dst.bytes();
         }
     };
     const auto used = [&] { return double(order.bytes()) + double(kept); };
-    const auto is_too_much = [&] { return used() > memory || setup.patches.count() + order.count() >= kMostNumbers; };
+    const auto is_too_much
+        = [&] { return used() > memory || setup.patches.count() + order.count() >= TransportTile::kMostNumbers; };
     const bool done = parallel_items(setup.map.tiles(), nthreads, trace_tile,
                                      [&](double part) { return !is_too_much() && (!progress || progress(part)); });
     for (const auto& worker : workers)
         m_rays += worker ? worker->rays.rays() : 0;
     work_counts().bounce_rays += m_rays;
-    if (setup.patches.count() + order.count() >= kMostNumbers)
+    if (setup.patches.count() + order.count() >= TransportTile::kMostNumbers)
         error = format("bounced light comes from {} parts of surfaces; {} are allowed: use a smaller map",
-                       setup.patches.count() + order.count(), kMostNumbers);
+                       setup.patches.count() + order.count(), TransportTile::kMostNumbers);
     else if (used() > memory)
         error = format("bounced light of {}x{} texels needs more than {} of memory, {} available; use a smaller map, "
                        "or fewer bounce_rays",
@@ -297,7 +195,7 @@ bool LightTransport::prepare(BakeScenePointer scene, const VismapParams& map, OI
     for (size_t i = 0; i < texels; ++i)
         if (is_covered(i))
             hidden += visibility.empty() ? 1 : std::max(0.0, 1 - double(setup.visibility[i]));
-    const double kept = hidden * params.rays * sizeof(uint32_t) + double(texels) * sizeof(Tile::Receiver);
+    const double kept = hidden * params.rays * sizeof(uint32_t) + double(texels) * sizeof(TransportTile::Receiver);
     m_is_kept = kept <= double(params.most_bytes) && needed + kept <= available;
     if (!trace_all(available - needed, error, nthreads, halves(0.5)))
         return failed();
@@ -335,22 +233,22 @@ bool LightTransport::gather(std::vector<float>& dst, OIIO::cspan<float> map, OII
     dst.assign(3 * size_t(setup.map.width()) * size_t(setup.map.height()), 0.0f);
     std::vector<std::unique_ptr<Worker>> workers(size_t(worker_count(nthreads)));
     const auto gather_tile = [&](int64_t tile, int index) {
-        const Tile* kept = m_is_kept ? &m_tiles[size_t(tile)] : nullptr;
+        const TransportTile* kept = m_is_kept ? &m_tiles[size_t(tile)] : nullptr;
         if (!kept) {
             auto& worker = workers[size_t(index)];
             if (!worker)
                 worker = std::make_unique<Worker>(setup);
             trace(int(tile), *worker);
             setup.cells.find(worker->rays.cells(), worker->numbers);
-            count(worker->tile, worker->traced, worker->numbers);
+            worker->traced.count(worker->tile, worker->numbers, setup.patches.count());
             kept = &worker->tile;
         }
         const int left = setup.map.left(int(tile)), top = setup.map.top(int(tile));
         const uint32_t* entry = kept->entries.data();
-        for (const Tile::Receiver& receiver : kept->receivers) {
+        for (const TransportTile::Receiver& receiver : kept->receivers) {
             V3f sum(0);
             for (const uint32_t* end = entry + receiver.entries; entry != end; ++entry)
-                sum += light[*entry >> kCountBits] * float(*entry & kMostCount);
+                sum += light[TransportTile::number_of(*entry)] * float(TransportTile::count_of(*entry));
             const int x = left + receiver.texel % kTileSize, y = top + receiver.texel / kTileSize;
             float* rgb = &dst[3 * (size_t(y) * size_t(setup.map.width()) + size_t(x))];
             for (int c = 0; c < 3; ++c)
@@ -376,7 +274,7 @@ size_t LightTransport::bytes() const
     size_t bytes = m_setup->map.bytes() + m_setup->patches.bytes() + m_setup->cells.bytes()
         + m_points.capacity() * sizeof(LightPoint) + m_surfaces.capacity() * sizeof(SurfacePoint)
         + m_setup->first_point.capacity() * sizeof(uint32_t) + m_setup->visibility.capacity() * sizeof(float);
-    for (const Tile& tile : m_tiles)
+    for (const TransportTile& tile : m_tiles)
         bytes += tile.bytes();
     return bytes;
 }

@@ -21,6 +21,8 @@
 
 namespace vmlight {
 
+struct TransportTile;
+
 /// Traced once for a map, then summed up for any light. Once prepared, any number of threads may gather at once.
 class LightTransport
 {
@@ -71,16 +73,12 @@ public:
 
 private:
     struct Setup;
-    struct Tile;
-    struct Traced;
     struct Worker;
-    class CellOrder;
     void trace(int tile, Worker& worker) const;
-    void count(Tile& dst, Traced& traced, const std::vector<uint32_t>& numbers) const;
     bool trace_all(double memory, std::string& error, int nthreads, const Progress& progress);
 
     std::unique_ptr<Setup> m_setup;
-    std::vector<Tile> m_tiles;
+    std::vector<TransportTile> m_tiles;
     std::vector<LightPoint> m_points;
     std::vector<SurfacePoint> m_surfaces;
     bool m_is_kept = false;
