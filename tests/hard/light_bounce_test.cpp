@@ -61,13 +61,13 @@ TEST(Light, TheBackOfASheet)
     const std::vector<float> light = bounced.gather(1);
     const oracle::Bounce truth({ mesh }, constant_sky, [](size_t) { return 1.0; });
     const std::vector<oracle::Place> places = oracle::places(mesh, 64, 32);
-    EXPECT_LT(error_of(light, bounced.visibility, places, truth, 1, 29), 0.02);
+    EXPECT_LT(error_of(light, places, truth, 29), kRmsOfBounce);
     // In the middle of the floor nearly all rays meet the sheet.
     const size_t middle = 16 * 64 + 15;
     EXPECT_LT(light[3 * middle], 0.35f);
     row.naive(format("the floor gets the light of the sheet's upper side: {:.0f} % of the sky, at its middle",
                      std::round(20 * (1 - double(bounced.visibility[middle]))) * 5));
-    row.ours("the lower side has its own light: within 2 % of brute force");
+    row.ours("the lower side has its own light: within 8 % of brute force (RMS)");
 }
 
 TEST(Light, AHoleThatBouncesPass)

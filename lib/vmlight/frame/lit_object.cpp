@@ -97,7 +97,9 @@ bool LitObject::prepare_scene(const MakeOptions& options, std::string& error)
     std::vector<Mesh> occluders;
     for (const FrameSurface& surface : m_occluders)
         occluders.push_back(*surface.mesh);
-    if (!scene->build(m_mesh, occluders, options.threads, error))
+    SceneChoice choice;
+    choice.cull = false; // a bounce may be switched on later, which occluders shade that no texel sees
+    if (!scene->build(m_mesh, occluders, options.threads, error, choice))
         return false;
     m_scene = std::move(scene);
     return true;
