@@ -83,7 +83,7 @@ TEST_F(CostEffects, SunsAndWhatIsInTheirWay)
         EXPECT_GT(double(effect(name)["visibility_error_without"]), 0.01) << name;
     EXPECT_EQ(double(effect("suns")["visibility_error_without"]), 0);
     EXPECT_GT(double(effect("suns")["light_error_without"]), 0.01);
-    EXPECT_THAT(std::string(effect("suns")["reason"]), HasSubstr("1 sun in the environments"));
+    EXPECT_THAT(std::string(effect("suns")["reason"]), HasSubstr("1 sun in 1 of 1 environment"));
 }
 
 TEST_F(CostEffects, AGroundIsAnotherScene)

@@ -99,7 +99,7 @@ TEST(LightTransportSurfaces, AHolePassesLightThatBounces)
     const oracle::Bounce truth({ strip(), white_wall(), closed_fields() }, constant_sky,
                                [](size_t t) { return t == 2 || t == 3 ? 1.0 : 0.0; });
     const std::vector<oracle::Place> places = oracle::places(strip(), 32, 32);
-    EXPECT_LT(error_of(light, places, truth, 19), kRmsOfBounce);
+    EXPECT_LT(error_of(light, places, truth, 19), 0.2); // the wall is lit in fields, by points
     // Not as if it were closed.
     const std::vector<float> shut
         = Bounced(strip(), { white_wall(), checker_card() }, bounce_map_of(32)).gather(0, albedo);

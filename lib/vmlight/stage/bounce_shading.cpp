@@ -114,7 +114,9 @@ std::shared_ptr<BounceShading> BounceShading::of(const BounceParams& params, std
 
 void BounceShading::tag(OIIO::ImageSpec& lightmap) const
 {
-    append_params(lightmap, m_recipe.bounce_params);
+    BounceParams params = m_recipe.bounce_params;
+    params.bounce = "auto"; // where there is a bounce, `on` is the same
+    append_params(lightmap, params);
 }
 
 bool BounceShading::prepare(const std::vector<float>& visibility, const MakeOptions& options, std::string& error)

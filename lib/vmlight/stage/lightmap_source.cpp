@@ -22,7 +22,7 @@
 #include <vmlight/stage/stored_image.h>
 #include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_shading.h>
-#include <vmlight/stage/traced_light.h>
+#include <vmlight/stage/whole_light.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -205,8 +205,8 @@ private:
         const bool converts = m_images.light.conversion || !m_output.note().empty();
         if (m_given.effects != "auto" && !check_switches(m_given, cfem, converts, read_map, error))
             return false;
-        TracedLight traced(m_recipe, m_images);
-        if (!traced.add_suns(m_shader, error))
+        WholeLight whole(m_recipe, m_images);
+        if (!whole.add_suns(m_shader, error))
             return false;
         if (!m_shader.prepare(cfem, m_recipe.lightmap_params, m_model, error)) {
             error = format("\"{}\": {}", m_recipe.cfem.empty() ? m_recipe.environment : m_recipe.cfem, error);
@@ -215,9 +215,9 @@ private:
         const AlbedoReader* albedo = m_images.albedo ? m_images.albedo->reader(error) : nullptr;
         if (albedo)
             m_shader.use_albedo({ m_images.albedo, albedo }, m_recipe.lightmap_params.skip_one_albedo);
-        if (!error.empty() || !traced.add_bounce(m_shader, cfem, albedo, error))
+        if (!error.empty() || !whole.add_bounce(m_shader, cfem, albedo, error))
             return false;
-        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes()) + traced.bytes();
+        m_bytes = 3 * cfem.size() * size_t(cfem[0].spec().image_bytes()) + whole.bytes();
         return true;
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/traced_light.h>
+#include <vmlight/stage/whole_light.h>
 
 #include <vmlight/base/format.h>
 #include <vmlight/stage/open_source.h>
@@ -31,12 +31,12 @@ bool find_suns(std::vector<Sun>& dst, const LightmapRecipe& recipe, const Lightm
     return true;
 }
 
-const OIIO::ImageBuf* TracedLight::map(std::string& error)
+const OIIO::ImageBuf* WholeLight::map(std::string& error)
 {
     return m_map.initialized() || read_all(m_map, *m_images.vismap, error) ? &m_map : nullptr;
 }
 
-bool TracedLight::add_suns(LightmapShader& dst, std::string& error)
+bool WholeLight::add_suns(LightmapShader& dst, std::string& error)
 {
     if (!m_images.suns)
         return true;
@@ -62,7 +62,7 @@ bool TracedLight::add_suns(LightmapShader& dst, std::string& error)
     return true;
 }
 
-bool TracedLight::add_bounce(LightmapShader& dst, const std::vector<OIIO::ImageBuf>& cfem, const AlbedoReader* albedo,
+bool WholeLight::add_bounce(LightmapShader& dst, const std::vector<OIIO::ImageBuf>& cfem, const AlbedoReader* albedo,
                              std::string& error)
 {
     if (!m_images.bounce)

@@ -19,11 +19,12 @@ namespace vmlight {
 /// off. False, with the reason in `error`, if they cannot be found.
 bool find_suns(std::vector<Sun>& dst, const LightmapRecipe& recipe, const LightmapImages& images, std::string& error);
 
-class TracedLight
+/// What a shader needs of the whole map before it lights a tile.
+class WholeLight
 {
 public:
     /// @param recipe, images   of the lightmap; must outlive this
-    TracedLight(const LightmapRecipe& recipe, const LightmapImages& images)
+    WholeLight(const LightmapRecipe& recipe, const LightmapImages& images)
         : m_recipe(recipe)
         , m_images(images)
     {

@@ -69,7 +69,7 @@ OIIO::ImageBuf made(PixelSource& source)
 
 } // namespace
 
-TEST(TracedLight, ReadByTheTileOrMadeWholeItIsTheSame)
+TEST(WholeLight, ReadByTheTileOrMadeWholeItIsTheSame)
 {
     const SunnyFolder folder;
     for (const char* map : { "hero.vismap", "traced.vismap", "stored.vismap" }) {
@@ -79,7 +79,7 @@ TEST(TracedLight, ReadByTheTileOrMadeWholeItIsTheSame)
     }
 }
 
-TEST(TracedLight, StoredSunsAreThoseThatAreTraced)
+TEST(WholeLight, StoredSunsAreThoseThatAreTraced)
 {
     const SunnyFolder folder;
     const PixelSourcePointer traced = folder.lightmap("traced.vismap", "auto");
@@ -96,7 +96,7 @@ TEST(TracedLight, StoredSunsAreThoseThatAreTraced)
 }
 
 // A host shows the picture, and has no place for a warning.
-TEST(TracedLight, ItsMetadataSayWhySunsStayInTheEnvironment)
+TEST(WholeLight, ItsMetadataSayWhySunsStayInTheEnvironment)
 {
     const SunnyFolder folder;
     const std::string reason
