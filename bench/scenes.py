@@ -238,7 +238,7 @@ def leaves():
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         sys.exit("usage: bench/scenes.py OUT_FOLDER")
     os.makedirs(sys.argv[1], exist_ok=True)
     shutil.copyfile(SPOT, os.path.join(sys.argv[1], "object.obj"))
