@@ -63,7 +63,7 @@ bool WholeLight::add_suns(LightmapShader& dst, std::string& error)
 }
 
 bool WholeLight::add_bounce(LightmapShader& dst, const std::vector<OIIO::ImageBuf>& cfem, const AlbedoReader* albedo,
-                             std::string& error)
+                            std::string& error)
 {
     if (!m_images.bounce)
         return true;
