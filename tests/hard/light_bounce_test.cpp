@@ -73,8 +73,7 @@ TEST(Light, TheBackOfASheet)
 TEST(Light, AHoleThatBouncesPass)
 {
     HardCase row("A white wall behind a card that is half holes");
-    using namespace cutout_scene;
-    const auto checker = texture(
+    const auto checker = cutout_scene::texture(
         4, 4, [](int x, int y) { return float((x + y + 1) % 2); }, TextureWrap::clamp, TextureWrap::clamp, true);
     Mesh floor, card;
     add_quad(floor, V3d(0.2, -1, 0), V3d(1, -1, 0), V3d(1, 1, 0), V3d(0.2, 1, 0), V2f(0, 0), V2f(1, 1));
@@ -86,7 +85,8 @@ TEST(Light, AHoleThatBouncesPass)
         }));
     };
     const double open = light_behind({ wall }), shut = light_behind({ wall, card }),
-                 half = light_behind({ wall, with_material(card, material(AlphaMode::mask, checker)) });
+                 half
+        = light_behind({ wall, cutout_scene::with_material(card, cutout_scene::material(AlphaMode::mask, checker)) });
     EXPECT_LT(shut, 0.35 * open);
     EXPECT_GT(half, shut + 0.2 * (open - shut));
     EXPECT_LT(half, shut + 0.5 * (open - shut));

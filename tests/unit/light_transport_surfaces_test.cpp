@@ -50,11 +50,10 @@ Mesh strip()
 
 Mesh cut_out(const Mesh& mesh, double factor)
 {
-    using namespace cutout_scene;
-    const auto alpha = texture(
+    const auto alpha = cutout_scene::texture(
         kFields, kFields, [](int x, int y) { return float((x + y + 1) % 2); }, TextureWrap::clamp, TextureWrap::clamp,
         true);
-    return with_material(mesh, material(AlphaMode::mask, alpha, factor));
+    return cutout_scene::with_material(mesh, cutout_scene::material(AlphaMode::mask, alpha, factor));
 }
 
 // Root mean square, and the mean.

@@ -95,16 +95,16 @@ TEST(PoseMotion, OccludersAreBodiesToo)
 
 TEST(PoseMotion, OtherCutOutsAreAnotherMesh)
 {
-    using namespace cutout_scene;
     const auto card = [](float low, const V2f& shift) {
         Mesh mesh;
         add_quad(mesh, V3d(0, 2, 0), V3d(1, 2, 0), V3d(1, 3, 0), V3d(0, 3, 0), V2f(0, 0), V2f(1, 1));
         for (V2f& uv : mesh.uvs)
             uv += shift;
-        const auto alpha = texture(
+        const auto alpha = cutout_scene::texture(
             4, 4, [low](int x, int y) { return (x + y) % 2 ? low : 1.0f; }, TextureWrap::periodic,
             TextureWrap::periodic);
-        return scene_of(door(0), { with_material(mesh, material(AlphaMode::blend, alpha)) });
+        return scene_of(door(0),
+                        { cutout_scene::with_material(mesh, cutout_scene::material(AlphaMode::blend, alpha)) });
     };
     const BakeScenePointer base = card(0, V2f(0));
     EXPECT_EQ(PoseMotion(*base, *card(0, V2f(0))).fault(), "");
