@@ -52,13 +52,6 @@ VismapParams looking(VismapParams params)
     return params;
 }
 
-bool has_same_normals(const PosedMap& base, const PosedMap& pose, bool is_turned)
-{
-    return base.normal_map && pose.normal_map
-        ? base.normal_map->is_same_image(*pose.normal_map) && !(is_turned && pose.normal_map->is_object_space())
-        : base.normal_map == pose.normal_map;
-}
-
 // What of the map is bound to the axes, as a clause, or "".
 std::string unturned_text(const VismapParams& params)
 {
@@ -87,7 +80,10 @@ bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allo
     const VismapParams params = looking(with_switches(recipe).vismap_params);
     const std::vector<uint8_t> same = prove_same_view(motion, params, false, options.threads);
     const bool is_turned = !is_straight(motion.turn(0));
-    if (std::find(same.begin(), same.end(), 0) == same.end() && has_same_normals(base, pose, is_turned)) {
+    // Normals of an object-space map do not turn with the surface.
+    const bool keeps_normals = have_same_normals(base.normal_map, pose.normal_map)
+        && !(is_turned && pose.normal_map && pose.normal_map->is_object_space());
+    if (std::find(same.begin(), same.end(), 0) == same.end() && keeps_normals) {
         options.report(format("pose \"{}\": everything moves as one body: V stays, and B turns with it{}", recipe.mesh,
                               is_turned ? unturned_text(params) : ""));
         return true;

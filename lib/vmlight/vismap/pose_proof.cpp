@@ -127,4 +127,9 @@ std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& pa
     return still;
 }
 
+bool have_same_normals(const NormalMapPointer& base, const NormalMapPointer& pose)
+{
+    return base && pose ? base->is_same_image(*pose) : base == pose;
+}
+
 } // namespace vmlight

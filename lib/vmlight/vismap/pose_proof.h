@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/trace/pose_motion.h>
+#include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
@@ -20,5 +21,8 @@ std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParam
 /// For each triangle of the baked mesh, 1 where it stands still with all that its rays are made of: position, normals,
 /// the ground. Where rays of its texels meet nothing that moves, they meet what they met.
 std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& params);
+
+/// Whether both have normal maps of the same pixels, or neither has one.
+bool have_same_normals(const NormalMapPointer& base, const NormalMapPointer& pose);
 
 } // namespace vmlight

@@ -37,11 +37,6 @@ std::string area_fault(const Mesh& base, const Mesh& pose)
     return "";
 }
 
-bool have_same_normals(const NormalMapPointer& base, const NormalMapPointer& pose)
-{
-    return base && pose ? base->is_same_image(*pose) : base == pose;
-}
-
 // What a base was traced to be, row by row.
 struct BaseTexels
 {
