@@ -144,7 +144,7 @@ TEST(Geometry, AFaceOnTheGround)
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-1, 1);
     for (int k = 0; k < 50; ++k) {
-        const V3d at(number(random), number(random), number(random));
+        const V3d at { number(random), number(random), number(random) };
         Mesh mesh = box(V3d(-0.1, 0.2, -0.1), V3d(0.1, 0.9, 0.1), false);
         for (V2f& uv : mesh.uvs)
             uv = V2f(NAN); // only the floor is baked

@@ -91,11 +91,18 @@ private:
         if (kind == 3)
             environment.setpixel(width - 1, height - 1, bright.data());
         if (kind == 4)
-            environment.setpixel(one_of(width), one_of(height / 2), bright.data());
+            set_pixel(random, width, height / 2, bright);
         if (one_of(6) == 0) {
             const std::array<float, 3> broken { std::numeric_limits<float>::quiet_NaN(), color[1], color[2] };
-            environment.setpixel(one_of(width), one_of(height), broken.data());
+            set_pixel(random, width, height, broken);
         }
+    }
+
+    // In a drawn place of the columns and rows from 0 on.
+    void set_pixel(std::mt19937& random, int columns, int rows, const std::array<float, 3>& color)
+    {
+        const int x = drawn_surface::one_of(random, columns), y = drawn_surface::one_of(random, rows);
+        environment.setpixel(x, y, color.data());
     }
 
     // 1 everywhere or but for the last pixel, or anything, of the map's size or another.

@@ -38,7 +38,7 @@ struct DrawnPose
         const auto number = [&](double low, double high) { return drawn_surface::number(random, low, high); };
         constexpr std::array kKinds { none, none, none, none, same, occluder, mesh, mesh };
         kind = kKinds[size_t(drawn_surface::one_of(random, int(kKinds.size())))];
-        shift = Imath::V3d(number(-1, 1), number(-1, 1), number(-1, 1));
+        shift = Imath::V3d { number(-1, 1), number(-1, 1), number(-1, 1) };
         factor = number(0.5, 1.1);
     }
 

@@ -31,8 +31,11 @@ struct DrawnScene
         const auto number
             = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
         const auto one_of = [&](int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); };
-        const auto place = [&](double far) { return V3d(number(-far, far), number(-far, far), number(-far, far)); };
+        // Braces: draws in one order whatever the compiler.
+        const auto place = [&](double far) { return V3d { number(-far, far), number(-far, far), number(-far, far) }; };
         const auto shape = [&](bool baked) {
+            double height;
+            int rows;
             switch (one_of(baked ? 5 : 6)) {
             case 0:
                 return icosphere(one_of(3));
@@ -41,9 +44,11 @@ struct DrawnScene
             case 2:
                 return floor_facing_z(1);
             case 3:
-                return bumpy(number(-0.3, 0.3), 3 + one_of(4));
+                height = number(-0.3, 0.3);
+                return bumpy(height, 3 + one_of(4));
             case 4:
-                return sphere(V3d(0), 1, 4 + one_of(4), one_of(4) == 0);
+                rows = 4 + one_of(4);
+                return sphere(V3d(0), 1, rows, one_of(4) == 0);
             default:
                 return quad(V3d(-1, 0, -1), V3d(-1, 0, 1), V3d(1, 0, 1), V3d(1, 0, -1));
             }

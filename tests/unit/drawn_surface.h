@@ -64,7 +64,8 @@ inline OIIO::ImageBuf normal_map(NormalMapParams& params, std::mt19937& random)
     const double lean = kind == 0 ? 0 : number(random, 0.05, 0.6), x = number(random, -1, 1), y = number(random, -1, 1);
     params.normal_map_space = kind > 0 && one_of(random, 4) == 0 ? "object" : "tangent";
     params.normal_map_green = one_of(random, 2) ? "up" : "down";
-    OIIO::ImageBuf image(OIIO::ImageSpec(1 + one_of(random, 9), 1 + one_of(random, 9), 3, OIIO::TypeFloat));
+    const int width = 1 + one_of(random, 9), height = 1 + one_of(random, 9);
+    OIIO::ImageBuf image(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat));
     for (OIIO::ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel) {
         const double a = kind == 2 ? number(random, -1, 1) : x, b = kind == 2 ? number(random, -1, 1) : y;
         const double length = std::sqrt(1 + lean * lean * (a * a + b * b));

@@ -218,9 +218,10 @@ TEST_F(MeshFiles, GltfAnimationsAreNotPlayedAndAWarningSaysSo)
     const size_t places = file.add_accessor<float>({ 5, 5, 5, 6, 6, 6 }, "VEC3");
     const auto channel
         = nlohmann::json { { "sampler", 0 }, { "target", { { "node", 0 }, { "path", "translation" } } } };
-    const auto animation = nlohmann::json { { "channels", { channel } },
-                                            { "samplers", { { { "input", times }, { "output", places } } } } };
-    file.root["animations"] = { animation };
+    const auto sampler = nlohmann::json { { "input", times }, { "output", places } };
+    // { one } is an array to gcc and `one` itself to clang.
+    const auto array = [](const nlohmann::json& one) { return nlohmann::json::array({ one }); };
+    file.root["animations"] = array({ { "channels", array(channel) }, { "samplers", array(sampler) } });
     const Mesh mesh = read("b.gltf", file.text());
     expect_near(mesh.positions, still);
     EXPECT_THAT(mesh.warnings,

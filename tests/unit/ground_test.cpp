@@ -106,7 +106,7 @@ TEST(Ground, AFaceThatLiesOnItSeesAllFromAboveAndNothingFromBelow)
     std::uniform_real_distribution<double> number(-1, 1);
     for (int k = 0; k < 20; ++k) {
         const double scale = std::pow(10.0, 4 * number(random));
-        const V3d centre = V3d(number(random), number(random), number(random)) * scale * 100.0;
+        const V3d centre = V3d { number(random), number(random), number(random) } * scale * 100.0;
         for (const double side : { 0.0, 180.0 }) {
             const Mesh mesh = placed(leaning_square(side, V3d(0)), scale, centre);
             double height = 0;

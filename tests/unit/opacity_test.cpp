@@ -86,9 +86,9 @@ TEST(Opacity, ARangeHoldsTheTexelsThatABoxTouchesAndNoOthers)
         for (float& texel : texels)
             texel = float(random() % 1000) / 1000;
         const AlphaTexture alpha(width, height, texels, wrap_s, wrap_t, nearest);
-        const V2d low(number(-3, 3), number(-3, 3));
+        const V2d low { number(-3, 3), number(-3, 3) };
         const double reach = run % 5 == 0 ? 3 : 0.3;
-        const V2d high = low + V2d(number(0, reach), number(0, reach));
+        const V2d high = low + V2d { number(0, reach), number(0, reach) };
         const auto touched = [&](double from, double to, int n, TextureWrap wrap) {
             std::vector<int> found;
             const double shift = nearest ? 0 : 0.5;
@@ -107,7 +107,7 @@ TEST(Opacity, ARangeHoldsTheTexelsThatABoxTouchesAndNoOthers)
         ASSERT_EQ(range.low, wanted.low) << run;
         ASSERT_EQ(range.high, wanted.high) << run;
         for (int i = 0; i < 20; ++i) {
-            const double value = alpha.lookup(V2d(number(low.x, high.x), number(low.y, high.y)));
+            const double value = alpha.lookup(V2d { number(low.x, high.x), number(low.y, high.y) });
             ASSERT_GE(value, range.low) << run;
             ASSERT_LE(value, range.high) << run;
         }

@@ -78,7 +78,8 @@ TEST(PoseSequence, ADoorThatOpensTakesAFifthOfTheRays)
 
 TEST(PoseSequence, ProvenTexelsHaveTheBytesOfAPlainBake)
 {
-    const VismapParams params = pose_params(128, 64);
+    VismapParams params = pose_params(128, 64);
+    params.channels = { "normal", "error" }; // each map scales its errors
     PoseSequence sequence(0);
     // A tower whose top floor turns: the sides below do not see it, and what it covers is traced.
     const auto tower = [](double degrees) {

@@ -50,7 +50,7 @@ TEST(PoseTurn, BandsTurnWithTheTexel)
             EXPECT_LT((rotate(turn, before) - after).length(), 1e-6);
         }
         for (int i = 0; i < 50; ++i) {
-            const V3d w = V3d(number(random), number(random), number(random)).normalized();
+            const V3d w = V3d { number(random), number(random), number(random) }.normalized();
             EXPECT_NEAR(bands_at(from.data() + 8, order, w), bands_at(to.data() + 8, order, rotate(turn, w)), 2e-5)
                 << order;
         }

@@ -25,6 +25,8 @@ struct BakeHints
     RayBits* record = nullptr;
     /// nullptr, or set to what reconstruction needs of all texels that are baked.
     TexelContexts* contexts = nullptr;
+    /// nullptr, or set to Visibility::error of all texels that are baked, row by row.
+    double* errors = nullptr;
 };
 
 /// Of a texel, whose ray origin is settled.

@@ -89,6 +89,8 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
                 hints.contexts->at(tile_x + x, tile_y + y)
                     = { points[size_t(k)].near_origin, points[size_t(k)].normal, spacing.of(triangles[size_t(k)]),
                         float(seen.error * seen.error), open[size_t(k)] };
+            if (hints.errors)
+                hints.errors[size_t(tile_y + y) * size_t(width()) + size_t(tile_x + x)] = seen.error;
             out[0] = float(seen.visibility);
             for (int c = 0; c < 3; ++c)
                 out[1 + c] = float(seen.direction[c]);

@@ -42,6 +42,7 @@ struct BaseTexels
 {
     const float* pixels;
     const TexelContexts& contexts;
+    const std::vector<double>& errors;
 };
 
 // Puts a pose's texels together: those that are kept from the base, and those that are traced.
@@ -55,6 +56,7 @@ public:
         , m_baker(poses.baker)
         , m_hints(*poses.hints)
         , m_plan(plan)
+        , m_error_at(4 + (m_baker.params().has("normal") ? 3 : 0))
     {
         for (const RigidMotion& body : m_motion.motions())
             m_turns.emplace_back(m_baker.params(), body.turn);
@@ -91,13 +93,17 @@ public:
             if (kept[i / kTileSize] >> i % kTileSize & 1) {
                 const uint32_t triangle = worker.cover->triangle[i];
                 const size_t at = first + i / kTileSize * pitch + i % kTileSize * channels;
+                const int column = x + int(i % kTileSize), row = y + int(i / kTileSize);
                 copy(triangle, m_base.pixels + at, map.pixels + at);
                 worker.counts.dark += map.pixels[at] < 0.01f;
+                if (!m_base.errors.empty()) // each map scales it by what it measures
+                    map.pixels[at + m_error_at]
+                        = float(m_base.errors[size_t(row) * size_t(m_baker.width()) + size_t(column)]
+                                * m_baker.error().lane_scale);
                 if (!hints.contexts)
                     continue;
                 const SurfacePoint point
                     = worker.surface->at(triangle, worker.cover->weight1[i], worker.cover->weight2[i]);
-                const int column = x + int(i % kTileSize), row = y + int(i / kTileSize);
                 map.contexts.at(column, row) = { point.near_origin, point.normal, spacing.of(triangle),
                                                  m_base.contexts.at(column, row).variance, false };
             }
@@ -119,6 +125,7 @@ private:
     const VismapBaker& m_baker;
     const BakeHints& m_hints;
     const PosePlan& m_plan;
+    const size_t m_error_at; // channel
     std::vector<TexelTurn> m_turns; // of the bodies
 };
 
@@ -190,6 +197,9 @@ bool PoseSequence::bake_base(const VismapBaker& baker, const MapJob& job, BakedT
     hints.record = traced.rays.empty() ? nullptr : &traced.rays;
     const bool reconstructs = !map.contexts.texels.empty();
     hints.contexts = reconstructs ? &map.contexts : nullptr;
+    if (baker.params().has("error"))
+        traced.errors.assign(size_t(baker.width()) * size_t(baker.height()), 0);
+    hints.errors = traced.errors.empty() ? nullptr : traced.errors.data();
     const bool done = baker.bake_all(map.pixels, map.coverage, map.counts, job.nthreads, job.progress, &hints);
     m_last.covered = map.counts.covered;
     // Kept texels are reconstructed again, from what this and their next neighbours were traced to be.
@@ -251,7 +261,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         }
         const BaseTexels base { m_traced.texels.empty() ? static_cast<const float*>(m_map.localpixels())
                                                         : m_traced.texels.data(),
-                                m_traced.contexts };
+                                m_traced.contexts, m_traced.errors };
         return bake_changed(base, poses, plan, job, map);
     };
     if (!make_map(dst, next, bake, report))

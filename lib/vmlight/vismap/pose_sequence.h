@@ -62,6 +62,7 @@ private:
     {
         std::vector<float> texels; // before they were reconstructed; empty if they were not
         TexelContexts contexts; // of them
+        std::vector<double> errors; // Visibility::error; empty if the map does not store it
         RayBits rays; // empty if they would take too much memory
         int samples = 0;
     };
