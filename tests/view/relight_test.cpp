@@ -80,18 +80,22 @@ TEST_F(Relight, PyramidEqualsThatOfFrames)
         weights.push_back(i % 5 ? 1.0f : 0.0f);
     }
     LitTexture lit(width, height);
-    lit.fill(rgb.data(), weights);
     PyramidPass pass;
     std::string error;
     ASSERT_TRUE(pass.build(error)) << error;
-    pass.run(lit);
-    const TexturePyramid pyramid(width, height, 3, rgb.data(), weights.data());
-    ASSERT_EQ(size_t(lit.levels()), pyramid.levels().size());
-    for (int level = 0; level < lit.levels(); ++level) {
-        const Framebuffer& framebuffer = lit.level(level);
-        std::vector<float> texels(4 * size_t(framebuffer.width()) * size_t(framebuffer.height()));
-        framebuffer.read(texels.data());
-        EXPECT_LT(largest_difference(texels, pyramid.levels()[size_t(level)].texels), 1e-6) << level;
+    for (const float scale : { 1.0f, 0.25f }) { // filled again, after its levels were used
+        for (float& value : rgb)
+            value *= scale;
+        lit.fill(rgb.data(), weights);
+        pass.run(lit);
+        const TexturePyramid pyramid(width, height, 3, rgb.data(), weights.data());
+        ASSERT_EQ(size_t(lit.levels()), pyramid.levels().size());
+        for (int level = 0; level < lit.levels(); ++level) {
+            const Framebuffer& framebuffer = lit.level(level);
+            std::vector<float> texels(4 * size_t(framebuffer.width()) * size_t(framebuffer.height()));
+            framebuffer.read(texels.data());
+            EXPECT_LT(largest_difference(texels, pyramid.levels()[size_t(level)].texels), 1e-6) << level;
+        }
     }
 }
 

@@ -162,17 +162,22 @@ TEST(Job, StopsAtOnceAndDropsItsResult)
     job.stop();
     EXPECT_TRUE(has_stopped);
     EXPECT_FALSE(job.take());
-    EXPECT_FALSE(job.is_running());
+    EXPECT_FALSE(job.is_busy());
 }
 
-TEST(Job, TellsOfExceptions)
+TEST(Job, ReportsExceptions)
 {
     Job<int> job;
     job.start([](const Job<int>::Post&, const Progress&) { throw std::runtime_error("out of luck"); });
-    ASSERT_TRUE(wait_until([&] { return !job.is_running(); }));
-    const auto result = job.take();
-    ASSERT_TRUE(result);
+    std::optional<JobResult<int>> result;
+    ASSERT_TRUE(wait_until([&] {
+        const bool is_busy = job.is_busy();
+        result = job.take();
+        EXPECT_TRUE(is_busy) << "until the result is taken";
+        return result.has_value();
+    }));
     EXPECT_EQ(result->error, "out of luck");
+    EXPECT_TRUE(wait_until([&] { return !job.is_busy(); }));
 }
 
 // Maps of 1, 4, ... rays, the last one with as many as were asked for, and bit for bit the bake of the executable.

@@ -83,10 +83,14 @@ Texture Texture::image(int width, int height, GLenum format, int levels)
     texture.m_height = height;
     texture.m_levels = levels;
     const bool is_depth = format == GL_DEPTH_COMPONENT32F;
+    // First, with a filter that needs them all: drivers that make room for one level alone move the texture once the
+    // others are used, and framebuffers go on reading the old one (seen with Mesa 22.3).
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+    if (levels > 1)
+        texture.filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     for (int level = 0; level < levels; ++level)
         glTexImage2D(GL_TEXTURE_2D, level, GLint(format), std::max(1, width >> level), std::max(1, height >> level), 0,
                      is_depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
     return texture;
 }
 

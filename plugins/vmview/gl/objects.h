@@ -57,7 +57,8 @@ class Texture
 {
 public:
     Texture() = default;
-    /// Two-dimensional, `levels` mip levels, each half the one before (rounded down, at least 1), without pixels.
+    /// Two-dimensional, `levels` mip levels, each half the one before (rounded down, at least 1), without pixels;
+    /// several levels are filtered.
     static Texture image(int width, int height, GLenum format, int levels = 1);
     /// The same with pixels: rows from the top of the image, which are rows from t = 0 up for OpenGL.
     static Texture image(int width, int height, GLenum format, GLenum pixels, const float* data);

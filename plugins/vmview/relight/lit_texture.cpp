@@ -13,7 +13,6 @@ LitTexture::LitTexture(int width, int height)
     while (std::max(width, height) >> levels)
         ++levels;
     m_texture = Texture::image(width, height, GL_RGBA32F, levels);
-    m_texture.filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     for (int i = 0; i < levels; ++i)
         m_levels.emplace_back(m_texture, i);
 }

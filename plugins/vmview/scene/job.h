@@ -59,7 +59,12 @@ public:
         m_running = false;
     }
 
-    bool is_running() const { return m_running; }
+    /// Whether it runs, or its last result was not taken.
+    bool is_busy() const
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        return m_running || m_result;
+    }
     /// The share of the present step that is done.
     double done() const { return m_done; }
 
@@ -106,7 +111,7 @@ private:
     std::thread m_thread;
     std::atomic<bool> m_stopped { false }, m_running { false };
     std::atomic<double> m_done { 0 };
-    std::mutex m_mutex;
+    mutable std::mutex m_mutex;
     std::optional<JobResult<T>> m_result;
 };
 

@@ -88,14 +88,18 @@ void Viewport::set_light(LightPointer light)
     m_renderer.set_light(std::move(light), m_problem);
 }
 
+void Viewport::stop(Slot& slot)
+{
+    slot.job.stop();
+    slot.key.clear();
+    slot.activity.clear();
+    slot.rest.clear();
+}
+
 void Viewport::stop()
 {
-    for (Slot& slot : m_slots) {
-        slot.job.stop();
-        slot.key.clear();
-        slot.activity.clear();
-        slot.rest.clear();
-    }
+    for (Slot& slot : m_slots)
+        stop(slot);
     m_trace_job.stop();
     m_tracer.reset(); // one that was stopped would not start again
     m_tracer_key.clear();
@@ -105,10 +109,10 @@ void Viewport::stop()
 
 std::string Viewport::activity() const
 {
-    return m_slots[0].job.is_running() ? m_slots[0].activity
-        : m_slots[1].job.is_running()  ? m_slots[1].activity
-        : is_tracing()                 ? "trace: light"
-                                       : "";
+    return m_slots[0].job.is_busy() ? m_slots[0].activity
+        : m_slots[1].job.is_busy()  ? m_slots[1].activity
+        : is_tracing()              ? "trace: light"
+                                    : "";
 }
 
 bool Viewport::start_relight(int index, const LightmapParams& params)
@@ -172,7 +176,7 @@ bool Viewport::wanted_models(std::array<std::string, 2>& dst, const ViewState& s
 
 void Viewport::drop_added()
 {
-    if (m_trace_job.is_running()) {
+    if (m_trace_job.is_busy()) {
         m_trace_job.stop();
         m_tracer.reset(); // one that was stopped would not start again
         m_tracer_key.clear();
@@ -214,7 +218,7 @@ void Viewport::refresh_added(const ViewState& state)
     m_wanted_key = of + key_of(params) + models[0] + "|" + models[1];
     if (m_wanted_key == m_added_key && !m_trace_problem.empty())
         m_problem = m_trace_problem;
-    if (m_wanted_key == m_added_key || m_trace_job.is_running())
+    if (m_wanted_key == m_added_key || m_trace_job.is_busy())
         return;
     m_trace_problem.clear();
     m_traced_key = m_wanted_key;
@@ -319,6 +323,8 @@ void Viewport::update(const ViewState& state, int width, int height, bool is_dra
     bool changed = refresh_texture(0, state, state.show, state.light.model);
     if (has_second)
         changed |= refresh_texture(1, state, state.show, state.second);
+    else
+        stop(m_slots[1]);
     if (!refresh_display(state))
         return;
 

@@ -71,6 +71,7 @@ private:
         std::vector<float> rest; ///< what the job made, before light is added to it; empty: the graphics card lights
         int added = 0; ///< m_added_count when the texture was made
     };
+    static void stop(Slot& slot);
     // Light that is added to both textures.
     using AddedPair = std::array<std::vector<float>, 2>;
     void refresh_added(const ViewState& state);

@@ -175,17 +175,15 @@ bool Workshop::take_light(LightPointer& dst, std::string& problem)
 
 std::string Workshop::activity() const
 {
-    return m_mesh_job.is_running() ? "read: mesh"
-        : m_light_job.is_running() ? "filter: environment"
-        : m_map_job.is_running()   ? m_map_activity
-                                   : "";
+    return m_mesh_job.is_busy() ? "read: mesh"
+        : m_light_job.is_busy() ? "filter: environment"
+        : m_map_job.is_busy()   ? m_map_activity
+                                : "";
 }
 
 double Workshop::done() const
 {
-    return m_mesh_job.is_running() ? m_mesh_job.done()
-        : m_light_job.is_running() ? m_light_job.done()
-                                   : m_map_job.done();
+    return m_mesh_job.is_busy() ? m_mesh_job.done() : m_light_job.is_busy() ? m_light_job.done() : m_map_job.done();
 }
 
 void Workshop::stop()

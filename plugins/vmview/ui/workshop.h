@@ -37,7 +37,7 @@ public:
     /// The share of it that is done.
     double done() const;
     /// Whether the best map there will be is there.
-    bool is_baked() const { return !m_map_job.is_running(); }
+    bool is_baked() const { return !m_map_job.is_busy(); }
     /// Stop everything: at once.
     void stop();
 
