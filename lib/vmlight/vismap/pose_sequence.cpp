@@ -104,8 +104,12 @@ public:
                     continue;
                 const SurfacePoint point
                     = worker.surface->at(triangle, worker.cover->weight1[i], worker.cover->weight2[i]);
-                map.contexts.at(column, row) = { point.near_origin, point.normal, spacing.of(triangle),
-                                                 m_base.contexts.at(column, row).variance, false };
+                map.contexts.at(column, row) = { point.near_origin,
+                                                 point.normal,
+                                                 spacing.of(triangle),
+                                                 m_base.contexts.at(column, row).variance,
+                                                 false,
+                                                 m_baker.seams().island(triangle) };
             }
     }
 

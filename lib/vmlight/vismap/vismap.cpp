@@ -9,6 +9,7 @@
 #include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/make_map.h>
+#include <vmlight/vismap/reconstruct_map.h>
 
 #include <utility>
 
