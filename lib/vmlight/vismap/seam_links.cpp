@@ -16,6 +16,7 @@ namespace vmlight {
 using Imath::V2d;
 using Imath::V2f;
 using Imath::V3d;
+using Imath::V3f;
 
 namespace {
 
@@ -23,6 +24,9 @@ namespace {
 constexpr int kFarthest = NeighbourWindow::kHalo + 1;
 // Links near a tile. More are of islands smaller than a texel, which have nothing to share.
 constexpr size_t kMostLinks = size_t(kTileSize) * kTileSize;
+// Between the normals of both sides, at the ends of a seam. A crease shares nothing, but would make patches beside it
+// seem alike.
+constexpr float kSmooth = 0.9f;
 // Texels on the other side for one on this, by area. With fewer, one texel would count several times.
 constexpr double kLeastDensity = 0.5;
 
@@ -73,6 +77,7 @@ struct SideOfSeam
 {
     V3d from, to, apex;
     V2d from_texel, to_texel, apex_texel;
+    V3f from_normal, to_normal;
 
     // Of the apex: along the edge, in its length, and the distance from it.
     double along() const { return (apex - from).dot(to - from) / (to - from).length2(); }
@@ -102,7 +107,8 @@ SeamLinks::SeamLinks(const Mesh& mesh, const UvRaster& raster, int width, int he
             return V2d(uv.x * width, (1 - uv.y) * height);
         };
         return SideOfSeam { mesh.positions[ends[0]], mesh.positions[ends[1]], mesh.positions[ends[2]],
-                            texel(ends[0]),          texel(ends[1]),          texel(ends[2]) };
+                            texel(ends[0]),          texel(ends[1]),          texel(ends[2]),
+                            mesh.normals[ends[0]],   mesh.normals[ends[1]] };
     };
     const auto add = [&](const SideOfSeam& near, const SideOfSeam& far, uint32_t island) {
         const V2d edge = near.to_texel - near.from_texel, apex = near.apex_texel - near.from_texel;
@@ -134,6 +140,8 @@ SeamLinks::SeamLinks(const Mesh& mesh, const UvRaster& raster, int width, int he
         if (right.from != left.from)
             right = side_of(b, true);
         if (left.from_texel == right.from_texel && left.to_texel == right.to_texel)
+            continue;
+        if (left.from_normal.dot(right.from_normal) < kSmooth || left.to_normal.dot(right.to_normal) < kSmooth)
             continue;
         add(left, right, island(a.triangle));
         add(right, left, island(b.triangle));
