@@ -82,6 +82,7 @@ struct SideOfSeam
     // Of the apex: along the edge, in its length, and the distance from it.
     double along() const { return (apex - from).dot(to - from) / (to - from).length2(); }
     double height() const { return (to - from).cross(apex - from).length() / (to - from).length(); }
+    V3d facet() const { return (to - from).cross(apex - from).normalized(); }
 };
 
 double cross(V2d a, V2d b)
@@ -141,7 +142,8 @@ SeamLinks::SeamLinks(const Mesh& mesh, const UvRaster& raster, int width, int he
             right = side_of(b, true);
         if (left.from_texel == right.from_texel && left.to_texel == right.to_texel)
             continue;
-        if (left.from_normal.dot(right.from_normal) < kSmooth || left.to_normal.dot(right.to_normal) < kSmooth)
+        if (left.from_normal.dot(right.from_normal) < kSmooth || left.to_normal.dot(right.to_normal) < kSmooth
+            || -left.facet().dot(right.facet()) < double(kSmooth))
             continue;
         add(left, right, island(a.triangle));
         add(right, left, island(b.triangle));
