@@ -36,6 +36,14 @@ std::string reconstruct_fault(const VismapParams& params)
     return "";
 }
 
+double reconstruct_bytes(const VismapParams& params)
+{
+    const double texels = double(params.size().width) * params.size().height;
+    return is_reconstructed(params)
+        ? texels * double(size_t(describe_vismap("", params).nchannels) * sizeof(float) + sizeof(TexelContext))
+        : 0;
+}
+
 Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, double error_scale)
     : m_layout { size_t(describe_vismap("", params).nchannels), kVismapChannels.size() + (params.has("normal") ? 3 : 0),
                  kVismapChannels.size() + (params.has("normal") ? 3 : 0) + (params.has("error") ? 1 : 0)

@@ -26,6 +26,10 @@ inline bool is_reconstructed(const VismapParams& params)
     return reconstruct_fault(params).empty();
 }
 
+/// Bytes that the reconstruction of a whole map takes besides the map: the texels as they were baked, and their
+/// contexts. 0 if it is not reconstructed.
+double reconstruct_bytes(const VismapParams& params);
+
 /// What a bake knows of a texel beside its channels.
 struct TexelContext
 {
