@@ -4,6 +4,7 @@
 #include "pose_scenes.h"
 
 #include <vmlight/math/longest_direction.h>
+#include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/stage/recipe/unused_flags.h>
 #include <vmlight/vismap/neighbour_weights.h>
@@ -277,8 +278,33 @@ TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
     recipe.vismap_params.samples = 1;
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "one ray does not scatter: give at least 2");
     recipe.vismap_params.samples = 2;
+    recipe.mesh = "hero.obj";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
     recipe.normal_map = "bumps.png";
+    EXPECT_EQ(recipe_fault(recipe, {}),
+              "reconstruct: with a normal map, neighbouring texels have normals of their own");
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "with a normal map, neighbouring texels have normals of their own");
+}
+
+TEST(Reconstruct, ARecipeThatAsksForWhatCannotBeIsRefusedAsAFlagIs)
+{
+    VismapRecipe recipe;
+    recipe.mesh = "hero.obj";
+    recipe.vismap_params.reconstruct = "auto";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
+    for (const char* basis : { "mask", "cells" }) {
+        recipe.vismap_params.basis = basis;
+        EXPECT_EQ(recipe_fault(recipe, {}), "reconstruct: " + unused_reason(recipe, "reconstruct"));
+        EXPECT_NE(unused_reason(recipe, "reconstruct"), "");
+    }
+    recipe.vismap_params.reconstruct = "off";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
+    // What is switched off cannot stand in the way.
+    recipe.vismap_params = {};
+    recipe.vismap_params.reconstruct = "auto";
+    recipe.normal_map = "bumps.png";
+    recipe.effects = "-normal-map";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
 }
 
 TEST(Reconstruct, APoseThatChangesNothingHasTheBytesOfItsBase)

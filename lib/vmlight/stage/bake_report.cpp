@@ -124,8 +124,6 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
     if (is_reconstructed(recipe.vismap_params))
         say(format("reconstruct: from neighbours within {} texels; {:.2f} s", NeighbourWindow::kReach,
                    report.reconstruct_seconds));
-    else if (recipe.vismap_params.reconstruct != "off")
-        say("reconstruct: off, " + reconstruct_fault(recipe.vismap_params));
     if (report.error_texels > 0)
         say(error_line(report, is_reconstructed(recipe.vismap_params)));
     if (report.expected_seconds > recipe.time_budget)

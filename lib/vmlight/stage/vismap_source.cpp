@@ -16,6 +16,7 @@
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/pose_sequence.h>
+#include <vmlight/vismap/reconstruct.h>
 #include <vmlight/vismap/tiles.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -226,12 +227,12 @@ private:
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
         if (m_tiles->is_whole())
-            error = memory_shortage(m_spec);
+            error = memory_shortage(m_spec, reconstruct_bytes(m_baker.params()));
         if (!error.empty())
             return false;
         // This source owns the triangle lists, and the map if it was baked as a whole.
         const size_t lists = sizeof(uint32_t) * m_scene->mesh().triangles.size();
-        m_bytes = 1 + lists + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
+        m_bytes = 1 + lists + m_baker.seams().bytes() + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
         return true;
     }
 

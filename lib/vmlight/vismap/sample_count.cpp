@@ -110,8 +110,8 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 } // namespace
 
 bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* normal_map, const UvRaster& raster,
-                    const OpenTriangles& open, const VismapParams& params, double time_budget, int nthreads,
-                    const Progress& progress, std::string& error)
+                    const OpenTriangles& open, const SeamLinks& seams, const VismapParams& params, double time_budget,
+                    int nthreads, const Progress& progress, std::string& error)
 {
     dst = {};
     dst.samples = params.samples;
@@ -138,7 +138,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
     std::unique_ptr<ReconstructPilot> windows;
     if (reconstructs && wants_error) {
         windows = std::make_unique<ReconstructPilot>(scene, pilot, params, nthreads, progress);
-        if (!windows->pick(raster, open))
+        if (!windows->pick(raster, open, seams))
             return stopped();
     }
     double lane_scale = 1, error_scale = 1; // of the last measurement

@@ -2,6 +2,7 @@
 #include <vmlight/stage/recipe/recipe_effects.h>
 
 #include <vmlight/effects/effect.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -78,6 +79,19 @@ bool wants_suns(const LightmapRecipe& recipe)
 bool wants_bounce(const LightmapRecipe& recipe)
 {
     return recipe.bounce_params.bounce != "off" || is_named_on(recipe, "bounce");
+}
+
+std::string unreconstructable(const VismapRecipe& recipe)
+{
+    EffectSwitches switches;
+    std::string ignored;
+    if (recipe.vismap_params.reconstruct == "off")
+        return "";
+    if (recipe.has_normal_map()
+        && !(EffectSwitches::parse(switches, recipe.effects, VismapRecipe::kStage, ignored)
+             && switches.of("normal-map") == Switch::off))
+        return "with a normal map, neighbouring texels have normals of their own";
+    return reconstruct_fault(recipe.vismap_params);
 }
 
 std::string switched_fault(const VismapRecipe& recipe)
