@@ -63,14 +63,14 @@ int main(int argc, const char** argv)
             return exposure.wanted || set_param(recipe, "exposure", text, error);
         });
     stage.params("Light:", recipe.lightmap_params);
-    bool explain = false, dry_run = false;
+    bool explain = false;
     stage.group("Effects:");
     stage.params("Effects:", recipe.bounce_params);
     stage.option("explain", "", "Say before the light which effects it simulates and why",
                  [&](auto, auto&) { return explain = true; });
-    stage.option("dry_run", "",
-                 "Say the same with the expected time and memory, and write nothing; reads and filters the inputs",
-                 [&](auto, auto&) { return dry_run = true; });
+    stage.dry_run(
+        "Say the same with the expected time and memory, and write nothing, so that -o may be left out; reads "
+        "and filters the inputs");
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o, and in inputs that are sequences",
                  [&](auto text, auto& error) {
@@ -97,8 +97,10 @@ int main(int argc, const char** argv)
         [&]() -> std::string {
             if (animation.has_frames || animation.rotates())
                 return "--frames and --rotate-y cannot be saved in a recipe";
-            if (dry_run)
+            if (stage.is_dry_run())
                 return "--dry-run cannot be saved in a recipe";
+            if (explain)
+                return "--explain cannot be saved in a recipe";
             return exposure.wanted ? "--exposure auto cannot be saved in a recipe: give the stops that it prints"
                                    : tiles.unsavable();
         });
@@ -114,11 +116,11 @@ int main(int argc, const char** argv)
     });
 
     stage.check([&] {
-        return dry_run && !recipe_stage(recipe.vismap).empty() ? format(
+        return stage.is_dry_run() && !recipe_stage(recipe.vismap).empty() ? format(
                    "--dry-run: \"{}\" is a recipe, whose map would have to be baked: makevismap {} --dry-run says what "
                    "that takes",
                    recipe.vismap, recipe_path(recipe.vismap))
-                                                               : std::string();
+                                                                          : std::string();
     });
 
     LightmapInputs inputs; // frames and tiles share what they can
@@ -136,14 +138,14 @@ int main(int argc, const char** argv)
             TimeTaken taken { reading(), 0 };
             LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
             options.explain = explain && i == 0;
-            options.dry_run = dry_run;
+            options.dry_run = stage.is_dry_run();
             options.forecasts = &forecasts;
             // The frames have the same switches, and about the same light.
-            if (i == 0 && (explain || dry_run || asked.effects != "auto") && error.empty()
+            if (i == 0 && (explain || options.dry_run || asked.effects != "auto") && error.empty()
                 && !explain_light(inputs, { asked, animation.params_at(asked.lightmap_params, i, error), params },
                                   options, error))
                 return false;
-            if (dry_run && error.empty()) {
+            if (options.dry_run && error.empty()) {
                 LightPlan plan { animation.frames.size() };
                 options.say = options.warn = nullptr;
                 reading.lap();
@@ -191,7 +193,7 @@ int main(int argc, const char** argv)
     return stage.run(argc, argv, [&](std::string& error) {
         const bool made = tiles.make_tiles(make, error);
         if (const std::string all = forecasts.text(); made && !all.empty())
-            stage.say(all);
+            stage.answer(all);
         return made;
     });
 }

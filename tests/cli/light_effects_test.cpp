@@ -151,6 +151,24 @@ TEST_F(LightEffects, ADryRunWritesNothing)
         "makelightmap quad.vismap sky.exr -o x.exr --dry-run");
 }
 
+TEST_F(LightEffects, ADryRunNeedsNoOutput)
+{
+    EXPECT_THAT(light("{sky} --dry-run"), ContainsRegex("effects:(.|\n)*expected: "));
+    EXPECT_THAT(light("{sky} --frames 1-48 --rotate-y 0:360 --dry-run"), HasSubstr("48 files"));
+    EXPECT_EQ(names("").size(), 5u) << "nothing is written";
+    refused(2, "-o OUTPUT.exr is missing", "makelightmap vm.exr sky.exr --explain");
+    refused(2, "--explain cannot be saved in a recipe",
+            "makelightmap vm.exr sky.exr -o x.exr --explain --print-recipe");
+}
+
+TEST_F(LightEffects, QuietPrintsWhatIsAskedFor)
+{
+    const std::string said = light("{sky} -o a.exr --explain --quiet");
+    EXPECT_THAT(said, AllOf(HasSubstr("effects:"), HasSubstr("took: "), Not(HasSubstr("light: "))));
+    EXPECT_THAT(light("{sky} --dry-run --quiet"), AllOf(HasSubstr("effects:"), HasSubstr("expected: ")));
+    EXPECT_EQ(light("{sky} -o a.exr --quiet"), "");
+}
+
 // Of an animation, the first frame alone is lit both ways.
 TEST_F(LightEffects, AnAnimationIsComparedOnce)
 {

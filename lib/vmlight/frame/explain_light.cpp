@@ -49,9 +49,9 @@ bool explain_traced(const std::string& name, const TraceParams& trace, const OII
     std::copy_if(all.begin(), all.end(), std::back_inserter(shown), [](const EffectDecision& decision) {
         return std::find(kRows.begin(), kRows.end(), decision.name) != kRows.end();
     });
-    options.report(format("effects: {}:", name));
+    options.report_answer(format("effects: {}:", name));
     for (const std::string& line : decision_lines(shown))
-        options.report(line);
+        options.report_answer(line);
     return true;
 }
 

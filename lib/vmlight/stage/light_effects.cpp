@@ -171,9 +171,9 @@ bool explain_light(const LightmapInputs& inputs, const SwitchedLight& given, con
         || !decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
         return false;
     if (options.explain || options.dry_run) {
-        options.report("effects:");
+        options.report_answer("effects:");
         for (const std::string& line : decision_lines(decisions))
-            options.report(line);
+            options.report_answer(line);
     }
     const std::string missing = left_out(decisions);
     if (missing.empty() || options.repeated_inputs)
