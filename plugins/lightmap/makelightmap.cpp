@@ -36,10 +36,9 @@ std::string level_text(const LightLevel& level, double exposure)
 {
     if (level.texels == 0)
         return "light: no texel is lit";
-    return format(
-        "light: luminance of {}: mean {:.3g}, 95th percentile {:.3g}; --exposure {:.2f} brings the mean to {}",
-        count_text(level.texels, "lit texel", "lit texels"), level.mean, level.percentile95,
-        exposure + level.stops_to_gray(), kMiddleGray);
+    return format("light: luminance of {}: mean {:.3g}, 95th percentile {:.3g}; {}",
+                  count_text(level.texels, "lit texel", "lit texels"), level.mean, level.percentile95,
+                  level.gray_exposure(exposure).advice());
 }
 
 } // namespace
@@ -66,11 +65,10 @@ int main(int argc, const char** argv)
     bool explain = false;
     stage.group("Effects:");
     stage.params("Effects:", recipe.bounce_params);
-    stage.option("explain", "", "Say before the light which effects it simulates and why",
+    stage.option("explain", "", "Print before lighting which effects are simulated, and why",
                  [&](auto, auto&) { return explain = true; });
-    stage.dry_run(
-        "Say the same with the expected time and memory, and write nothing, so that -o may be left out; reads "
-        "and filters the inputs");
+    stage.dry_run("Print the same with the expected time and memory, and write nothing; -o may be left out. Reads "
+                  "and filters the inputs");
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o, and in inputs that are sequences",
                  [&](auto text, auto& error) {
@@ -169,11 +167,14 @@ int main(int argc, const char** argv)
                 options.report(level_text(level, params.exposure));
                 if (exposure.wanted && !exposure.known) {
                     exposure.known = true;
-                    params.exposure = exposure.stops = level.stops_to_gray();
+                    const GrayExposure gray = level.gray_exposure(params.exposure);
+                    params.exposure = exposure.stops = gray.stops;
                     options.report(format("exposure: {:.2f} stops, for all frames and tiles", exposure.stops));
                     if (level.texels == 0)
                         options.report_warning(
                             "--exposure auto: no texel is lit in the first frame, so 0 stops for all");
+                    else if (!gray.is_gray)
+                        options.report_warning("--exposure auto: " + gray.advice());
                     if (!make_lightmap(lightmap, inputs, params, options, error))
                         return false;
                 }

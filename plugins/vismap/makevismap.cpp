@@ -35,9 +35,10 @@ int main(int argc, const char** argv)
     UdimRun tiles(stage, recipe);
     stage.group("Effects:");
     bool explain = false;
-    stage.option("explain", "", "Say before the bake which effects it simulates and why, and after it what it took",
+    stage.option("explain", "",
+                 "Print before the bake which effects it simulates, and why, and after it what each took",
                  [&](auto, auto&) { return explain = true; });
-    stage.dry_run("Say the same with the expected time and memory, and bake nothing; -o may be left out");
+    stage.dry_run("Print the same with the expected time and memory, and bake nothing; -o may be left out");
     stage.option("ground", "[HEIGHT]",
                  "Let everything below the horizontal plane y = HEIGHT occlude, without end; the default is the lowest "
                  "point of the mesh. Not a mesh: vmframes has a ground to look at",

@@ -72,6 +72,13 @@ void StageMain::drop(const std::string& name)
                   options.end());
 }
 
+void StageMain::reword(const std::string& name, const std::string& help)
+{
+    for (CommandLine::Option& option : m_command.line.options)
+        if (option.name == name)
+            option.help = help;
+}
+
 void StageMain::accept_recipe(const char* stage, RecipeAccess access)
 {
     m_command.line.stage = stage;

@@ -39,6 +39,8 @@ public:
                 m_command.line.options.push_back(std::move(option));
     }
 
+    /// Replace the help of a flag that means something else here than where its parameter is from.
+    void reword(const std::string& name, const std::string& help);
     /// Take back the flag of a parameter that has no effect here.
     void drop(const std::string& name);
 

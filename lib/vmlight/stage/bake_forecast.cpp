@@ -204,7 +204,7 @@ void report_taken(const BakeForecast& forecast, const VismapReport& report, cons
     options.report_answer(
         format("  deciding: {:.3f} M boxes and vertices compared with horizons", double(forecast.tests) * 1e-6));
     if (const int64_t hits = now.hits - before.hits; hits > 0)
-        options.report_answer(format("  cut-outs: {:.2f} M hits asked, {:.1f} % of them the texture",
+        options.report_answer(format("  cut-outs: {:.2f} M hits looked up an opacity, {:.1f} % of them in the texture",
                                      double(hits) * 1e-6, 100 * double(now.lookups - before.lookups) / double(hits)));
     if (const int64_t blocked = now.below_ground - before.below_ground; blocked > 0)
         options.report_answer(format("  ground: {:.2f} M directions blocked without a ray", double(blocked) * 1e-6));
