@@ -182,8 +182,8 @@ TEST(BounceScenes, WhatCannotBounceIsSaidOrRefused)
         EXPECT_FALSE(make_image(image, *known));
         EXPECT_THAT(image.geterror(),
                     testing::HasSubstr(known == &recipe ? "the bounce needs an albedo: set --albedo"
-                                                        : "does not store its mesh, which the bounce "
-                                                          "needs: set --mesh (and --occluder)"));
+                                                        : "does not store its mesh: set --mesh, and "
+                                                          "--occluder for each mesh that occluded it"));
     }
     stored.mesh = folder / "facade.obj";
     stored.occluder = { folder / "facade.obj" };

@@ -273,10 +273,10 @@ TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
     recipe.vismap_params.basis = "sh";
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
     recipe.vismap_params.measure = "uniform";
-    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "the measure uniform makes of B no mean of rays");
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "with the measure uniform, B is not a mean over rays");
     recipe.vismap_params.measure = "cosine";
     recipe.vismap_params.samples = 1;
-    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "one ray does not scatter: give at least 2");
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "it needs at least 2 rays per texel");
     recipe.vismap_params.samples = 2;
     recipe.mesh = "hero.obj";
     EXPECT_EQ(recipe_fault(recipe, {}), "");

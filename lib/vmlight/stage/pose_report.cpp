@@ -24,7 +24,7 @@ double percent_of(int64_t part, int64_t whole)
 std::string change_text(const PoseChange& change, double allowed)
 {
     if (change.probes == 0)
-        return "none of its texels trace a ray: nothing to compare";
+        return "no texel traces a ray";
     return format(
         "V changes by at most {:.2g} in 99 % of the texels, and by {:.2g} at most; in {:.1f} % by more than {:.3g} "
         "({} looked at)",

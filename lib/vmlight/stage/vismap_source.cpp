@@ -218,7 +218,7 @@ private:
         NormalMapPointer normal_map;
         std::vector<std::string> ignored;
         MakeOptions quiet;
-        quiet.repeated_inputs = true; // whoever asks for tiles is not told what is left out, so nothing is compared
+        quiet.repeated_inputs = true; // whoever asks for tiles gets no warnings, so nothing is compared
         BakeForecast decided;
         if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
             || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error, &m_textures)

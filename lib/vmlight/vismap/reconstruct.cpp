@@ -28,11 +28,11 @@ std::string reconstruct_fault(const VismapParams& params)
     if (params.reconstruct == "off")
         return "it is switched off";
     if (params.measure != "cosine")
-        return "the measure uniform makes of B no mean of rays";
+        return "with the measure uniform, B is not a mean over rays";
     if (find_basis(params.basis).whole_numbers)
         return "what the basis " + params.basis + " packs of each ray has no mean";
     if (params.samples < 2 && params.target_error <= 0)
-        return "one ray does not scatter: give at least 2";
+        return "it needs at least 2 rays per texel";
     return "";
 }
 

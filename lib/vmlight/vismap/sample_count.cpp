@@ -124,7 +124,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         error = "interrupted";
         return false;
     };
-    // One ray does not scatter.
+    // One ray has no scatter.
     const int least = params.has("error") || reconstructs ? 2 : 1;
     if (target <= 0 && time_budget <= 0 && params.samples < least) {
         error = "samples: 1 is too few for the channel error, which needs 2";
