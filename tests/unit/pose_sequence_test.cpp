@@ -53,9 +53,11 @@ TEST(PoseSequence, WhatStandsStillOnTheGroundIsNotWhatTurnsOnIt)
     };
     EXPECT_EQ(rays(rotation_from_angles(0, 40, 0), V3d(5, 0, 2)), 0);
     EXPECT_GT(rays(rotation_from_angles(3, 0, 0), V3d(0)), 0);
-    // The ground moves with the lowest point; one at a height does not.
+    // The ground moves with the lowest point; one at a height does not. Without end it hides the same, from any height.
     EXPECT_EQ(rays(Rotation(), V3d(0, 1, 0)), 0);
     params.ground_height = -3;
+    EXPECT_EQ(rays(Rotation(), V3d(0, 1, 0)), 0);
+    params.max_distance = 5;
     EXPECT_GT(rays(Rotation(), V3d(0, 1, 0)), 0);
 }
 

@@ -4,6 +4,7 @@
 #include <vmlight/base/parallel.h>
 #include <vmlight/uv/islands.h>
 #include <vmlight/vismap/pose_grid.h>
+#include <vmlight/vismap/pose_ground.h>
 #include <vmlight/vismap/pose_proof.h>
 
 #include <algorithm>
@@ -107,10 +108,12 @@ private:
         Worker(const PosePair& poses, const SamplePattern& pattern)
             : cover(std::make_unique<TileCover>())
             , probe(std::make_unique<PoseProbe>(poses.base, poses.pose, poses.baker.params(), pattern, poses.hints))
+            , sides(std::make_unique<GroundSides>(poses.motion, poses.baker.params()))
         {
         }
         std::unique_ptr<TileCover> cover;
         std::unique_ptr<PoseProbe> probe;
+        std::unique_ptr<GroundSides> sides;
         std::vector<Change> changes;
     };
 
@@ -190,7 +193,13 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
     };
     std::vector<Counts> counts(m_kept.size());
     const bool has_known = poses.hints && poses.hints->known;
-    const auto decide_tile = [&](int tile, const TileCover& cover, const auto&) {
+    const PoseGround ground(poses.motion, poses.baker.params(), error);
+    const auto keeps_ground = [&](uint32_t triangle, const TileCover& cover, size_t texel, GroundSides& sides) {
+        const PoseGround::Keeps keeps = ground.keeps(triangle);
+        return keeps == PoseGround::all
+            || (keeps == PoseGround::by_side && sides.are_same(triangle, cover.weight1[texel], cover.weight2[texel]));
+    };
+    const auto decide_tile = [&](int tile, const TileCover& cover, const auto& worker) {
         const int tile_x = tile % probing.raster().tiles_across() * kTileSize;
         const int tile_y = tile / probing.raster().tiles_across() * kTileSize;
         for (size_t texel = 0; texel < cover.triangle.size(); ++texel) {
@@ -201,7 +210,7 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
             counts[size_t(tile)].tracing += traces;
             const bool unknown = traces && !(has_known && (*poses.hints->still)[triangle]);
             counts[size_t(tile)].unknown += unknown;
-            if (!may_keep(triangle))
+            if (!may_keep(triangle) || !keeps_ground(triangle, cover, texel, *worker.sides))
                 continue;
             const int x = tile_x + int(texel % kTileSize), y = tile_y + int(texel / kTileSize);
             if (by_proof ? same[triangle] : is_cold(x, y) || !fine.exceeds(x, y, probing.part(triangle), limit)) {

@@ -4,6 +4,7 @@
 #include <vmlight/base/parallel.h>
 #include <vmlight/trace/facet.h>
 #include <vmlight/trace/triangle_tree.h>
+#include <vmlight/vismap/pose_ground.h>
 
 #include <algorithm>
 #include <array>
@@ -16,28 +17,7 @@ using Imath::V3f;
 
 namespace {
 
-// Files round normals, mostly to four digits: twice 9e-5.
-constexpr double kSameNormal = 2.5e-4;
 constexpr int64_t kStep = 256; // triangles that one thread takes at once
-
-// Height of the ground above the centre of the scene, in units of `first`.
-double ground_height(const BakeScene& scene, const VismapParams& params, const BakeScene& first)
-{
-    const double height = params.ground_height == VismapParams::kLowest ? scene.lowest() : params.ground_height;
-    return (height - scene.frame().centre.y) * first.frame().scale;
-}
-
-// Whether the ground is where it was, as the body sees it.
-bool keeps_ground(const RigidMotion& motion, const PoseMotion& poses, const VismapParams& params)
-{
-    if (!params.ground)
-        return true;
-    const V3d up(0, 1, 0);
-    const double before = ground_height(poses.base(), params, poses.base());
-    const double after = ground_height(poses.pose(), params, poses.base());
-    return (rotate(motion.turn, up) - up).length() <= kSameNormal
-        && std::abs(motion.shift.y + before - after) <= kTinyTriangle;
-}
 
 bool keeps_normals(const Mesh& before, const Mesh& after, uint32_t triangle, const Rotation& turn)
 {
@@ -88,7 +68,7 @@ std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParam
     std::vector<uint8_t> same(triangles, 0);
     for (uint32_t body = 0; body < motion.motions().size(); ++body) {
         const RigidMotion& own = motion.motions()[body];
-        if (!keeps_ground(own, motion, params) || (!search && !motion.is_whole()))
+        if (!search && !motion.is_whole())
             continue;
         std::unique_ptr<Others> others_before, others_after;
         if (!motion.is_whole()) {
@@ -115,7 +95,7 @@ std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& pa
 {
     const Mesh &before = motion.base().mesh(), &after = motion.pose().mesh();
     std::vector<uint8_t> still(before.triangles.size(), 0);
-    if (!motion.stands_still() || !keeps_ground(motion.motions().front(), motion, params))
+    if (!motion.stands_still() || !is_same_ground(motion.base(), motion.pose(), params))
         return still;
     for (uint32_t t = 0; t < still.size(); ++t) {
         bool same = motion.body(t) == 0;
