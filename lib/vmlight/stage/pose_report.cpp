@@ -120,7 +120,8 @@ void report_pose(const PoseReport& pose, const MakeOptions& options)
         options.report(format("pose: V changes by at most {:.2g} in 99 % of the texels that could be kept; {}",
                               pose.change.bound, traced));
     else
-        options.report(format("pose: {}{}", pose.is_rigid ? "everything moves as one body; " : "", traced));
+        options.report(
+            format("pose: {}{}", pose.is_rigid && pose.kept > 0 ? "everything moves as one body; " : "", traced));
 }
 
 bool report_pose_changes(const VismapRecipe& recipe, const std::vector<VismapRecipe>& poses, double error_allowed,

@@ -81,19 +81,6 @@ uint8_t enter(const SceneBox& box, const PacketInverse& inverse, const V3f& orig
     return bits;
 }
 
-// Whether a triangle is where it was: to the bit, if both poses are rounded alike.
-bool is_same_place(const PoseMotion& motion, const TracedTriangles& before, const TracedTriangles& after,
-                   size_t triangle)
-{
-    const SceneFrame &base = motion.base().frame(), &pose = motion.pose().frame();
-    if (base.scale != pose.scale || base.centre != pose.centre)
-        return true;
-    for (int k = 0; k < 3; ++k)
-        if (before.corner(triangle, k) != after.corner(triangle, k))
-            return false;
-    return true;
-}
-
 } // namespace
 
 MovedBoxes::MovedBoxes(const PoseMotion& motion)
@@ -106,8 +93,7 @@ MovedBoxes::MovedBoxes(const PoseMotion& motion)
     size_t at = 0;
     for (size_t part = 0; part < before.size(); ++part)
         for (size_t i = 0; i < before[part].count; ++i, ++at) {
-            if (motion.stands_still() && motion.body_of_traced(at) == 0
-                && is_same_place(motion, before[part], after[part], i))
+            if (motion.stands_still() && motion.body_of_traced(at) == 0)
                 continue;
             SceneBox box;
             for (int k = 0; k < 3; ++k) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/horizon.h>
 #include <vmlight/trace/rigid_motion.h>
 
 #include <cstddef>
@@ -56,7 +57,7 @@ public:
     /// How a triangle of the baked mesh turns: with its body, or else on its own.
     Rotation turn(uint32_t triangle) const;
 
-    /// Whether the first body stands still.
+    /// Whether the first body stands still: to the bit, if both scenes have the same frame.
     bool stands_still() const { return m_stands_still; }
     /// Whether everything is one body.
     bool is_whole() const { return m_motions.size() == 1 && m_soft == 0; }
@@ -80,7 +81,8 @@ private:
     std::vector<RigidMotion> m_motions;
     std::vector<uint32_t> m_body;
     int64_t m_soft = 0;
-    bool m_stands_still = false;
+    bool m_stands_still = false, m_is_same_scene = false;
+    SceneBox m_box, m_box_to; // of the baked mesh, at most
 };
 
 } // namespace vmlight

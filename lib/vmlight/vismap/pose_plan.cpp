@@ -168,16 +168,17 @@ void keep(TileBits& bits, size_t texel)
 bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_keep, int nthreads,
                       const Progress& progress)
 {
-    const bool by_proof = error <= 0 || poses.motion.is_whole();
     const Progress waiting = [&](double) { return !progress || progress(0); };
     std::vector<uint8_t> same;
-    if (by_proof)
+    if (error <= 0 || poses.motion.is_whole())
         same = prove_same_view(poses.motion, poses.baker.params(), error <= 0, nthreads);
-    if (by_proof && poses.pose.normal_map)
+    if (poses.pose.normal_map)
         for (uint32_t t = 0; t < same.size(); ++t)
             same[t] = same[t]
                 && poses.pose.normal_map->is_turned(*poses.base.normal_map, t, poses.motion.turn(t),
                                                     poses.motion.stands_still() && poses.motion.body(t) == 0);
+    const bool by_proof = error <= 0 || (!same.empty() && std::find(same.begin(), same.end(), 0) == same.end());
+    same.resize(poses.pose.scene->mesh().triangles.size());
     Probing probing(poses, may_keep, nthreads, waiting);
     const double limit = kProbeShare * error;
     PoseGrid coarse(kCoarse, probing.raster()), fine(kFine, probing.raster());
@@ -213,7 +214,8 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
             if (!may_keep(triangle) || !keeps_ground(triangle, cover, texel, *worker.sides))
                 continue;
             const int x = tile_x + int(texel % kTileSize), y = tile_y + int(texel / kTileSize);
-            if (by_proof ? same[triangle] : is_cold(x, y) || !fine.exceeds(x, y, probing.part(triangle), limit)) {
+            if (same[triangle]
+                || (!by_proof && (is_cold(x, y) || !fine.exceeds(x, y, probing.part(triangle), limit)))) {
                 keep(m_kept[size_t(tile)], texel);
                 ++counts[size_t(tile)].kept;
                 counts[size_t(tile)].unknown -= unknown;

@@ -29,6 +29,17 @@ bool keeps_normals(const Mesh& before, const Mesh& after, uint32_t triangle, con
     return true;
 }
 
+// Exactly: rays are made of it.
+bool is_same_surface(const Mesh& before, const Mesh& after, uint32_t triangle)
+{
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t from = before.triangles[triangle][k], to = after.triangles[triangle][k];
+        if (before.normals[from] != after.normals[to] || before.positions[from] != after.positions[to])
+            return false;
+    }
+    return true;
+}
+
 // What rays can meet and does not move with a body, in one pose.
 class Others
 {
@@ -77,11 +88,13 @@ std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParam
         }
         const double reach_before = params.max_distance * base.frame().scale;
         const double reach_after = params.max_distance * pose.frame().scale;
+        const bool is_still = body == 0 && motion.stands_still();
         const auto prove = [&](int64_t item, int) {
             const auto end = uint32_t(std::min<int64_t>(triangles, (item + 1) * kStep));
             for (auto t = uint32_t(item * kStep); t < end; ++t)
                 same[t] = same[t]
-                    || (motion.body(t) == body && keeps_normals(before, after, t, own.turn)
+                    || (motion.body(t) == body
+                        && (is_still ? is_same_surface(before, after, t) : keeps_normals(before, after, t, own.turn))
                         && (!others_before
                             || (!others_before->rise_above(Facet(base, t), reach_before)
                                 && !others_after->rise_above(Facet(pose, t), reach_after))));
@@ -97,13 +110,8 @@ std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& pa
     std::vector<uint8_t> still(before.triangles.size(), 0);
     if (!motion.stands_still() || !is_same_ground(motion.base(), motion.pose(), params))
         return still;
-    for (uint32_t t = 0; t < still.size(); ++t) {
-        bool same = motion.body(t) == 0;
-        for (size_t k = 0; k < 3 && same; ++k) // exactly: directions of rays are made of them
-            same = before.normals[before.triangles[t][k]] == after.normals[after.triangles[t][k]]
-                && before.positions[before.triangles[t][k]] == after.positions[after.triangles[t][k]];
-        still[t] = same;
-    }
+    for (uint32_t t = 0; t < still.size(); ++t)
+        still[t] = motion.body(t) == 0 && is_same_surface(before, after, t);
     return still;
 }
 
