@@ -91,7 +91,33 @@ TEST(PoseMotion, OccludersAreBodiesToo)
     EXPECT_EQ(motion.body_of_traced(mesh.triangles.size() + 3), 1u);
     EXPECT_EQ(motion.body(uint32_t(mesh.triangles.size() - 1)), 0u);
     const BakeScenePointer none = scene_of(mesh);
-    EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("1 meshes can be met by rays, and 2 in the other pose"));
+    EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("0 occluders are given, and 1 in the other pose"));
+}
+
+TEST(PoseMotion, AnOccluderMayBeOutOfReachInOnePose)
+{
+    const Mesh mesh = placed(icosphere(1), 1);
+    const auto ball = [](double x) { return placed(icosphere(1), 0.5, V3d(x, 0, 0)); };
+    const auto scene = [&](double x) {
+        const auto built = std::make_shared<BakeScene>();
+        std::string error;
+        EXPECT_TRUE(
+            built->build(std::make_shared<const Mesh>(mesh), { ball(x), ball(-2) }, 1, error, SceneChoice::within(3)))
+            << error;
+        return built;
+    };
+    const auto near = scene(2), far = scene(20);
+    ASSERT_EQ(far->casters().size(), 2u);
+    const size_t first = mesh.triangles.size();
+    for (const bool leaves : { false, true }) {
+        const PoseMotion motion(leaves ? *near : *far, leaves ? *far : *near);
+        ASSERT_EQ(motion.fault(), "");
+        EXPECT_FALSE(motion.is_whole());
+        EXPECT_EQ(motion.body_of_traced(0), 0u);
+        EXPECT_EQ(motion.body_of_traced(first), PoseMotion::kAway);
+        EXPECT_EQ(motion.body_of_traced(2 * first), 0u); // the other occluder
+        EXPECT_EQ(motion.soft(), 0);
+    }
 }
 
 TEST(PoseMotion, OtherCutOutsAreAnotherMesh)
@@ -110,7 +136,7 @@ TEST(PoseMotion, OtherCutOutsAreAnotherMesh)
     const BakeScenePointer base = card(0, V2f(0));
     EXPECT_EQ(PoseMotion(*base, *card(0, V2f(0))).fault(), "");
     for (const BakeScenePointer& other : { card(0.5f, V2f(0)), card(0, V2f(0.25f)) })
-        EXPECT_EQ(PoseMotion(*base, *other).fault(), "other parts of the meshes are cut out");
+        EXPECT_EQ(PoseMotion(*base, *other).fault(), "other parts of occluder 1 are cut out");
 }
 
 TEST(PoseMotion, AWidePlaneThatRisesDoesNotMoveWithTheRest)

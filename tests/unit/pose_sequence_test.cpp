@@ -123,6 +123,35 @@ TEST(PoseSequence, TheSameBytesForAnyThreads)
     }
 }
 
+TEST(PoseSequence, AnOccluderThatComesIntoReachIsTracedOnlyWhereItIsSeen)
+{
+    VismapParams params = pose_params(160, 64);
+    params.max_distance = 4;
+    const auto scene = [&](double x) {
+        const auto built = std::make_shared<BakeScene>();
+        std::string error;
+        EXPECT_TRUE(built->build(std::make_shared<const Mesh>(door(0)), { placed(icosphere(1), 0.5, V3d(x, 0.6, 3)) },
+                                 1, error, SceneChoice::within(params.max_distance)))
+            << error;
+        return built;
+    };
+    const BakeScenePointer near = scene(5), far = scene(20);
+    ASSERT_NE(near->casters().size(), far->casters().size());
+    for (const bool leaves : { false, true }) {
+        const BakeScenePointer before = leaves ? near : far, after = leaves ? far : near;
+        const auto whole = bake_alone(after, params);
+        for (const double error : { 0.0, kError }) {
+            PoseSequence sequence(error);
+            bake_pose(sequence, before, params, "a");
+            const auto pose = bake_pose(sequence, after, params, "b");
+            EXPECT_EQ(pose->pose.base, "a") << pose->pose.why;
+            EXPECT_LE(pose->report.rays * 2, whole->report.rays) << leaves << error;
+            EXPECT_LE(share_beyond(*pose, *whole, error), error > 0 ? 0.01 : 0) << leaves;
+            EXPECT_TRUE(error > 0 || pose->has_bytes_of(*whole));
+        }
+    }
+}
+
 TEST(PoseSequence, ErrorsDoNotAddUp)
 {
     // Each pose is within the error of the one before; the last is far from the first.

@@ -86,19 +86,20 @@ uint8_t enter(const SceneBox& box, const PacketInverse& inverse, const V3f& orig
 MovedBoxes::MovedBoxes(const PoseMotion& motion)
 {
     const BakeScene &base = motion.base(), &pose = motion.pose();
-    const std::vector<TracedTriangles> before = base.occluder().triangles(), after = pose.occluder().triangles();
     const double scale = pose.frame().scale / base.frame().scale;
     const V3d shift = (base.frame().centre - pose.frame().centre) * pose.frame().scale;
     std::vector<SceneBox> boxes;
     size_t at = 0;
-    for (size_t part = 0; part < before.size(); ++part)
-        for (size_t i = 0; i < before[part].count; ++i, ++at) {
+    for (const PosedPart& part : motion.parts())
+        for (size_t i = 0; i < part.count(); ++i, ++at) {
             if (motion.stands_still() && motion.body_of_traced(at) == 0)
                 continue;
             SceneBox box;
             for (int k = 0; k < 3; ++k) {
-                box.add(V3f(V3d(before[part].corner(i, k)) * scale + shift));
-                box.add(after[part].corner(i, k));
+                if (part.base.count > 0)
+                    box.add(V3f(V3d(part.base.corner(i, k)) * scale + shift));
+                if (part.pose.count > 0)
+                    box.add(part.pose.corner(i, k));
             }
             boxes.push_back(box);
         }

@@ -36,15 +36,16 @@ bool has_shape(const V3d* corner)
 
 } // namespace
 
-PoseTriangles::PoseTriangles(const BakeScene& pose, const BakeScene& first)
+PoseTriangles::PoseTriangles(const BakeScene& pose, const BakeScene& first, const std::vector<PosedPart>& parts,
+                             TracedTriangles PosedPart::*side)
     : m_scene(pose)
-    , m_traced(pose.occluder().triangles())
     , m_scale(first.frame().scale / pose.frame().scale)
     , m_count(pose.mesh().triangles.size())
 {
-    for (const TracedTriangles& part : m_traced) {
+    for (const PosedPart& part : parts) {
+        m_traced.push_back(part.*side);
         m_first.push_back(m_count);
-        m_count += part.count;
+        m_count += part.count();
     }
 }
 
@@ -64,18 +65,10 @@ void PoseTriangles::corners(size_t triangle, V3d* dst) const
 PoseMotion::PoseMotion(const BakeScene& base, const BakeScene& pose)
     : m_base(base)
     , m_pose(pose)
-    , m_before(base, base)
-    , m_after(pose, base)
+    , m_parts(match_parts(base, pose, m_fault))
+    , m_before(base, base, m_parts, &PosedPart::base)
+    , m_after(pose, base, m_parts, &PosedPart::pose)
 {
-    const auto &before = m_before.traced(), &after = m_after.traced();
-    if (before.size() != after.size())
-        m_fault = format("{} meshes can be met by rays, and {} in the other pose", after.size(), before.size());
-    for (size_t i = 0; i < before.size() && m_fault.empty(); ++i)
-        if (before[i].count != after[i].count)
-            m_fault = format("mesh {} has {} triangles that rays can meet, and {} in the other pose", i, after[i].count,
-                             before[i].count);
-    if (m_fault.empty() && !base.occluder().has_cutouts_of(pose.occluder()))
-        m_fault = "other parts of the meshes are cut out";
     if (m_before.baked() != m_after.baked())
         m_fault = "the baked mesh has a different number of triangles";
     if (!m_fault.empty())
@@ -87,7 +80,15 @@ PoseMotion::PoseMotion(const BakeScene& base, const BakeScene& pose)
     m_box_to.add(V3f(float(-base.frame().scale / pose.frame().scale)));
     m_box_to.add(V3f(float(base.frame().scale / pose.frame().scale)));
     m_body.assign(m_before.count(), kSoft);
-    m_soft = int64_t(m_body.size());
+    size_t first = m_before.baked();
+    for (const PosedPart& part : m_parts) {
+        if (!part.is_in_both()) {
+            std::fill_n(m_body.begin() + int64_t(first), part.count(), kAway);
+            m_away += int64_t(part.count());
+        }
+        first += part.count();
+    }
+    m_soft = int64_t(m_body.size()) - m_away;
     m_stands_still = take({ Rotation(), (base.frame().centre - pose.frame().centre) * base.frame().scale }) > 0;
     while (m_soft > 0 && m_motions.size() < kMotions) {
         std::vector<uint32_t> left;

@@ -44,18 +44,17 @@ bool is_same_surface(const Mesh& before, const Mesh& after, uint32_t triangle)
 class Others
 {
 public:
-    Others(const BakeScene& scene, const PoseMotion& motion, uint32_t body)
-        : m_all(scene.occluder().triangles())
+    Others(TracedTriangles PosedPart::*pose, const PoseMotion& motion, uint32_t body)
     {
         size_t at = 0;
-        for (const TracedTriangles& part : m_all) {
+        for (const PosedPart& part : motion.parts()) {
             m_indices.emplace_back();
-            for (size_t i = 0; i < part.count; ++i, ++at)
-                if (motion.body_of_traced(at) != body)
-                    m_indices.back().push_back(part.triangles[i]);
+            for (size_t i = 0; i < part.count(); ++i, ++at)
+                if ((part.*pose).count > 0 && motion.body_of_traced(at) != body)
+                    m_indices.back().push_back((part.*pose).triangles[i]);
         }
-        for (size_t i = 0; i < m_all.size(); ++i)
-            m_others.push_back({ m_all[i].vertices, m_indices[i].data(), m_indices[i].size() });
+        for (size_t i = 0; i < m_indices.size(); ++i)
+            m_others.push_back({ (motion.parts()[i].*pose).vertices, m_indices[i].data(), m_indices[i].size() });
         m_tree = std::make_unique<TriangleTree>(m_others);
     }
     bool rise_above(const Facet& facet, double reach) const
@@ -64,7 +63,7 @@ public:
     }
 
 private:
-    std::vector<TracedTriangles> m_all, m_others;
+    std::vector<TracedTriangles> m_others;
     std::vector<std::vector<std::array<uint32_t, 3>>> m_indices;
     std::unique_ptr<TriangleTree> m_tree;
 };
@@ -83,8 +82,8 @@ std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParam
             continue;
         std::unique_ptr<Others> others_before, others_after;
         if (!motion.is_whole()) {
-            others_before = std::make_unique<Others>(base, motion, body);
-            others_after = std::make_unique<Others>(pose, motion, body);
+            others_before = std::make_unique<Others>(&PosedPart::base, motion, body);
+            others_after = std::make_unique<Others>(&PosedPart::pose, motion, body);
         }
         const double reach_before = params.max_distance * base.frame().scale;
         const double reach_after = params.max_distance * pose.frame().scale;
