@@ -260,8 +260,9 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         m_last.covered = plan.covered();
         map.counts.rays += plan.change().rays;
         if (double(plan.unknown()) > kMostUnknown * double(plan.tracing())) {
+            m_last.why
+                = plan.kept() == 0 && plan.change().probes == 0 ? "nothing of it can be kept" : "most of it changes";
             m_last.kept = 0;
-            m_last.why = "most of it changes";
             return bake_base(baker, with_progress(next, progress), map, traced);
         }
         const BaseTexels base { m_traced.texels.empty() ? static_cast<const float*>(m_map.localpixels())
