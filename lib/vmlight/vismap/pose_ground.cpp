@@ -37,12 +37,12 @@ struct Heights
     double low, high = -std::numeric_limits<double>::infinity();
 };
 
-// A bound of the share of the rays between two horizons, `tilt` radians apart, around a normal whose sine to the
-// vertical is `sine`. They are two lunes with 4 tilt of solid angle, at most half of it above the surface.
-double share_between(double tilt, double sine, bool by_cosine)
+// A bound of the share of the rays between two horizons, `tilt` radians apart, whatever the normal around which they
+// are: two lunes of which at most one half each is above the surface, with the most weight where the normal is between
+// them.
+double share_between(double tilt, bool by_cosine)
 {
-    const double in_lunes = tilt / kPi;
-    return by_cosine ? std::min(tilt / 2, 2 * in_lunes * std::min(1.0, sine + tilt)) : in_lunes;
+    return by_cosine ? tilt / 2 : tilt / kPi;
 }
 
 } // namespace
@@ -69,8 +69,7 @@ PoseGround::PoseGround(const PoseMotion& motion, const VismapParams& params, dou
         for (size_t k = 0; k < 3; ++k)
             change = std::max(change, std::abs(heights.corner[k] / reach_before - heights_to.corner[k] / reach_after));
         const double tilt = (rotate(motion.turn(t), up) - up).length();
-        const double upright = std::min(std::abs(facet.normal.y), std::abs(facet_to.normal.y));
-        change += share_between(tilt, std::sqrt(std::max(0.0, 1 - upright * upright)), params.measure == "cosine");
+        change += share_between(tilt, params.measure == "cosine");
         if (change <= std::max(error, kSameNormal))
             m_keeps[t] = heights.is_above() && heights_to.is_above() ? all : by_side;
     }
