@@ -67,3 +67,18 @@ TEST(PoseBound, ATurnedMeshDoesNotChange)
     EXPECT_LT(change.bound, 0.02);
     EXPECT_LT(change.above, 0.02);
 }
+
+// The base alone is traced until the error is what was asked for.
+TEST(PoseBound, APoseSaysHowManyRaysItHasAndNoErrorThatWasAskedFor)
+{
+    VismapParams params = pose_params(96, 128);
+    params.target_error = 0.03;
+    PoseSequence sequence(0.02);
+    const auto base = bake_pose(sequence, scene_of(door(0)), params, "a");
+    const auto pose = bake_pose(sequence, scene_of(door(20)), params, "b");
+    EXPECT_EQ(pose->pose.base, "a");
+    EXPECT_GT(pose->pose.kept, 0);
+    EXPECT_FLOAT_EQ(base->image.spec().get_float_attribute("vmlight:target_error"), 0.03f);
+    EXPECT_EQ(pose->image.spec().get_float_attribute("vmlight:target_error"), 0);
+    EXPECT_EQ(pose->image.spec().get_int_attribute("vmlight:samples"), base->report.samples);
+}

@@ -273,8 +273,6 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     if (!make_map(dst, next, bake, report))
         return false;
     OIIO::ImageSpec& spec = dst.specmod();
-    if (const OIIO::ParamValue* target = m_map.spec().find_attribute("vmlight:target_error"))
-        spec.extra_attribs.add_or_replace(*target);
     if (!m_last.why.empty()) {
         m_traced = std::move(traced);
         m_base = pose;
