@@ -48,8 +48,9 @@ std::string progress_line(const std::string& step, double done, double seconds, 
     if (texels == 0 && done == 0)
         return step + " ...";
     const double rate = seconds > 0 ? done * double(texels) / seconds : 0;
+    const std::string speed = texels > 0 ? rate_text(rate) + "texels/s  " : "";
     const std::string time = done >= 1 ? time_text(seconds) : time_text(seconds / done - seconds) + " left";
-    return format("{} {:3.0f} %  {}texels/s  {}", step, std::floor(100 * done), rate_text(rate), time);
+    return format("{} {:3.0f} %  {}{}", step, std::floor(100 * done), speed, time);
 }
 
 Progress progress_on_stderr(const std::string& step, int64_t texels, std::function<bool()> keep_going)

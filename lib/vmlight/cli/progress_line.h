@@ -15,7 +15,7 @@ namespace vmlight {
 ///
 /// @param done     fraction of the step that is done, in [0, 1]
 /// @param seconds  since the step started
-/// @param texels   in the whole image, covered or not; 0 if the step makes none
+/// @param texels   in the whole image, covered or not; 0 if the step makes none, which has no rate
 std::string progress_line(const std::string& step, double done, double seconds, int64_t texels);
 
 /// A Progress that prints on stderr: on a terminal one line, updated ten times a second; otherwise a line every 10 % of
