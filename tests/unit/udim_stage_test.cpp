@@ -21,7 +21,7 @@ using OIIO::ImageInput;
 namespace {
 
 // A floor in tile 1001, and a wall beside it in 1012.
-std::string corner(double u, double v)
+std::string tile_corner(double u, double v)
 {
     std::string text = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 1 -1 2\nv 1 1 2\nvn 0 0 1\nvn -1 0 0\n";
     for (const auto& at : { std::pair(0.0, 0.0), std::pair(u, v) })
@@ -36,7 +36,7 @@ class Tiles : public Folder
 public:
     Tiles()
     {
-        write("corner.obj", corner(1, 1));
+        write("corner.obj", tile_corner(1, 1));
         write("corner.vismap", "mesh = \"corner.obj\"\nresolution = 40\nsamples = 16\nmargin = 3\n");
         write("corner.lightmap", "vismap = \"corner.vismap?udim=<UDIM>\"\ncfem = \"studio.cfem\"\n");
     }
@@ -133,7 +133,7 @@ TEST(UdimStage, ASceneThatCouldNotBeHadIsTriedAnew)
     }
     std::vector<int> udims;
     std::string error;
-    folder.write("corner.obj", corner(-9, -9));
+    folder.write("corner.obj", tile_corner(-9, -9));
     EXPECT_TRUE(vismap_udims(udims, folder.recipe(1001), {}, error)) << error;
     folder.write("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt -1 -1\nvt -2 -1\nvt -1 -2\nf 1/1 2/2 3/3\n");
     EXPECT_FALSE(vismap_udims(udims, folder.recipe(1001), {}, error));
