@@ -72,6 +72,12 @@ public:
         Imath::V3d centre { 0, 1, 0 };
         double radius = 0; ///< radians
         std::array<float, 3> background {};
+        /// Where a wide light is parted in four, above and below, left and right; zero for a sun, which is one disc.
+        Imath::V3d middle { 0 };
+
+        static constexpr int kParts = 4;
+        /// The part that a direction belongs to, 0 to kParts - 1.
+        int part_of(const Imath::V3d& direction) const;
 
         /// How much of a pixel, `height` radians high, whose middle is at `angle` radians from the centre is the cap's.
         double share_at(double angle, double height) const;
