@@ -36,10 +36,9 @@ std::string level_text(const LightLevel& level, double exposure)
 {
     if (level.texels == 0)
         return "light: no texel is lit";
-    return format(
-        "light: luminance of {}: mean {:.3g}, 95th percentile {:.3g}; --exposure {:.2f} brings the mean to {}",
-        count_text(level.texels, "lit texel", "lit texels"), level.mean, level.percentile95,
-        exposure + level.stops_to_gray(), kMiddleGray);
+    return format("light: luminance of {}: mean {:.3g}, 95th percentile {:.3g}; {}",
+                  count_text(level.texels, "lit texel", "lit texels"), level.mean, level.percentile95,
+                  level.gray_exposure(exposure).advice());
 }
 
 } // namespace
@@ -63,14 +62,13 @@ int main(int argc, const char** argv)
             return exposure.wanted || set_param(recipe, "exposure", text, error);
         });
     stage.params("Light:", recipe.lightmap_params);
-    bool explain = false, dry_run = false;
+    bool explain = false;
     stage.group("Effects:");
     stage.params("Effects:", recipe.bounce_params);
-    stage.option("explain", "", "Say before the light which effects it simulates and why",
+    stage.option("explain", "", "Print before lighting which effects are simulated, and why",
                  [&](auto, auto&) { return explain = true; });
-    stage.option("dry_run", "",
-                 "Say the same with the expected time and memory, and write nothing; reads and filters the inputs",
-                 [&](auto, auto&) { return dry_run = true; });
+    stage.dry_run("Print the same with the expected time and memory, and write nothing; -o may be left out. Reads "
+                  "and filters the inputs");
     stage.group("Frames:");
     stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o, and in inputs that are sequences",
                  [&](auto text, auto& error) {
@@ -97,8 +95,10 @@ int main(int argc, const char** argv)
         [&]() -> std::string {
             if (animation.has_frames || animation.rotates())
                 return "--frames and --rotate-y cannot be saved in a recipe";
-            if (dry_run)
+            if (stage.is_dry_run())
                 return "--dry-run cannot be saved in a recipe";
+            if (explain)
+                return "--explain cannot be saved in a recipe";
             return exposure.wanted ? "--exposure auto cannot be saved in a recipe: give the stops that it prints"
                                    : tiles.unsavable();
         });
@@ -114,11 +114,11 @@ int main(int argc, const char** argv)
     });
 
     stage.check([&] {
-        return dry_run && !recipe_stage(recipe.vismap).empty() ? format(
+        return stage.is_dry_run() && !recipe_stage(recipe.vismap).empty() ? format(
                    "--dry-run: \"{}\" is a recipe, whose map would have to be baked: makevismap {} --dry-run says what "
                    "that takes",
                    recipe.vismap, recipe_path(recipe.vismap))
-                                                               : std::string();
+                                                                          : std::string();
     });
 
     LightmapInputs inputs; // frames and tiles share what they can
@@ -136,14 +136,14 @@ int main(int argc, const char** argv)
             TimeTaken taken { reading(), 0 };
             LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
             options.explain = explain && i == 0;
-            options.dry_run = dry_run;
+            options.dry_run = stage.is_dry_run();
             options.forecasts = &forecasts;
             // The frames have the same switches, and about the same light.
-            if (i == 0 && (explain || dry_run || asked.effects != "auto") && error.empty()
+            if (i == 0 && (explain || options.dry_run || asked.effects != "auto") && error.empty()
                 && !explain_light(inputs, { asked, animation.params_at(asked.lightmap_params, i, error), params },
                                   options, error))
                 return false;
-            if (dry_run && error.empty()) {
+            if (options.dry_run && error.empty()) {
                 LightPlan plan { animation.frames.size() };
                 options.say = options.warn = nullptr;
                 reading.lap();
@@ -167,11 +167,14 @@ int main(int argc, const char** argv)
                 options.report(level_text(level, params.exposure));
                 if (exposure.wanted && !exposure.known) {
                     exposure.known = true;
-                    params.exposure = exposure.stops = level.stops_to_gray();
+                    const GrayExposure gray = level.gray_exposure(params.exposure);
+                    params.exposure = exposure.stops = gray.stops;
                     options.report(format("exposure: {:.2f} stops, for all frames and tiles", exposure.stops));
                     if (level.texels == 0)
                         options.report_warning(
                             "--exposure auto: no texel is lit in the first frame, so 0 stops for all");
+                    else if (!gray.is_gray)
+                        options.report_warning("--exposure auto: " + gray.advice());
                     if (!make_lightmap(lightmap, inputs, params, options, error))
                         return false;
                 }
@@ -191,7 +194,7 @@ int main(int argc, const char** argv)
     return stage.run(argc, argv, [&](std::string& error) {
         const bool made = tiles.make_tiles(make, error);
         if (const std::string all = forecasts.text(); made && !all.empty())
-            stage.say(all);
+            stage.answer(all);
         return made;
     });
 }

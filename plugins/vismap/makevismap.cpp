@@ -34,11 +34,11 @@ int main(int argc, const char** argv)
     PoseList poses(stage, recipe);
     UdimRun tiles(stage, recipe);
     stage.group("Effects:");
-    bool explain = false, dry_run = false;
-    stage.option("explain", "", "Say before the bake which effects it simulates and why, and after it what it took",
+    bool explain = false;
+    stage.option("explain", "",
+                 "Print before the bake which effects it simulates, and why, and after it what each took",
                  [&](auto, auto&) { return explain = true; });
-    stage.option("dry_run", "", "Say the same with the expected time and memory, and bake nothing",
-                 [&](auto, auto&) { return dry_run = true; });
+    stage.dry_run("Print the same with the expected time and memory, and bake nothing; -o may be left out");
     stage.option("ground", "[HEIGHT]",
                  "Let everything below the horizontal plane y = HEIGHT occlude, without end; the default is the lowest "
                  "point of the mesh. Not a mesh: vmframes has a ground to look at",
@@ -67,7 +67,7 @@ int main(int argc, const char** argv)
     const auto unsavable = [&] {
         return recipe.time_budget > 0    ? "--time-budget cannot be saved in a recipe: it depends on the machine"
             : !write_path.empty()        ? "--write-mesh cannot be saved in a recipe"
-            : dry_run                    ? "--dry-run cannot be saved in a recipe"
+            : stage.is_dry_run()         ? "--dry-run cannot be saved in a recipe"
             : explain                    ? "--explain cannot be saved in a recipe"
             : !poses.unsavable().empty() ? poses.unsavable()
                                          : tiles.unsavable();
@@ -108,7 +108,7 @@ int main(int argc, const char** argv)
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
         MakeOptions options = given;
         options.explain = explain;
-        options.dry_run = dry_run;
+        options.dry_run = stage.is_dry_run();
         options.forecasts = &forecasts;
         options.half = stage.pixel_format() == "half";
         options.pose_count = int64_t(1 + poses.compared(tile).size());
@@ -117,7 +117,7 @@ int main(int argc, const char** argv)
             options.poses = &sequence;
             options.pose_count = int64_t(poses.count());
         }
-        if (dry_run)
+        if (options.dry_run)
             return forecast_vismap(tile, options, error);
         const std::string path = udim_path(write_path, tile.vismap_params.udim);
         if (!path.empty() && !(error = output_file_fault(path)).empty())
@@ -141,6 +141,7 @@ int main(int argc, const char** argv)
                 own.explain = explain && i == 0;
                 prefix_messages(own, own.pose + ": ");
                 own.say = once(own.say);
+                own.answer = once(own.answer);
                 own.warn = once(own.warn);
             }
             OIIO::ImageBuf vismap;
@@ -160,7 +161,7 @@ int main(int argc, const char** argv)
     return stage.run(argc, argv, [&](std::string& error) {
         const bool made = tiles.make_tiles(make, error);
         if (const std::string all = forecasts.text(); made && !all.empty())
-            stage.say(all);
+            stage.answer(all);
         return made;
     });
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects.h"
 
+#include "bounce_bench.h"
 #include "lights.h"
+#include "map_differences.h"
 #include "timing.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/sun_light.h>
-#include <vmlight/math/difference.h>
 #include <vmlight/stage/bake_forecast.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/normal_map_file.h>
@@ -125,7 +126,7 @@ public:
             }
             cost.seconds += with_suns.seconds;
             cost.without += without_suns.seconds;
-            cost.light += difference(without, lit, plain.map);
+            cost.light += light_difference(without, lit, plain.map);
         }
         if (sunny == 0)
             return true;
@@ -137,21 +138,43 @@ public:
         return true;
     }
 
-    // Relative to the mean of `truth`.
-    double difference(const OIIO::ImageBuf& other, const OIIO::ImageBuf& truth, const OIIO::ImageBuf& map) const
+    // One bounce against the sky's light alone. Nothing is added if no texel gets any.
+    bool add_bounce(std::vector<EffectCost>& dst, const EffectPicture& plain, const VismapRecipe& recipe,
+                    std::string& error)
     {
-        const int coverage = map.spec().channelindex("coverage"), channels = map.nchannels();
-        const auto *a = static_cast<const float*>(other.localpixels()),
-                   *b = static_cast<const float*>(truth.localpixels()),
-                   *texel = static_cast<const float*>(map.localpixels());
-        Difference off;
-        for (size_t i = 0; i < size_t(truth.spec().image_pixels()); ++i) {
-            if (texel[i * size_t(channels) + size_t(coverage)] == 0)
-                continue;
-            for (size_t c = 3 * i; c < 3 * i + 3; ++c)
-                off.add(double(a[c]), double(b[c]));
+        BakeScenePointer scene;
+        VismapRecipe whole = recipe;
+        whole.cull_occluders = false;
+        if (!scene_of(scene, whole, error))
+            return false;
+        BounceBench bench(scene, recipe.vismap_params.udim, plain.map, m_options.threads, m_progress);
+        EffectCost cost { "bounce", "", 0, 0, 0, 0 };
+        double first = 0;
+        for (size_t i = 0; i < plain.lit.size(); ++i) {
+            const FilteredLight* light = find_light(i, false, error);
+            OIIO::ImageBuf lit, without;
+            const Stopwatch whole_time;
+            if (!light || !bench.light(lit, light->images, kEffectModel, error))
+                return false;
+            if (i == 0)
+                first = whole_time();
+            if (!bench.has_bounce())
+                return true;
+            Timing with_bounce, without_bounce;
+            if (!measure_time(with_bounce, [&] { return bench.light(lit, light->images, kEffectModel, error); })
+                || !measure_time(without_bounce, [&] { return shade(without, plain.map, *light, nullptr, error); }))
+                return false;
+            cost.seconds += with_bounce.seconds;
+            cost.without += without_bounce.seconds;
+            cost.light += light_difference(without, lit, plain.map);
         }
-        return off.mean() > 0 ? off.rms() / off.mean() : 0;
+        for (double* mean : { &cost.seconds, &cost.without, &cost.light })
+            *mean /= double(plain.lit.size());
+        cost.reason
+            = format("surfaces send back {} of their light; seconds are of one light, after {:.2g} s of tracing",
+                     bench.albedo(), first);
+        dst.push_back(cost);
+        return true;
     }
 
 private:
@@ -192,17 +215,6 @@ private:
     FilteredLights m_lights;
 };
 
-double visibility_difference(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
-{
-    const int channels = a.nchannels(), coverage = a.spec().channelindex("coverage");
-    const auto *p = static_cast<const float*>(a.localpixels()), *q = static_cast<const float*>(b.localpixels());
-    Difference off;
-    for (size_t i = 0; i < size_t(a.spec().image_pixels()); ++i, p += channels, q += channels)
-        if (p[coverage] != 0)
-            off.add(double(p[0]), double(q[0]));
-    return off.rms();
-}
-
 } // namespace
 
 double effects_weight(size_t environments)
@@ -242,11 +254,18 @@ bool measure_effects(std::vector<EffectCost>& dst, const Inputs& inputs, const V
                           visibility_difference(with.map, without.map),
                           0 };
         for (size_t i = 0; i < with.lit.size(); ++i)
-            cost.light += bench.difference(without.lit[i], with.lit[i], with.map) / double(with.lit.size());
+            cost.light += light_difference(without.lit[i], with.lit[i], with.map) / double(with.lit.size());
         dst.push_back(cost);
     }
     recipe.effects = "auto";
-    return bench.add_suns(dst, with, recipe, error);
+    if (!bench.add_suns(dst, with, recipe, error))
+        return false;
+    if (recipe.has_normal_map()) { // which points of a bounce do not have
+        recipe.normal_map.clear();
+        if (!bench.bake(with, recipe, error))
+            return false;
+    }
+    return bench.add_bounce(dst, with, recipe, error);
 }
 
 } // namespace vmlight::cost

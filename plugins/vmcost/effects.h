@@ -13,9 +13,9 @@ namespace vmlight::cost {
 struct EffectCost
 {
     std::string name, reason;
-    /// Seconds with and without it: of the bake, or, for suns, of the light of one rotation.
+    /// Seconds with and without it: of the bake, or, for suns and the bounce, of the light of one rotation.
     double seconds = 0, without = 0;
-    /// How far V is off without it, RMS over the covered texels; 0 for suns.
+    /// How far V is off without it, RMS over the covered texels; 0 for suns and the bounce.
     double visibility = 0;
     /// How far light by the model `lobe` is off, RMS over the covered texels, relative to its mean: the mean of all
     /// environments.

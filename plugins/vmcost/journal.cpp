@@ -55,7 +55,7 @@ bool Journal::open(const std::string& path, std::string& error)
             ++m_damaged;
         }
     }
-    // So that each is told of once, and the next row has a line of its own.
+    // So that each is reported once, and the next row has a line of its own.
     return good == text || write_file(path, good, error);
 }
 

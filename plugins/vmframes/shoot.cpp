@@ -93,15 +93,18 @@ private:
         double mean = 0;
         if (!m_shot.measure(mean, 0, m_models[0], m_options, error))
             return false;
-        const double stops = mean > 0 ? std::clamp(std::log2(kMiddleGray / mean), -64.0, 64.0) : 0;
-        if (m_request.is_auto_exposed)
-            m_stops = stops;
-        if (m_request.is_auto_exposed && !(mean > 0))
+        const GrayExposure gray = GrayExposure::of(mean);
+        if (!m_request.is_auto_exposed) {
+            m_options.report(mean > 0 ? format("light: mean luminance {:.3g}; {}", mean, gray.advice())
+                                      : std::string("light: no texel is lit"));
+            return true;
+        }
+        m_stops = gray.stops;
+        if (!(mean > 0))
             m_options.report_warning("--exposure auto: no light in the first frame, so 0 stops for all");
-        m_options.report(
-            m_request.is_auto_exposed
-                ? format("exposure: {:.2f} stops, for all frames", m_stops)
-                : format("light: mean luminance {:.3g}; --exposure {:.2f} brings it to {}", mean, stops, kMiddleGray));
+        else if (!gray.is_gray)
+            m_options.report_warning("--exposure auto: " + gray.advice());
+        m_options.report(format("exposure: {:.2f} stops, for all frames", m_stops));
         return true;
     }
 

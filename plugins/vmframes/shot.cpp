@@ -5,6 +5,7 @@
 #include <vmlight/base/frames.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/frame/ground.h>
+#include <vmlight/frame/surface_color.h>
 #include <vmlight/image/color.h>
 #include <vmlight/lightmap/light_level.h>
 #include <vmlight/lightmap/model.h>
@@ -137,6 +138,17 @@ Camera Shot::camera_at(size_t index) const
                       m_pose);
 }
 
+// The model reference takes it for every surface.
+void Shot::warn_of_unused(const MakeOptions& options) const
+{
+    const BounceParams &given = m_trace.bounce, defaults;
+    const std::vector<std::string> models = m_request.models();
+    if (given.bounce != "off" && given.bounce_albedo != defaults.bounce_albedo
+        && std::find(models.begin(), models.end(), kReferenceModel) == models.end()
+        && std::all_of(m_scene.surfaces.begin(), m_scene.surfaces.end(), has_all_colors))
+        options.report_warning("bounce_albedo changes nothing: every material has a colour");
+}
+
 bool Shot::open(const MakeOptions& options, std::string& error)
 {
     if (!object_pose(m_pose, m_request.light, error))
@@ -156,6 +168,7 @@ bool Shot::open(const MakeOptions& options, std::string& error)
         others.erase(others.begin() + std::ptrdiff_t(i));
         (i < m_objects.size() ? *m_objects[i] : *m_ground).set_occluders(std::move(others));
     }
+    warn_of_unused(options);
     return m_scene.build(options.threads, error);
 }
 

@@ -52,6 +52,7 @@ private:
     bool open_objects(const MakeOptions& options, std::string& error);
     bool open_ground(const MakeOptions& options, std::string& error);
     bool open_background(const MakeOptions& options, std::string& error);
+    void warn_of_unused(const MakeOptions& options) const;
     bool place(std::string& error);
     Camera camera_at(size_t index) const;
     bool light_all(size_t index, const std::string& model, const MakeOptions& options, std::string& error);

@@ -74,7 +74,7 @@ int main(int argc, const char** argv)
                  store_models(request.sheet.wipe));
     stage.option("side_by_side", "A,B,...", "Show several models side by side, such as ao,paper,lobe,reference",
                  store_models(request.sheet.side_by_side));
-    stage.option("explain", "", "Say before the light which effects it simulates and why",
+    stage.option("explain", "", "Print before lighting which effects are simulated, and why",
                  [&](auto, auto&) { return request.explains = true; });
     stage.option("exposure", "-64..64|auto",
                  "Exposure in stops; auto: brings the mean luminance of the objects in the first frame to 0.18 [0]",
@@ -90,8 +90,11 @@ int main(int argc, const char** argv)
     stage.params("Light:", request.filter.cfem_params, "cfem_");
     stage.params("Reference:", request.reference, "reference_");
     stage.params("Visibility map:", request.object.map.vismap_params);
+    stage.drop("udim"); // every tile of the mesh is baked
     stage.drop("ground_height"); // the ground here is a mesh, below all objects
     stage.params("Mesh:", request.object.map.selection);
+    stage.reword("material", "Show only this material of the file, * for any text; may be repeated");
+    stage.reword("node", "Show only this node of the file and those below it, * for any text; may be repeated");
     stage.params("Mesh:", request.object.map.mesh_params);
     stage.params("Mesh:", request.object.map.cutout_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",

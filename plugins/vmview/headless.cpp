@@ -69,7 +69,7 @@ double automatic_stops(Renderer& renderer, PictureParams params, RenderParams re
     if (!render_picture(image, renderer, params, render, error))
         return 0;
     const double mean = covered_luminance(image, space);
-    return mean > 0 ? std::clamp(std::log2(kMiddleGray / mean), -64.0, 64.0) : 0;
+    return GrayExposure::of(mean).stops;
 }
 
 } // namespace

@@ -40,8 +40,8 @@ int main(int argc, const char** argv)
                  [&](auto text, auto& error) { return set_param(request.render, "filter", text, error); });
     for (const auto& [name, help] :
          { std::pair { "display", "Display of the OCIO config; default: the last one, or the config's" },
-           std::pair { "view", "View of that display; default: likewise" },
-           std::pair { "look", "Look in place of those of the view" } })
+           std::pair { "view", "View of that display; default: the last one, or the display's" },
+           std::pair { "look", "Look instead of the view's own" } })
         stage.option(name, "TEXT", help, [&request, name = std::string(name)](auto text, auto& error) {
             request.display_given = true;
             return set_param(request.display, name, text, error);
@@ -66,6 +66,8 @@ int main(int argc, const char** argv)
     stage.params("Light:", request.filter.cfem_params, "cfem_");
     stage.params("Visibility map:", request.mesh.vismap_params);
     stage.params("Mesh:", request.mesh.selection);
+    stage.reword("material", "Show only this material of the file, * for any text; may be repeated");
+    stage.reword("node", "Show only this node of the file and those below it, * for any text; may be repeated");
     stage.params("Mesh:", request.mesh.mesh_params);
     stage.params("Mesh:", request.mesh.cutout_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",

@@ -121,7 +121,7 @@ TEST_F(Bounce, SaysWhyItIsOnOrOff)
     EXPECT_THAT(done(light + "--bounce auto --albedo white.exr"), HasSubstr("64 rays a texel"));
     EXPECT_EQ(attribute("lit.exr", "vmlight:bounce"), "auto");
     EXPECT_THAT(done(light + "--bounce auto --albedo white.exr --effects -albedo"),
-                HasSubstr("the albedo is switched off: nothing is sent back"));
+                HasSubstr("the albedo is switched off: surfaces send nothing back"));
     // By its switch alone, as by its key.
     EXPECT_THAT(done(light + "--bounce auto --albedo white.exr"),
                 testing::ContainsRegex("took: .*\n  bounce: 0.[0-9]+ M"));
@@ -140,7 +140,7 @@ TEST_F(Bounce, AFileOfTheMapNeedsItsMesh)
     done("makelightmap shaded.vismap" + light + "-o a.exr");
     done("makelightmap vm.exr" + light + "--mesh floor.obj --occluder wall.obj -o b.exr");
     expect_same_pixels("a.exr", "b.exr", 0);
-    refused(1, "does not store its mesh, which the bounce needs",
+    refused(1, "does not store its mesh: set --mesh, and --occluder for each mesh that occluded it",
             "makelightmap vm.exr sky.exr --albedo white.exr --bounce on -o c.exr");
     refused(1, "not the mesh that", "makelightmap vm.exr" + light + "--mesh corner.obj --occluder wall.obj -o c.exr");
 }

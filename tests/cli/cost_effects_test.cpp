@@ -78,12 +78,26 @@ TEST_F(CostEffects, SunsAndWhatIsInTheirWay)
     ASSERT_TRUE(sunny.write(path("sunny.exr"))) << sunny.geterror();
     write("roof.obj", "v -1 -1 1.5\nv 0 -1 1.5\nv 0 1 1.5\nf 1 2 3\n");
     EXPECT_THAT(measured_effects("sunny.exr --occluder roof.obj --max-distance 3"),
-                ElementsAre("self-occlusion", "occluders", "max-distance", "suns"));
+                ElementsAre("self-occlusion", "occluders", "max-distance", "suns", "bounce"));
     for (const char* name : { "self-occlusion", "occluders" })
         EXPECT_GT(double(effect(name)["visibility_error_without"]), 0.01) << name;
     EXPECT_EQ(double(effect("suns")["visibility_error_without"]), 0);
     EXPECT_GT(double(effect("suns")["light_error_without"]), 0.01);
     EXPECT_THAT(std::string(effect("suns")["reason"]), HasSubstr("1 sun in 1 of 1 environment"));
+}
+
+// Two squares at a right angle, of which each sees .20004 of the other (a textbook form factor): the sky lights the
+// quad by .8, the wall by at most .2 * .5, mostly near the edge. RMS is at least the mean.
+TEST_F(CostEffects, ABounceBetweenSurfaces)
+{
+    write("wall.obj", "v -1 -1 0\nv -1 1 0\nv -1 1 2\nv -1 -1 2\nf 1 2 3 4\n");
+    EXPECT_THAT(measured_effects("sky.exr --occluder wall.obj"), ElementsAre("self-occlusion", "occluders", "bounce"));
+    const nlohmann::json bounce = effect("bounce");
+    EXPECT_EQ(double(bounce["visibility_error_without"]), 0);
+    EXPECT_GT(double(bounce["light_error_without"]), 0.06 / 0.9);
+    EXPECT_LT(double(bounce["light_error_without"]), 0.25);
+    EXPECT_THAT(std::string(bounce["reason"]), HasSubstr("send back 0.5 of their light"));
+    EXPECT_GT(double(bounce["seconds"]), double(bounce["seconds_without"]));
 }
 
 TEST_F(CostEffects, AGroundIsAnotherScene)

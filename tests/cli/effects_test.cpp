@@ -109,6 +109,30 @@ TEST_F(Effects, ADryRunBakesNothing)
     refused(2, "--dry-run cannot be saved in a recipe", std::string(kBake) + "x.exr --dry-run --print-recipe");
 }
 
+TEST_F(Effects, ADryRunNeedsNoOutput)
+{
+    const std::string line = "makevismap quad.obj --resolution 16 --samples 16 ";
+    const size_t files = names().size();
+    EXPECT_THAT(done(line + "--dry-run"), testing::ContainsRegex("effects:(.|\n)*expected: "));
+    EXPECT_THAT(done(line + "--dry-run --pose quad.obj"), HasSubstr("comparing 1 other pose comes on top"));
+    write("quad.1001.obj", kQuad);
+    write("quad.1002.obj", kQuad);
+    const std::string tiles = "makevismap 'quad.<UDIM>.obj' --resolution 16 --samples 16 ";
+    EXPECT_THAT(done(tiles + "--dry-run"), testing::AllOf(HasSubstr("tile 1002: "), HasSubstr("expected in all")));
+    EXPECT_THAT(done(tiles + "--dry-run --udims 1001-1002"), HasSubstr("tile 1002: "));
+    EXPECT_THAT(done(tiles + "--dry-run --udim 1002"), Not(HasSubstr("1001")));
+    EXPECT_EQ(names().size(), files + 2) << "nothing is written";
+    refused(2, "-o OUTPUT.exr is missing", line + "--explain");
+}
+
+TEST_F(Effects, QuietPrintsWhatIsAskedFor)
+{
+    const std::string said = bake("a.exr", "--explain --quiet");
+    EXPECT_THAT(said, testing::AllOf(HasSubstr("effects:"), HasSubstr("took: "), Not(HasSubstr("bake: "))));
+    EXPECT_THAT(bake("a.exr", "--dry-run --quiet"), testing::AllOf(HasSubstr("effects:"), HasSubstr("expected: ")));
+    EXPECT_EQ(bake("a.exr", "--quiet"), "");
+}
+
 TEST_F(Effects, TheGroundIsAtAHeightOrAtTheLowestPoint)
 {
     bake("lowest.exr", "--ground");

@@ -21,7 +21,7 @@ protected:
 
 } // namespace
 
-TEST_F(Frames, TheLightIsToldAndTheExposureThatMakesItMiddleGray)
+TEST_F(Frames, TheLightIsPrintedWithTheExposureThatMakesItMiddleGray)
 {
     make_vismap();
     make_sky({ 0.36f, 0.36f, 0.36f });
@@ -34,6 +34,20 @@ TEST_F(Frames, TheLightIsToldAndTheExposureThatMakesItMiddleGray)
     make_sky({ 0, 0, 0 }, "night.exr");
     EXPECT_THAT(done("makelightmap vm.exr night.exr -o dark.exr"), HasSubstr("light: no texel is lit\n"));
     EXPECT_EQ(run("makelightmap vm.exr sky.exr -o lit.exr --quiet").out, "");
+}
+
+TEST_F(Frames, AnExposureThatCannotReachMiddleGrayIsSaidTo)
+{
+    make_vismap();
+    make_sky({ 1e-25f, 1e-25f, 1e-25f }, "dim.exr");
+    EXPECT_THAT(done("makelightmap vm.exr dim.exr -o lit.exr"),
+                HasSubstr("; no --exposure brings the mean to 0.18: 64.00 brings it to 1.84e-06\n"));
+    EXPECT_THAT(done("makelightmap vm.exr dim.exr -o lit.exr --exposure auto"),
+                HasSubstr("WARNING: --exposure auto: no --exposure brings the mean to 0.18: 64.00 brings it to"));
+    EXPECT_EQ(attribute("lit.exr", "vmlight:exposure"), "64");
+    for (const char* exposure : { "", " --exposure auto" })
+        EXPECT_THAT(done(std::string("vmframes quad.obj dim.exr --resolution 16 --size 16 -o lit.png") + exposure),
+                    HasSubstr("no --exposure brings the mean to 0.18: 64.00 brings it to"));
 }
 
 TEST_F(Frames, AutomaticExposureIsTheSameAsItsStops)

@@ -59,7 +59,7 @@ TEST_F(LightEffects, WhatChangesNothingIsOffAndCostsNothing)
     const std::string said = light("sky.exr -o a.exr --explain --albedo one_lin_rec709.exr --rotate 0,0,0");
     EXPECT_THAT(said, ContainsRegex("filter +off .* the environment is of one colour"));
     EXPECT_THAT(said, ContainsRegex("stack-levels +off "));
-    EXPECT_THAT(said, ContainsRegex("rotation +off .* one that turns nothing"));
+    EXPECT_THAT(said, ContainsRegex("rotation +off .* one by 0 degrees"));
     EXPECT_THAT(said, ContainsRegex("albedo +off .* it is 1 everywhere"));
     EXPECT_THAT(said, ContainsRegex("color-conversion +off "));
     EXPECT_THAT(said,
@@ -149,6 +149,53 @@ TEST_F(LightEffects, ADryRunWritesNothing)
     refused(
         2, "--dry-run: \"quad.vismap\" is a recipe, whose map would have to be baked: makevismap quad.vismap --dry-run",
         "makelightmap quad.vismap sky.exr -o x.exr --dry-run");
+}
+
+TEST_F(LightEffects, ADryRunNeedsNoOutput)
+{
+    EXPECT_THAT(light("{sky} --dry-run"), ContainsRegex("effects:(.|\n)*expected: "));
+    EXPECT_THAT(light("{sky} --frames 1-48 --rotate-y 0:360 --dry-run"), HasSubstr("48 files"));
+    EXPECT_EQ(names("").size(), 5u) << "nothing is written";
+    refused(2, "-o OUTPUT.exr is missing", "makelightmap vm.exr sky.exr --explain");
+    refused(2, "--explain cannot be saved in a recipe",
+            "makelightmap vm.exr sky.exr -o x.exr --explain --print-recipe");
+}
+
+TEST_F(LightEffects, QuietPrintsWhatIsAskedFor)
+{
+    const std::string said = light("{sky} -o a.exr --explain --quiet");
+    EXPECT_THAT(said, AllOf(HasSubstr("effects:"), HasSubstr("took: "), Not(HasSubstr("light: "))));
+    EXPECT_THAT(light("{sky} --dry-run --quiet"), AllOf(HasSubstr("effects:"), HasSubstr("expected: ")));
+    EXPECT_EQ(light("{sky} -o a.exr --quiet"), "");
+}
+
+TEST_F(LightEffects, ConversionsOfAllInputsAreSeen)
+{
+    const auto make = [](const std::string& name, OIIO::TypeDesc type) {
+        OIIO::ImageBuf image(OIIO::ImageSpec(8, 4, 3, type));
+        OIIO::ImageBufAlgo::fill(image, { 0.5f, 0.5f, 0.5f });
+        ASSERT_TRUE(image.write(name)) << image.geterror();
+    };
+    make("texture.png", OIIO::TypeUInt8);
+    make("sky_8bit.png", OIIO::TypeUInt8);
+    const std::string by_albedo = light("sky.exr -o a.exr --explain --albedo texture.png");
+    EXPECT_THAT(by_albedo, ContainsRegex("color-conversion +on .* albedo: srgb_rec709_scene -> lin_rec709_scene"));
+    EXPECT_THAT(light("sky_8bit.png -o a.exr --explain"),
+                ContainsRegex("color-conversion +on .* environment: srgb_rec709_scene -> "));
+    EXPECT_THAT(light("sky.exr -o a.exr --explain --output-colorspace lin_ap1_scene"),
+                ContainsRegex("color-conversion +on .* result: lin_ap1_scene"));
+    refused(1, "effects: -color-conversion: cannot be left out",
+            "makelightmap vm.exr sky.exr -o x.exr --albedo texture.png --effects -color-conversion");
+    light("sky.exr -o a.exr --albedo half_lin_rec709.exr --effects -color-conversion");
+}
+
+TEST_F(LightEffects, ContradictionsAreRefused)
+{
+    const std::string command = "makelightmap vm.exr sky.exr -o x.exr --mesh quad.obj ";
+    refused(2, "effects: -suns contradicts suns = on", command + "--suns on --effects -suns");
+    refused(2, "effects: -bounce contradicts bounce = on",
+            command + "--albedo half_lin_rec709.exr --bounce on --effects auto,-bounce");
+    done(command + "--suns auto --effects -suns"); // what the suns add
 }
 
 // Of an animation, the first frame alone is lit both ways.

@@ -98,7 +98,7 @@ TEST_F(NormalMaps, WhatCannotBeOneIsRefused)
     refused(1, "\"no.png\"", line + "no.png");
     refused(1, "\"quad.obj\"", line + "quad.obj");
     refused(1, "\"bump.png\": one channel: a bump or height map", line + "bump.png");
-    refused(1, "\"photo.png\": 100 % of its pixels are no directions", line + "photo.png");
+    refused(1, "\"photo.png\": 100 % of its pixels are not unit vectors", line + "photo.png");
     refused(2, "with unwrap the mesh gets other UVs", line + "object.png --unwrap");
     refused(2, "--normal-map-green down: no normal map is given",
             "makevismap quad.obj -o x.exr --normal-map-green down");

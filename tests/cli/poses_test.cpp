@@ -63,7 +63,11 @@ TEST_F(Poses, FramesKeepWhatDoesNotChange)
     EXPECT_EQ(attribute("vm.0003.exr", "vmlight:pose_base"), "frame 1");
     EXPECT_EQ(attribute("vm.0003.exr", "vmlight:pose_error"), "0.02");
     EXPECT_EQ(attribute("vm.0003.exr", "vmlight:mesh"), "lid.0003.obj");
-    EXPECT_NE(read("vm.0003.exr"), read("alone.0003.exr"));
+    const Pixels kept = visibility("vm.0003.exr"), whole = visibility("alone.0003.exr");
+    int beyond = 0;
+    for (size_t i = 0; i < kept.values.size(); ++i)
+        beyond += std::abs(kept.values[i] - whole.values[i]) > 0.02f;
+    EXPECT_LE(beyond, int(kept.values.size() / 100));
     // Proof alone: the same pixels.
     done(std::string("makevismap lid.####.obj --frames 1-3 --pose-error 0 -o proof.####.exr") + kFlags);
     expect_same_pixels("proof.0003.exr", "alone.0003.exr", 0);

@@ -63,7 +63,8 @@ TEST_F(Suns, AFileOfTheMapNeedsItsMeshAndGivesTheSameLight)
     done("makelightmap hero.vismap sunny.exr --suns auto --rotate 0,30,0 -o a.exr");
     done("makelightmap vm.exr sunny.exr --suns auto --rotate 0,30,0 --mesh floor.obj --occluder wall.obj -o b.exr");
     expect_same_pixels("a.exr", "b.exr", 0);
-    refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --suns on -o c.exr");
+    refused(1, "does not store its mesh: set --mesh, and --occluder for each mesh that occluded it",
+            "makelightmap vm.exr sunny.exr --suns on -o c.exr");
     refused(1, "not the mesh that",
             "makelightmap vm.exr sunny.exr --suns auto --mesh {spot} --occluder wall.obj -o c.exr");
     refused(1, "baked with other occluders", "makelightmap vm.exr sunny.exr --suns auto --mesh floor.obj -o c.exr");
@@ -78,19 +79,20 @@ TEST_F(Suns, AutoIsWhereTheMeshIsKnown)
     done("makevismap hero.vismap -o vm.exr");
     done("makelightmap vm.exr sunny.exr -o soft.exr");
     EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto -o same.exr"),
-                HasSubstr("WARNING: suns stay in the environment, with soft shadows: \"vm.exr\" does not say where its "
-                          "mesh is; set --mesh"));
+                HasSubstr("WARNING: suns stay in the environment, with soft shadows: \"vm.exr\" does not store its "
+                          "mesh: set --mesh"));
     EXPECT_EQ(pixels("soft.exr").values, pixels("same.exr").values);
-    EXPECT_THAT(attribute("same.exr", "vmlight:no_suns"), testing::StartsWith("\"vm.exr\" does not say"));
+    EXPECT_THAT(attribute("same.exr", "vmlight:no_suns"), testing::StartsWith("\"vm.exr\" does not store"));
     EXPECT_EQ(attribute("soft.exr", "vmlight:no_suns"), "");
     done("makelightmap '" + path("vm.exr") + "' sunny.exr --suns auto -o same.exr");
-    EXPECT_THAT(attribute("same.exr", "vmlight:no_suns"), testing::StartsWith("\"vm.exr\" does not say"));
+    EXPECT_THAT(attribute("same.exr", "vmlight:no_suns"), testing::StartsWith("\"vm.exr\" does not store"));
     // A light that was filtered before has them or not, whatever the mesh.
     done("makecfem sunny.exr --stack -o whole.exr");
     done("makelightmap vm.exr whole.exr --suns auto -o same.exr");
     EXPECT_EQ(pixels("soft.exr").values, pixels("same.exr").values);
     done("makecfem sunny.exr --stack --suns auto -o rest.exr");
-    refused(1, "does not say where its mesh is", "makelightmap vm.exr rest.exr --suns auto -o c.exr");
+    refused(1, "does not store its mesh: set --mesh, and --occluder for each mesh that occluded it",
+            "makelightmap vm.exr rest.exr --suns auto -o c.exr");
     done("makelightmap hero.vismap sunny.exr --suns auto -o a.exr");
     EXPECT_THAT(done("makelightmap hero.vismap sunny.exr --suns on -o b.exr"),
                 HasSubstr("model: lobe+suns, the best that"));
@@ -120,7 +122,8 @@ TEST_F(Suns, AreARowOfTheEffects)
     done("makelightmap vm.exr sunny.exr --effects +suns --mesh floor.obj --occluder wall.obj -o a.exr");
     EXPECT_EQ(pixels("a.exr").values, pixels("hard.exr").values);
     EXPECT_THAT(done("makelightmap vm.exr sunny.exr --suns auto --explain -o a.exr"), HasSubstr("set --mesh"));
-    refused(1, "does not say where its mesh is", "makelightmap vm.exr sunny.exr --effects +suns -o a.exr");
+    refused(1, "does not store its mesh: set --mesh, and --occluder for each mesh that occluded it",
+            "makelightmap vm.exr sunny.exr --effects +suns -o a.exr");
 }
 
 // Of what frames keep, makelightmap makes the same light.
@@ -227,7 +230,7 @@ TEST_F(Suns, AMapCanStoreWhatItSeesOfThem)
     EXPECT_THAT(
         done("makelightmap vm.exr sunny.exr --suns auto --rotate 0,20,0 --mesh floor.obj --occluder wall.obj -o c.exr"),
         HasSubstr("rays in"));
-    refused(1, "is no sun", "makevismap hero.vismap --sun-directions 0,0,0 -o d.exr");
+    refused(1, "is not a sun", "makevismap hero.vismap --sun-directions 0,0,0 -o d.exr");
     done("makevismap hero.vismap -o plain.exr");
     EXPECT_EQ(visibility("plain.exr").values, visibility("vm.exr").values);
     EXPECT_EQ(attribute("plain.exr", "vmlight:sun_directions"), "");

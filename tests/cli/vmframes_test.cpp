@@ -35,6 +35,43 @@ protected:
 
 } // namespace
 
+// As makevismap does; what other tiles hold is baked too.
+TEST_F(Vmframes, UvsWithoutLightAreWarnedOf)
+{
+    // The two corners at u = `from`.
+    const auto moved = [&](const std::string& name, const std::string& from, const std::string& to) {
+        std::string text = kQuad;
+        for (const char* v : { " 0\n", " 1\n" })
+            text.replace(text.find("vt " + from + v), 3 + from.size(), "vt " + to);
+        write(name, text);
+    };
+    moved("left.obj", "0", "-0.5");
+    EXPECT_THAT(done("vmframes left.obj sky.exr -o a.png" + small),
+                HasSubstr("WARNING: left.obj: 2 of 2 triangles reach outside all UDIM tiles"));
+    moved("wide.obj", "1", "2");
+    EXPECT_THAT(done("vmframes wide.obj sky.exr -o a.png" + small), Not(HasSubstr("WARNING")));
+    done("makevismap wide.obj --resolution 16 --samples 4 --udim 1001 -o vm.exr");
+    EXPECT_THAT(done("vmframes wide.obj sky.exr --vismap vm.exr -o a.png" + few),
+                HasSubstr("WARNING: wide.obj: no visibility map for UDIM tile 1002, which the mesh uses: no light "
+                          "there"));
+    write("half.obj", kQuad.substr(0, kQuad.rfind('f')) + "f 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\n");
+    EXPECT_THAT(done("vmframes half.obj sky.exr -o a.png" + small),
+                HasSubstr("WARNING: half.obj: 1 of 2 triangles has no UVs: it occludes, but is not baked"));
+}
+
+TEST_F(Vmframes, AnAlbedoOfNoSurfaceIsWarnedOf)
+{
+    const std::string flags = " sky.exr -o a.png --bounce auto --bounce-albedo 0.3" + small,
+                      nothing = "changes nothing";
+    write("paint.mtl", "newmtl paint\nKd 0.2 0.4 0.8\n");
+    write("painted.obj", "mtllib paint.mtl\nusemtl paint\n" + kQuad);
+    EXPECT_THAT(done("vmframes painted.obj" + flags),
+                HasSubstr("WARNING: bounce_albedo changes nothing: every material has a colour"));
+    EXPECT_THAT(done("vmframes painted.obj --ground white" + flags), Not(HasSubstr(nothing)));
+    EXPECT_THAT(done("vmframes painted.obj --white" + flags), Not(HasSubstr(nothing)));
+    EXPECT_THAT(done("vmframes quad.obj" + flags), Not(HasSubstr(nothing)));
+}
+
 TEST_F(Vmframes, WrongUsageIsRefusedBeforeAnythingIsMade)
 {
     const std::string line = "vmframes quad.obj sky.exr ";
@@ -144,7 +181,7 @@ TEST_F(Vmframes, AutoExposureBringsTheObjectToMiddleGrey)
     for (int c = 0; c < 3; ++c)
         luminance += std::vector<double> { 0.2126, 0.7152, 0.0722 }[size_t(c)] * double(image.getchannel(8, 8, 0, c));
     EXPECT_NEAR(luminance, 0.18, 0.02); // the ground is in the way of a little
-    EXPECT_THAT(done("vmframes quad.obj sky.exr -o a.exr --elevation 0" + small), HasSubstr("brings it to 0.18"));
+    EXPECT_THAT(done("vmframes quad.obj sky.exr -o a.exr --elevation 0" + small), HasSubstr("brings the mean to 0.18"));
 }
 
 TEST_F(Vmframes, FramesTurnOnceAround)

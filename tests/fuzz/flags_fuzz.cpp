@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any words as the command lines of the executables, whose own mains run: each ends with 0, 1 or 2, a failure with one
 // line on stderr, and what --print-recipe prints reads back to itself. No file is read or written: words have no '/',
-// the folder is an empty one, stages print their recipe, and vmcost, which has none, is never told where to write.
+// the folder is an empty one, stages print their recipe, and vmcost, which has none, never gets a place to write to.
 //   flags_fuzz -max_total_time=60 NEW_CORPUS tests/fuzz/flags_corpus
 #include "captured_run.h"
 #include "law.h"

@@ -2,7 +2,7 @@
 """The stages in programs that know nothing of vmlight. A host that is not installed is skipped, and says so.
 
 Run as: hosts_test.py [CASE ...], with VMLIGHT_BIN (the executables' folder), VMLIGHT_SOURCE (the repository) and
-OIIO_LIBRARY_PATH (the readers' folder), which is all that a host is told of them. VMLIGHT_PRELOAD may name what a host must
+OIIO_LIBRARY_PATH (the readers' folder), which is all that a host knows of them. VMLIGHT_PRELOAD may name what a host must
 load first.
 """
 import os

@@ -203,7 +203,7 @@ TEST_F(Color, ContradictionsAreWarnedOf)
               "\"a_acescg.exr\": its name says ACEScg, but its chromaticities are those of ACES2065-1: taken as ACEScg"
                   + end);
     EXPECT_EQ(warned("a.exr", "studio_log", "", { kConfig, "" }),
-              "\"a.exr\": its colorInteropID \"studio_log\" is no space of OCIO config \"" + kConfig
+              "\"a.exr\": its colorInteropID \"studio_log\" is not a colour space of OCIO config \"" + kConfig
                   + "\" and is ignored" + end);
     ImageBuf dci = flat({ 1, 1, 1 });
     const float xy[8] = { 0.68f, 0.32f, 0.265f, 0.69f, 0.15f, 0.06f, 0.314f, 0.351f };
@@ -214,8 +214,8 @@ TEST_F(Color, ContradictionsAreWarnedOf)
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(
         warnings[0],
-        "\"a.exr\": its chromaticities (red 0.68 0.32, green 0.265 0.69, blue 0.15 0.06, white 0.314 0.351) are those "
-        "of no known space and are ignored"
+        "\"a.exr\": its chromaticities (red 0.68 0.32, green 0.265 0.69, blue 0.15 0.06, white 0.314 0.351) match "
+        "no known space and are ignored"
             + end);
 }
 

@@ -143,19 +143,23 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     };
     EXPECT_THAT(bounce(everything()).reason, testing::HasSubstr("send back up to 0.9 of their light; 64 rays a texel"));
     EffectFacts facts = everything();
+    facts.light.is_black = true;
+    EXPECT_EQ(bounce(facts).reason, "the light is black");
+    EXPECT_FALSE(bounce(facts).on);
+    facts = everything();
     facts.light.wants_bounce = false;
     EXPECT_EQ(bounce(facts).reason, "not asked for: --bounce auto adds it");
     EXPECT_NE(bounce(facts).impossible, "");
     facts = everything();
     facts.light.has_albedo = false;
-    EXPECT_EQ(bounce(facts).reason, "no albedo is given, so that nothing is sent back");
+    EXPECT_EQ(bounce(facts).reason, "no albedo is given: surfaces send nothing back");
     facts = everything();
     facts.light.albedo_low = facts.light.albedo_high = 0;
     EXPECT_EQ(bounce(facts).reason, "the albedo is 0 everywhere");
     facts = everything();
     facts.light.albedo_low = 1;
     facts.light.albedo_high = 0; // not read
-    EXPECT_EQ(bounce(facts).reason, "the albedo is switched off: nothing is sent back");
+    EXPECT_EQ(bounce(facts).reason, "the albedo is switched off: surfaces send nothing back");
     EXPECT_FALSE(bounce(facts).called_for);
     facts = everything();
     facts.light.no_bounce = "\"vm.exr\" is only a part of a map";
@@ -170,6 +174,24 @@ TEST(EffectsDecide, ABounceNeedsAllThatItIsMadeOf)
     EXPECT_EQ(bounce(facts).reason, "no texel sees a surface");
     EXPECT_FALSE(bounce(facts).on);
     EXPECT_EQ(bounce(facts).impossible, "");
+}
+
+// The points off the map that a bounce lights trace far more rays than the texels.
+TEST(EffectsDecide, ABouncesShareIsThatOfItsRays)
+{
+    const auto bounce = [](double rays, double points) {
+        EffectFacts facts = everything();
+        facts.light.traced_rays = rays;
+        facts.light.traced_points = points;
+        return decided("lightmap", facts).back();
+    };
+    ASSERT_EQ(bounce(1e6, 0).name, "bounce");
+    EXPECT_GT(bounce(2e6, 480000).share, 0.75);
+    EXPECT_LT(bounce(1e5, 0).share, 0.1);
+    EXPECT_GT(bounce(1e7, 1000).share, bounce(1e6, 1000).share);
+    EXPECT_THAT(bounce(2e6, 480000).reason,
+                testing::HasSubstr("64 rays a texel and about 480 thousand points off the map, traced once"));
+    EXPECT_THAT(bounce(2e6, 0).reason, testing::Not(testing::HasSubstr("off the map")));
 }
 
 TEST(EffectsDecide, ReasonsHaveTheNumbers)
@@ -207,8 +229,7 @@ TEST(EffectsDecide, WhatCannotChangeThePictureIsOff)
     facts.light.is_one_color = true;
     facts.light.shadowed = 0;
     EXPECT_EQ(state("lightmap", facts, "filter"), "off: the environment is of one colour, which no filter changes");
-    EXPECT_EQ(state("lightmap", facts, "stack-levels"),
-              "off: the light is of one colour: V times it, wherever texels look");
+    EXPECT_EQ(state("lightmap", facts, "stack-levels"), "off: the light is of one colour in all directions");
     EXPECT_EQ(state("lightmap", facts, "visibility"), "off: V is 1 in all of 100 texels: the light of the open sky");
     facts.light.lit = 0;
     EXPECT_EQ(state("lightmap", facts, "visibility"), "off: V is 0 everywhere");
@@ -337,9 +358,10 @@ TEST(EffectsDecide, TheImpossibleIsRefused)
               "effects: -filter: cannot be left out: an environment is given");
     for (const Effect& effect : all_effects())
         EXPECT_EQ(refusal(nothing(), (std::string("-") + effect.name).c_str(), effect.stage), "") << effect.name;
-    EXPECT_EQ(refusal(everything(), "+gruond"),
-              "\"gruond\" is not an effect: did you mean \"ground\"?; there are self-occlusion, occluders, ground, "
-              "cut-outs, normal-map, max-distance, poses, udim, margin, half");
+    EXPECT_EQ(
+        refusal(everything(), "+gruond"),
+        "\"gruond\" is not an effect: did you mean \"ground\"? The effects are self-occlusion, occluders, ground, "
+        "cut-outs, normal-map, max-distance, poses, udim, margin, half");
     EXPECT_EQ(refusal(everything(), "ground"),
               "\"ground\" is not a switch: auto, all, or + or - before the name of an effect: self-occlusion, "
               "occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half");

@@ -84,7 +84,7 @@ TEST(FileClaims, EveryCompressionOfAnEvenPictureIsWhatItSays)
         for (const OIIO::TypeDesc& format : { OIIO::TypeHalf, OIIO::TypeFloat, OIIO::TypeUInt })
             for (const int width : { 1, 7, 2048 })
                 for (const int tile : { 0, 64 }) {
-                    OIIO::ImageSpec spec = spec_of(width, width == 2048 ? 1024 : 5, format);
+                    OIIO::ImageSpec spec = spec_of(width, width == 2048 ? 128 : 5, format);
                     spec.attribute("compression", compression);
                     spec.tile_width = spec.tile_height = tile;
                     write_constant(folder / "a.exr", spec);

@@ -70,15 +70,16 @@ TEST(Ground, ALeaningPlaneSeesItsPartOfTheSkyExactly)
         V3d moment(0);
         double all = 0;
         const int steps = 1200;
-        for (int i = 0; i < steps; ++i)
-            for (int k = 0; k < 2 * steps; ++k) {
-                const double theta = (i + 0.5) * M_PI / 2 / steps, phi = (k + 0.5) * M_PI / steps; // y > 0
-                const V3d w(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
-                const double weight
-                    = std::max(0.0, w.dot(n)) * std::sin(theta) * (M_PI / 2 / steps) * (M_PI / steps) / M_PI;
+        for (int k = 0; k < 2 * steps; ++k) {
+            const double phi = (k + 0.5) * M_PI / steps, x = std::cos(phi), z = std::sin(phi);
+            for (int i = 0; i < steps; ++i) {
+                const double theta = (i + 0.5) * M_PI / 2 / steps, sine = std::sin(theta); // y > 0
+                const V3d w(sine * x, std::cos(theta), sine * z);
+                const double weight = std::max(0.0, w.dot(n)) * sine * (M_PI / 2 / steps) * (M_PI / steps) / M_PI;
                 all += weight;
                 moment += w * weight;
             }
+        }
         const BakedMap map(leaning_square(degrees, V3d(0, 3, 0)), {}, over_ground(map_params(4, 4, 32), 0));
         map.each([&](const Texel& texel, int, int) {
             EXPECT_NEAR(texel.visibility, all, 2e-6) << degrees;

@@ -141,7 +141,7 @@ TEST(ImageFile, WhereverTheDiskIsFullTheOldFileStaysOrTheNewOneIsWhole)
         ASSERT_TRUE(write_images(images, folder / "new.exr", "float", {}, error)) << error;
         const std::string whole = folder.bytes("new.exr");
         folder.write("a.exr", "old");
-        for (size_t limit = 0; limit < whole.size(); ++limit) {
+        for (size_t limit = 0; limit < whole.size(); limit += count == 1 ? 1 : 7) {
             {
                 const FileLimit full(limit);
                 ASSERT_FALSE(write_images(images, folder / "a.exr", "float", {}, error)) << limit;

@@ -58,8 +58,8 @@ TEST(LightLevel, MeanAndPercentileOfARamp)
     EXPECT_EQ(level.texels, 100);
     EXPECT_NEAR(level.mean, 0.505, 1e-6);
     EXPECT_NEAR(level.percentile95, 0.95, 1e-6);
-    EXPECT_DOUBLE_EQ(level.stops_to_gray(), std::round(100 * std::log2(0.18 / level.mean)) / 100);
-    EXPECT_NEAR(level.mean * std::exp2(level.stops_to_gray()), 0.18, 0.18 * 0.004);
+    EXPECT_DOUBLE_EQ(level.gray_exposure(0).stops, std::round(100 * std::log2(0.18 / level.mean)) / 100);
+    EXPECT_NEAR(level.mean * std::exp2(level.gray_exposure(0).stops), 0.18, 0.18 * 0.004);
 }
 
 TEST(LightLevel, CountsWhatTrianglesCoverOrWhatSeesAnything)
@@ -82,7 +82,22 @@ TEST(LightLevel, NothingLitAndTooMuch)
 {
     const ImageBuf map = vismap(2, 1, [](int, int) { return VismapTexel { 1, V3f(0) }; });
     EXPECT_EQ(measure_light(gray_ramp(2, 0), map).texels, 0);
-    EXPECT_EQ(measure_light(gray_ramp(2, 0), map).stops_to_gray(), 0);
-    EXPECT_EQ(measure_light(gray_ramp(2, 1e30f), map).stops_to_gray(), -64);
-    EXPECT_EQ(measure_light(gray_ramp(2, 1e-30f), map).stops_to_gray(), 64);
+    const GrayExposure none = measure_light(gray_ramp(2, 0), map).gray_exposure(0);
+    EXPECT_EQ(none.stops, 0);
+    EXPECT_FALSE(none.is_gray);
+    const GrayExposure bright = measure_light(gray_ramp(2, 1e30f), map).gray_exposure(0);
+    EXPECT_EQ(bright.stops, -64);
+    EXPECT_NEAR(bright.mean, 1e30 * std::exp2(-64.0), 1e5);
+    EXPECT_EQ(bright.advice(), "no --exposure brings the mean to 0.18: -64.00 brings it to 5.42e+10");
+    EXPECT_EQ(measure_light(gray_ramp(2, 1e-30f), map).gray_exposure(0).stops, 64);
+}
+
+// Measured at an exposure, which counts: what it advises is a value that the flag takes.
+TEST(LightLevel, AdviceIsOfTheWholeExposure)
+{
+    const ImageBuf map = vismap(2, 1, [](int, int) { return VismapTexel { 1, V3f(0) }; });
+    const LightLevel dim = measure_light(gray_ramp(2, 1e-15f), map);
+    EXPECT_EQ(dim.gray_exposure(0).advice(), "--exposure 47.35 brings the mean to 0.18");
+    EXPECT_EQ(dim.gray_exposure(10).advice(), "--exposure 57.35 brings the mean to 0.18");
+    EXPECT_EQ(dim.gray_exposure(30).advice(), "no --exposure brings the mean to 0.18: 64.00 brings it to 1.72e-05");
 }

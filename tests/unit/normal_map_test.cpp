@@ -120,7 +120,7 @@ TEST(NormalMap, OtherSizesAreFiltered)
 TEST(NormalMap, OtherImagesAreRefused)
 {
     EXPECT_THAT(decoded(constant({ 0.5f })).error, HasSubstr("a bump or height map"));
-    EXPECT_THAT(decoded(constant({ 0.5f, 0.5f, 0.5f })).error, HasSubstr("100 % of its pixels are no directions"));
+    EXPECT_THAT(decoded(constant({ 0.5f, 0.5f, 0.5f })).error, HasSubstr("100 % of its pixels are not unit vectors"));
     ImageBuf broken = constant({ 0.5f, 0.5f, 1 });
     const float nan[3] { 0.5f, NAN, 1 };
     broken.setpixel(3, 1, nan);
@@ -130,7 +130,7 @@ TEST(NormalMap, OtherImagesAreRefused)
     const float gray[3] { 0.5f, 0.5f, 0.5f };
     for (int x = 0; x < 4; ++x)
         holes.setpixel(x, 0, gray);
-    EXPECT_THAT(decoded(holes).warnings, testing::ElementsAre(HasSubstr("4.0 % of its pixels are no directions")));
+    EXPECT_THAT(decoded(holes).warnings, testing::ElementsAre(HasSubstr("4.0 % of its pixels are not unit vectors")));
     EXPECT_THAT(decoded(constant({ 0.9f, 0.5f, 0.2f })).warnings,
                 testing::ElementsAre(HasSubstr("100.0 % of its normals point into the surface")));
 }

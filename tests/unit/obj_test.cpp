@@ -221,7 +221,7 @@ TEST_F(ObjFiles, WhatCannotBeReadIsToldByLine)
     EXPECT_EQ(said("f 1 2 99999999999999999999\n").find(head + "4: a face uses vertex "), 0u);
     for (const char* face : { "f 1 2 x", "f 1 2 3.5", "f 1 2 /3", "f 1 2 3/x", "f 1 2 3/1/x", "f 1 2 -", "f 1, 2, 3" })
         EXPECT_EQ(said(std::string(face) + "\n"),
-                  head + "4 has a corner that is none of 1, 1/1, 1//1 and 1/1/1: \"" + face + "\"");
+                  head + "4 has a corner that is not one of 1, 1/1, 1//1 and 1/1/1: \"" + face + "\"");
     for (const char* vertex : { "v 1 2", "v", "v 1 2 # 3", "v 1 2 x", "v 1;2;3" })
         EXPECT_EQ(said(std::string(vertex) + "\n").find(head + "4 must have 3 numbers: "), 0u) << vertex;
     EXPECT_EQ(said("vn 1 2\n"), head + "4 must have 3 numbers: \"vn 1 2\"");

@@ -226,7 +226,7 @@ TEST_F(PlyFiles, WhatCannotBeReadIsTold)
     const auto said = [&](const char* what, const char* instead) {
         return refusal(folder.write("a.ply", replace(text, what, instead)));
     };
-    EXPECT_EQ(said("2 3 0 1 1", "2 x 0 1 1"), "PLY vertex 2 has something else than a number as y");
+    EXPECT_EQ(said("2 3 0 1 1", "2 x 0 1 1"), "PLY vertex 2 has something other than a number as y");
     EXPECT_EQ(said("2 3 0 1 1", "2 3 0 1"), "PLY ends inside vertex 2 of 4");
     EXPECT_EQ(said("format ascii", "format binary"), "invalid PLY header: format \"binary\"");
     EXPECT_EQ(said("format ascii 1.0\n", ""), "invalid PLY header: format \"\"");

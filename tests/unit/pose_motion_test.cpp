@@ -4,6 +4,7 @@
 #include "pose_scenes.h"
 
 #include <vmlight/mesh/same_triangles.h>
+#include <vmlight/trace/moved_boxes.h>
 #include <vmlight/trace/pose_motion.h>
 #include <vmlight/vismap/pose_proof.h>
 
@@ -90,7 +91,33 @@ TEST(PoseMotion, OccludersAreBodiesToo)
     EXPECT_EQ(motion.body_of_traced(mesh.triangles.size() + 3), 1u);
     EXPECT_EQ(motion.body(uint32_t(mesh.triangles.size() - 1)), 0u);
     const BakeScenePointer none = scene_of(mesh);
-    EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("1 meshes can be met by rays, and 2 in the other pose"));
+    EXPECT_THAT(PoseMotion(*base, *none).fault(), HasSubstr("0 occluders are given, and 1 in the other pose"));
+}
+
+TEST(PoseMotion, AnOccluderMayBeOutOfReachInOnePose)
+{
+    const Mesh mesh = placed(icosphere(1), 1);
+    const auto ball = [](double x) { return placed(icosphere(1), 0.5, V3d(x, 0, 0)); };
+    const auto scene = [&](double x) {
+        const auto built = std::make_shared<BakeScene>();
+        std::string error;
+        EXPECT_TRUE(
+            built->build(std::make_shared<const Mesh>(mesh), { ball(x), ball(-2) }, 1, error, SceneChoice::within(3)))
+            << error;
+        return built;
+    };
+    const auto near = scene(2), far = scene(20);
+    ASSERT_EQ(far->casters().size(), 2u);
+    const size_t first = mesh.triangles.size();
+    for (const bool leaves : { false, true }) {
+        const PoseMotion motion(leaves ? *near : *far, leaves ? *far : *near);
+        ASSERT_EQ(motion.fault(), "");
+        EXPECT_FALSE(motion.is_whole());
+        EXPECT_EQ(motion.body_of_traced(0), 0u);
+        EXPECT_EQ(motion.body_of_traced(first), PoseMotion::kAway);
+        EXPECT_EQ(motion.body_of_traced(2 * first), 0u); // the other occluder
+        EXPECT_EQ(motion.soft(), 0);
+    }
 }
 
 TEST(PoseMotion, OtherCutOutsAreAnotherMesh)
@@ -109,24 +136,37 @@ TEST(PoseMotion, OtherCutOutsAreAnotherMesh)
     const BakeScenePointer base = card(0, V2f(0));
     EXPECT_EQ(PoseMotion(*base, *card(0, V2f(0))).fault(), "");
     for (const BakeScenePointer& other : { card(0.5f, V2f(0)), card(0, V2f(0.25f)) })
-        EXPECT_EQ(PoseMotion(*base, *other).fault(), "other parts of the meshes are cut out");
+        EXPECT_EQ(PoseMotion(*base, *other).fault(), "other parts of occluder 1 are cut out");
 }
 
-TEST(PoseMotion, AWidePlaneThatRisesDoesNotStandStill)
+TEST(PoseMotion, AWidePlaneThatRisesDoesNotMoveWithTheRest)
 {
-    const auto water = [](double height) {
+    const auto water = [](double height, double slope) {
         Mesh mesh;
-        add_quad(mesh, V3d(-5e3, height, 5e3), V3d(5e3, height, 5e3), V3d(5e3, height, -5e3), V3d(-5e3, height, -5e3),
-                 V2f(0, 0), V2f(1, 1));
+        add_quad(mesh, V3d(-5e3, height - slope * 5e3, 5e3), V3d(5e3, height + slope * 5e3, 5e3),
+                 V3d(5e3, height + slope * 5e3, -5e3), V3d(-5e3, height - slope * 5e3, -5e3), V2f(0, 0), V2f(1, 1));
         return mesh;
     };
     const Mesh mesh = placed(icosphere(1), 1);
-    const BakeScenePointer base = scene_of(mesh, { water(-0.5) }), pose = scene_of(mesh, { water(-0.499) });
-    const PoseMotion motion(*base, *pose), none(*base, *base);
-    ASSERT_EQ(motion.fault(), "");
-    ASSERT_EQ(motion.body_of_traced(0), 0u); // the ball
-    EXPECT_NE(motion.body_of_traced(mesh.triangles.size()), 0u);
-    EXPECT_EQ(none.body_of_traced(mesh.triangles.size()), 0u);
+    for (const double slope : { 0.0, 1.0 })
+        for (const double degrees : { 0.0, 10.0 })
+            for (const V3d& shift : { V3d(0), V3d(3, 0, 0) }) {
+                const Rotation turn = rotation_from_angles(0, degrees, 0);
+                const auto bodies = [&](double rise) {
+                    const BakeScenePointer base = scene_of(mesh, { water(-0.5, slope) });
+                    const BakeScenePointer pose
+                        = scene_of(moved(mesh, turn, shift), { moved(water(-0.5 + rise, slope), turn, shift) });
+                    const PoseMotion motion(*base, *pose);
+                    EXPECT_EQ(motion.fault(), "");
+                    return std::pair(motion.body_of_traced(0), motion.body_of_traced(mesh.triangles.size()));
+                };
+                const auto [ball, risen] = bodies(0.001);
+                EXPECT_EQ(ball, 0u);
+                EXPECT_NE(risen, 0u) << slope << " " << degrees << " " << shift.x;
+                // Turned on a slope, its corners round to as much.
+                EXPECT_TRUE(bodies(0).second == 0 || (slope > 0 && degrees > 0))
+                    << slope << " " << degrees << " " << shift.x;
+            }
 }
 
 TEST(PoseMotion, AFacetThatMovedALittleIsNotStill)
@@ -138,6 +178,34 @@ TEST(PoseMotion, AFacetThatMovedALittleIsNotStill)
     const std::vector<uint8_t> still = find_still(PoseMotion(*base, *pose), VismapParams());
     EXPECT_EQ(still[20], 0);
     EXPECT_EQ(still.back(), 1);
+}
+
+TEST(PoseMotion, WhatIsTracedElsewhereIsNotStill)
+{
+    // By less than rays tell apart, but a ray may tell.
+    Mesh mesh = door(0), other = mesh;
+    other.positions[other.triangles[20][0]].y += 1e-6;
+    const BakeScenePointer base = scene_of(mesh), pose = scene_of(other);
+    const PoseMotion motion(*base, *pose);
+    EXPECT_TRUE(motion.stands_still());
+    EXPECT_NE(motion.body_of_traced(20), 0u);
+    EXPECT_EQ(motion.body_of_traced(mesh.triangles.size() - 1), 0u);
+    EXPECT_FALSE(MovedBoxes(motion).empty());
+}
+
+TEST(PoseMotion, NormalsThatDifferAreNotProvenToStandStill)
+{
+    Mesh mesh = door(0), other = mesh;
+    const uint32_t corner = mesh.triangles[20][0];
+    other.normals[corner] = (other.normals[corner] + V3f(1e-4f, 0, 0)).normalized();
+    const BakeScenePointer base = scene_of(mesh), pose = scene_of(other);
+    const std::vector<uint8_t> same = prove_same_view(PoseMotion(*base, *pose), VismapParams(), true, 1);
+    EXPECT_EQ(same[20], 0);
+    EXPECT_EQ(same.back(), 1);
+    // Files round the normals of what turns.
+    const Rotation turn = rotation_from_angles(20, 50, -110);
+    const BakeScenePointer turned = scene_of(moved(other, turn, V3d(0)));
+    EXPECT_EQ(prove_same_view(PoseMotion(*base, *turned), VismapParams(), true, 1)[20], 1);
 }
 
 TEST(PoseMotion, OtherTrianglesOrTextureCoordinatesAreNoPose)

@@ -53,9 +53,11 @@ TEST(PoseSequence, WhatStandsStillOnTheGroundIsNotWhatTurnsOnIt)
     };
     EXPECT_EQ(rays(rotation_from_angles(0, 40, 0), V3d(5, 0, 2)), 0);
     EXPECT_GT(rays(rotation_from_angles(3, 0, 0), V3d(0)), 0);
-    // The ground moves with the lowest point; one at a height does not.
+    // The ground moves with the lowest point; one at a height does not. Without end it hides the same, from any height.
     EXPECT_EQ(rays(Rotation(), V3d(0, 1, 0)), 0);
     params.ground_height = -3;
+    EXPECT_EQ(rays(Rotation(), V3d(0, 1, 0)), 0);
+    params.max_distance = 5;
     EXPECT_GT(rays(Rotation(), V3d(0, 1, 0)), 0);
 }
 
@@ -118,6 +120,35 @@ TEST(PoseSequence, TheSameBytesForAnyThreads)
         EXPECT_EQ(maps[i]->report.rays, maps[0]->report.rays);
         EXPECT_EQ(maps[i]->pose.kept, maps[0]->pose.kept);
         EXPECT_EQ(maps[i]->pose.change.bound, maps[0]->pose.change.bound);
+    }
+}
+
+TEST(PoseSequence, AnOccluderThatComesIntoReachIsTracedOnlyWhereItIsSeen)
+{
+    VismapParams params = pose_params(160, 64);
+    params.max_distance = 4;
+    const auto scene = [&](double x) {
+        const auto built = std::make_shared<BakeScene>();
+        std::string error;
+        EXPECT_TRUE(built->build(std::make_shared<const Mesh>(door(0)), { placed(icosphere(1), 0.5, V3d(x, 0.6, 3)) },
+                                 1, error, SceneChoice::within(params.max_distance)))
+            << error;
+        return built;
+    };
+    const BakeScenePointer near = scene(5), far = scene(20);
+    ASSERT_NE(near->casters().size(), far->casters().size());
+    for (const bool leaves : { false, true }) {
+        const BakeScenePointer before = leaves ? near : far, after = leaves ? far : near;
+        const auto whole = bake_alone(after, params);
+        for (const double error : { 0.0, kError }) {
+            PoseSequence sequence(error);
+            bake_pose(sequence, before, params, "a");
+            const auto pose = bake_pose(sequence, after, params, "b");
+            EXPECT_EQ(pose->pose.base, "a") << pose->pose.why;
+            EXPECT_LE(pose->report.rays * 2, whole->report.rays) << leaves << error;
+            EXPECT_LE(share_beyond(*pose, *whole, error), error > 0 ? 0.01 : 0) << leaves;
+            EXPECT_TRUE(error > 0 || pose->has_bytes_of(*whole));
+        }
     }
 }
 

@@ -30,7 +30,7 @@ Recipe parsed(const std::string& text, const std::string& path = "hero.lightmap"
     return recipe;
 }
 
-/// What is said of a text that is none; the recipe must be as it was.
+/// What is said of a text that is not a recipe; the recipe must be as it was.
 template <class Recipe = LightmapRecipe> std::string refusal(const std::string& text)
 {
     Recipe recipe;

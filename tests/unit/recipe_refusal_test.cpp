@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is no recipe, and how that is told.
+// What is not a recipe, and how that is reported.
 #include "recipe_reading.h"
 #include "temporary_folder.h"
 

@@ -87,7 +87,7 @@ TEST(Recipe, AQueryOverridesTheFile)
     EXPECT_EQ(name_refusal(path + "?exposure=1&&"), "\"" + path + "?exposure=1&&\": \"\" is not KEY=VALUE");
     EXPECT_EQ(name_refusal(path + "?exposure=1&exposure=1"),
               "\"" + path + "?exposure=1&exposure=1\": exposure: set twice");
-    // The file is refused though the query would mend it.
+    // The file is refused though the query would correct it.
     folder.write("hero.lightmap", "exposure = 99");
     EXPECT_EQ(name_refusal(path + "?exposure=1"), "\"" + path + "\" line 1: exposure: 99 is not in [-64, 64]");
 }

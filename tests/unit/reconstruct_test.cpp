@@ -4,6 +4,7 @@
 #include "pose_scenes.h"
 
 #include <vmlight/math/longest_direction.h>
+#include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/stage/recipe/unused_flags.h>
 #include <vmlight/vismap/neighbour_weights.h>
@@ -272,13 +273,38 @@ TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
     recipe.vismap_params.basis = "sh";
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
     recipe.vismap_params.measure = "uniform";
-    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "the measure uniform makes of B no mean of rays");
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "with the measure uniform, B is not a mean over rays");
     recipe.vismap_params.measure = "cosine";
     recipe.vismap_params.samples = 1;
-    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "one ray does not scatter: give at least 2");
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "it needs at least 2 rays per texel");
     recipe.vismap_params.samples = 2;
+    recipe.mesh = "hero.obj";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
     recipe.normal_map = "bumps.png";
+    EXPECT_EQ(recipe_fault(recipe, {}),
+              "reconstruct: with a normal map, neighbouring texels have normals of their own");
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "with a normal map, neighbouring texels have normals of their own");
+}
+
+TEST(Reconstruct, ARecipeThatAsksForWhatCannotBeIsRefusedAsAFlagIs)
+{
+    VismapRecipe recipe;
+    recipe.mesh = "hero.obj";
+    recipe.vismap_params.reconstruct = "auto";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
+    for (const char* basis : { "mask", "cells" }) {
+        recipe.vismap_params.basis = basis;
+        EXPECT_EQ(recipe_fault(recipe, {}), "reconstruct: " + unused_reason(recipe, "reconstruct"));
+        EXPECT_NE(unused_reason(recipe, "reconstruct"), "");
+    }
+    recipe.vismap_params.reconstruct = "off";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
+    // What is switched off cannot stand in the way.
+    recipe.vismap_params = {};
+    recipe.vismap_params.reconstruct = "auto";
+    recipe.normal_map = "bumps.png";
+    recipe.effects = "-normal-map";
+    EXPECT_EQ(recipe_fault(recipe, {}), "");
 }
 
 TEST(Reconstruct, APoseThatChangesNothingHasTheBytesOfItsBase)

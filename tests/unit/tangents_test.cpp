@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tangents where they can be told by hand.
+// Tangents where they are known by hand.
 #include "scenes.h"
 
 #include <vmlight/mesh/tangents.h>

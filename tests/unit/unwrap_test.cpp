@@ -165,5 +165,5 @@ TEST(Unwrap, TheReportSaysWhatTheAtlasIsLike)
     report.without_area = 1;
     report.too_thin = 2;
     EXPECT_EQ(unwrap_warning(report),
-              "unwrap: 3 triangles have no area in the atlas: 1 without area in space, 2 thinner than UVs can tell");
+              "unwrap: 3 triangles have no area in the atlas: 1 without area in space, 2 thinner than UVs can resolve");
 }

@@ -100,7 +100,7 @@ TEST(WholeLight, ItsMetadataSayWhySunsStayInTheEnvironment)
 {
     const SunnyFolder folder;
     const std::string reason
-        = "\"map.exr\" does not say where its mesh is; set --mesh, and --occluder for all else that occluded it";
+        = "\"map.exr\" does not store its mesh: set --mesh, and --occluder for each mesh that occluded it";
     const PixelSourcePointer without = folder.lightmap(folder / "map.exr", "auto");
     ASSERT_TRUE(without);
     EXPECT_EQ(without->spec().get_string_attribute("vmlight:no_suns"), reason);

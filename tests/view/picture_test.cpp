@@ -283,28 +283,3 @@ TEST_F(HeadlessPicture, ModelsWithoutAShader)
     const Assets assets = loaded(request);
     EXPECT_LT(relative_rmse(drawn(assets, request), traced(assets, request)), 1e-3);
 }
-
-TEST(Headless, StartsAndStops)
-{
-    for (int i = 0; i < 10; ++i) {
-        std::string error;
-        const auto context = HeadlessContext::open(error);
-        if (!context)
-            GTEST_SKIP() << error;
-        Renderer renderer;
-        ASSERT_TRUE(renderer.build(error)) << error;
-        ASSERT_EQ(gl_fault(), "");
-    }
-}
-
-TEST(Headless, WrongCallsAreFound)
-{
-    std::string error;
-    const auto context = HeadlessContext::open(error);
-    if (!context)
-        GTEST_SKIP() << error;
-    glBindTexture(GL_TEXTURE_2D, 0);
-    glBindFramebuffer(0x1234, 0);
-    EXPECT_NE(gl_fault(), "");
-    EXPECT_EQ(gl_fault(), "");
-}

@@ -122,9 +122,10 @@ int64_t available_memory(const std::string& root)
     return std::min({ left_by_machine(root, swap), left_by_groups(root, swap), left_by_limits(root) });
 }
 
-std::string memory_shortage(const OIIO::ImageSpec& spec)
+std::string memory_shortage(const OIIO::ImageSpec& spec, double more)
 {
-    const double bytes = double(spec.width) * spec.height * std::max(1, spec.depth) * spec.nchannels * sizeof(float);
+    const double bytes
+        = double(spec.width) * spec.height * std::max(1, spec.depth) * spec.nchannels * sizeof(float) + more;
     const int64_t available = available_memory();
     if (bytes <= double(available))
         return "";

@@ -17,8 +17,8 @@ namespace vmlight {
 /// @param root     prefix of /proc and /sys, for tests
 int64_t available_memory(const std::string& root = "");
 
-/// "" if an image of `spec` fits in memory as float, else the reason why not. Counts the pixels alone, so that it never
-/// refuses a job that could have run.
-std::string memory_shortage(const OIIO::ImageSpec& spec);
+/// "" if an image of `spec` fits in memory as float, with `more` bytes besides it, else the reason why not. Counts no
+/// more, so that it never refuses a job that could have run.
+std::string memory_shortage(const OIIO::ImageSpec& spec, double more = 0);
 
 } // namespace vmlight

@@ -54,7 +54,7 @@ bool reaches(const SunSplit::Cut& cut, double from, double to)
     return polar - radius <= to && polar + radius >= from;
 }
 
-// Apply the cuts to a row of R, G, B. `take` is told of the columns where a cut takes light, and how much.
+// Apply the cuts to a row of R, G, B. `take` receives the columns where a cut takes light, and how much.
 template <class Take>
 void cut_row(float* rgb, const EnvironmentGrid& grid, int row, const std::vector<SunSplit::Cut>& cuts, Take&& take)
 {
@@ -154,7 +154,7 @@ bool parse_suns(std::vector<Sun>& dst, const std::string& text, std::string& err
             && std::abs(V3d(numbers[0], numbers[1], numbers[2]).length() - 1) < 1e-3 && numbers[3] >= 0
             && numbers[3] <= 90;
         if (!good) {
-            error = format("\"{}\" is no list of suns: each is x y z, a half angle in degrees and r g b", text);
+            error = format("\"{}\" is not a list of suns: each is x y z, a half angle in degrees and r g b", text);
             return false;
         }
         suns.push_back({ { V3d(numbers[0], numbers[1], numbers[2]).normalized(), numbers[3] * pi / 180 },

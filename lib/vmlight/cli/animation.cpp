@@ -28,7 +28,7 @@ template <class Visit> void each_input(LightmapRecipe& recipe, const Visit& visi
 
 std::string Animation::fault(const std::string& output) const
 {
-    if (frames.size() > 1 && output.find('#') == std::string::npos)
+    if (frames.size() > 1 && !output.empty() && output.find('#') == std::string::npos)
         return format("\"{}\": {} frames need #### in the file name, for the number", output, frames.size());
     return has_frames || rotate_y.first == rotate_y.last
         ? ""

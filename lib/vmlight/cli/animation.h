@@ -28,7 +28,7 @@ struct Animation
     std::string input_fault(const LightmapRecipe& recipe) const;
 
     /// `recipe` with the files of frame number frames[index] for inputs that are sequences: "sky.####.exr" becomes
-    /// "sky.0001.exr". A file whose name really has that # is none.
+    /// "sky.0001.exr". A file whose name really has that # is not a sequence.
     LightmapRecipe inputs_at(const LightmapRecipe& recipe, size_t index) const;
 
     /// The file of frame number frames[index].

@@ -72,6 +72,13 @@ void StageMain::drop(const std::string& name)
                   options.end());
 }
 
+void StageMain::reword(const std::string& name, const std::string& help)
+{
+    for (CommandLine::Option& option : m_command.line.options)
+        if (option.name == name)
+            option.help = help;
+}
+
 void StageMain::accept_recipe(const char* stage, RecipeAccess access)
 {
     m_command.line.stage = stage;
@@ -109,6 +116,11 @@ void StageMain::answer(const std::string& name, const Help& help,
         m_command.print = print;
         return true;
     });
+}
+
+void StageMain::dry_run(const Help& help)
+{
+    option("dry_run", "", help, [this](auto, auto&) { return m_command.is_dry_run = true; });
 }
 
 void StageMain::unused(std::function<std::string(const std::string& name)> reason)
@@ -217,6 +229,7 @@ MakeOptions StageMain::make_options()
     options.threads = m_command.common.threads;
     options.progress = [this](const std::string& step, int64_t texels) { return progress(step, texels); };
     options.say = [this](const std::string& line) { say(line); };
+    options.answer = [this](const std::string& line) { answer(line); };
     options.warn = [this](const std::string& line) { warn(line); };
     return options;
 }
@@ -237,7 +250,12 @@ void StageMain::report(const char* severity, const std::string& text) const
 void StageMain::say(const std::string& line) const
 {
     if (!m_command.common.quiet)
-        std::printf("%s\n", line.c_str());
+        answer(line);
+}
+
+void StageMain::answer(const std::string& line) const
+{
+    std::printf("%s\n", line.c_str());
 }
 
 void StageMain::warn(const std::string& line) const

@@ -39,6 +39,8 @@ public:
                 m_command.line.options.push_back(std::move(option));
     }
 
+    /// Replace the help of a flag that means something else here than where its parameter is from.
+    void reword(const std::string& name, const std::string& help);
     /// Take back the flag of a parameter that has no effect here.
     void drop(const std::string& name);
 
@@ -76,6 +78,8 @@ public:
     /// failure.
     void answer(const std::string& name, const Help& help,
                 std::function<bool(std::string& text, std::string& error)> print);
+    /// Add --dry-run, which reports what the work would do and take, and writes nothing: see is_dry_run().
+    void dry_run(const Help& help);
     /// Add a check of the whole command line. `fault` returns what is wrong (exit code 2), or "". Skipped if only a
     /// recipe is printed or saved.
     void check(std::function<std::string()> fault);
@@ -90,6 +94,8 @@ public:
 
     // For check() and `work`.
     const std::string& output() const { return m_command.output; }
+    /// Whether nothing is to be written; output() may then be "".
+    bool is_dry_run() const { return m_command.is_dry_run; }
     /// Pixel format of the output file: "float" or "half".
     const std::string& pixel_format() const { return m_command.file.format; }
     /// The positional arguments.
@@ -100,6 +106,8 @@ public:
     Progress progress(const std::string& step, int64_t texels);
     /// Print a line on stdout, unless --quiet.
     void say(const std::string& line) const;
+    /// Print a line on stdout that a flag asked for, even with --quiet.
+    void answer(const std::string& line) const;
     /// Print a warning on stderr: the result is correct but may surprise.
     void warn(const std::string& line) const;
     /// Write an image to output() or `path` in the requested pixel format.

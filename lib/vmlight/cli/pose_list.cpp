@@ -58,7 +58,7 @@ std::string PoseList::fault()
         return "give only one of frames and pose";
     if (m_has_error && !has_frames() && m_meshes.empty())
         return "--pose-error is for several poses: give --frames or --pose";
-    if (count() > 1 && output.find('#') == std::string::npos)
+    if (count() > 1 && !output.empty() && output.find('#') == std::string::npos)
         return format("\"{}\": {} frames need #### in the file name, for the number", output, m_frames.size());
     if ((count() > 1 || !m_meshes.empty()) && m_recipe.time_budget > 0)
         return "--time-budget is for one map: frames and poses have as many rays as the first, see --samples";

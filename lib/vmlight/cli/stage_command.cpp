@@ -14,11 +14,16 @@ namespace vmlight {
 
 std::string StageCommand::output_fault() const
 {
-    if (output_kind == OutputKind::OptionalPicture && output.empty())
+    if (output.empty() && !needs_output())
         return "";
     if (output_kind == OutputKind::Picture || output_kind == OutputKind::OptionalPicture)
         return output_file_fault(output);
     return output_kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
+}
+
+bool StageCommand::needs_output() const
+{
+    return !is_dry_run && output_kind != OutputKind::OptionalPicture;
 }
 
 bool StageCommand::saves_recipe() const
@@ -78,9 +83,9 @@ std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
     const bool works = makes_image();
     if (prints_recipe || saves_recipe())
         fault = unsavable();
-    else if (works && output.empty() && output_kind != OutputKind::OptionalPicture)
+    else if (works && output.empty() && needs_output())
         fault = format("-o {} is missing", line.output_metavar);
-    else if (works && output_kind == OutputKind::Image)
+    else if (works && !output.empty() && output_kind == OutputKind::Image)
         fault = image_name_fault();
     if (fault.empty() && (saves_recipe() || recipe.fault() != fault_of_recipe))
         fault = recipe.fault();

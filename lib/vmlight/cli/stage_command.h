@@ -74,6 +74,8 @@ struct StageCommand
     std::string output;
     /// --print-recipe; see saves_recipe().
     bool prints_recipe = false;
+    /// --dry-run: nothing is written, and -o may be left out.
+    bool is_dry_run = false;
     /// Set by a flag that asks for something else than an image: makes the text to print. See StageMain::answer().
     std::function<bool(std::string& text, std::string& error)> print;
     FileParams file;
@@ -96,6 +98,7 @@ struct StageCommand
     std::string output_fault() const;
 
 private:
+    bool needs_output() const;
     ExitCode apply(std::string& fault_of_recipe, std::string& error);
     std::string usage_fault(const std::string& fault_of_recipe) const;
     std::string image_name_fault() const;

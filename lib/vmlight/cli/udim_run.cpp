@@ -28,6 +28,7 @@ bool is_vismap_recipe(const std::string& name)
 void prefix_messages(MakeOptions& options, const std::string& name)
 {
     options.say = [name, say = options.say](const std::string& line) { say(name + line); };
+    options.answer = [name, answer = options.answer](const std::string& line) { answer(name + line); };
     options.warn = [name, warn = options.warn](const std::string& line) { warn(name + line); };
     options.progress = [name, progress = options.progress](const std::string& step, int64_t texels) {
         return progress(name + step, texels);
@@ -89,7 +90,7 @@ template <class Recipe> std::string UdimRun<Recipe>::fault()
         return "give only one of udim and udims";
     if (!m_udims.empty() && !has_udim_pattern(output) && patterns.empty())
         return "udims: no file name contains <UDIM>";
-    if (m_udims.size() > 1 && !has_udim_pattern(output))
+    if (m_udims.size() > 1 && !output.empty() && !has_udim_pattern(output))
         return format("\"{}\": {} tiles need <UDIM> in the file name, for the number", output, m_udims.size());
     if (is_single_tile() && !m_recipe.udim_given && !patterns.empty())
         return format("{}: \"{}\": which tile? Pass --udim, or <UDIM> in -o for all", patterns[0].key,
@@ -173,7 +174,7 @@ bool UdimRun<Recipe>::find_parts(std::vector<Part>& dst, const MakeOptions& opti
         if (!find_tiles(part, options, error))
             return false;
         for (const int udim : part.udims) {
-            error = output_fault(udim_path(part.output, udim));
+            error = part.output.empty() ? "" : output_fault(udim_path(part.output, udim));
             if (!error.empty())
                 return false;
         }

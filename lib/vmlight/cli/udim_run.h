@@ -52,7 +52,8 @@ private:
     std::vector<Input> inputs() const;
     bool is_single_tile() const
     {
-        return m_udims.empty() && (m_recipe.udim_given || !has_udim_pattern(m_stage.output()));
+        const bool are_all = m_stage.output().empty() ? !inputs().empty() : has_udim_pattern(m_stage.output());
+        return m_udims.empty() && (m_recipe.udim_given || !are_all);
     }
     std::string fault();
     std::string material_fault() const;

@@ -48,7 +48,7 @@ struct BakeFacts
 /// Of a lightmap.
 struct LightFacts
 {
-    bool converts_color = false; ///< whether light, albedo or output change their colour space
+    bool converts_color = false; ///< whether environment, light, albedo or result change their colour space
     std::string color_note;
     double rotation_degrees = 0; ///< angle of the rotation as a whole
     bool has_albedo = false;
@@ -59,11 +59,14 @@ struct LightFacts
     std::string model;
     bool has_environment = false; ///< rather than filtered light
     bool is_one_color = false; ///< the light, whatever it is filtered by, without its suns
+    bool is_black = false; ///< the light, with its suns
     bool is_rest = false; ///< its suns were split off it
     int64_t lit = 0, shadowed = 0; ///< texels with V above 0; of them, with V below 1
     int64_t hidden = 0; ///< pixels with V = 0: texels that see no sky, or none
     bool wants_bounce = false; ///< one is asked for
     int bounce_rays = 0; ///< of a texel
+    double traced_rays = 0; ///< of all texels; 0 where that is not known, or an earlier lightmap traced them
+    double traced_points = 0; ///< off the map, each with rays of its own
     bool wants_suns = false; ///< asked for
     std::string no_suns {}; ///< why they cannot be traced, or ""
     int suns = 0; ///< that the light has, if they are asked for and can be traced

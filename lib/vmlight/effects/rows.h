@@ -11,6 +11,8 @@ namespace vmlight {
 
 /// "12 %"; "< 1 %" of more than nothing.
 std::string percent_text(double share);
+/// Whether the bounce can change the picture.
+bool calls_for_bounce(const LightFacts& light);
 /// A decision on the one of its kind. `work` is what it takes where it is on, relative to a stage:
 /// EffectDecision::share.
 EffectDecision decision(const Effect& effect, bool called_for, std::string reason, double work = 0);

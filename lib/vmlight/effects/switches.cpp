@@ -36,8 +36,8 @@ bool EffectSwitches::parse(EffectSwitches& dst, OIIO::string_view text, const st
         } else if (std::find(names.begin(), names.end(), name) == names.end()) {
             const std::string near = nearest_name(name, names);
             error
-                = format("\"{}\" is not an effect{}; there are {}", name,
-                         near.empty() ? "" : format(": did you mean \"{}\"?", near), OIIO::Strutil::join(names, ", "));
+                = format("\"{}\" is not an effect{} The effects are {}", name,
+                         near.empty() ? "." : format(": did you mean \"{}\"?", near), OIIO::Strutil::join(names, ", "));
             return false;
         } else if (!parsed.m_named.emplace(name, word[0] == '+' ? Switch::on : Switch::off).second) {
             error = format("\"{}\" is named twice", name);

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 4> kRows { "rotation", "visibility", "suns", "
 
 bool explain_traced(const std::string& name, const TraceParams& trace, const OIIO::ImageBuf& map,
                     const SceneLight& light, const LightmapParams& params, const OIIO::ImageBuf* albedo,
-                    const MakeOptions& options, std::string& error)
+                    BounceShading* bounce, const MakeOptions& options, std::string& error)
 {
     Rotation rotation;
     if (!lightmap_rotation(rotation, params, error))
@@ -35,6 +35,7 @@ bool explain_traced(const std::string& name, const TraceParams& trace, const OII
     dst.wants_suns = trace.suns != "off";
     dst.suns = int(light.suns.size());
     dst.sun_share = sun_share(light.suns, light.filtered[0], true);
+    dst.is_black = is_black(light.filtered, &light.suns);
     dst.wants_bounce = trace.bounce.bounce != "off";
     dst.bounce_rays = trace.bounce.bounce_rays;
     dst.has_albedo = albedo != nullptr;
@@ -44,14 +45,15 @@ bool explain_traced(const std::string& name, const TraceParams& trace, const OII
         dst.albedo_high = *std::max_element(range.max.begin(), range.max.end());
     }
     std::vector<EffectDecision> all, shown;
-    if (!decide_effects(all, LightmapRecipe::kStage, facts, {}, error))
+    if (!find_bounce_facts(dst, bounce, map, options, error)
+        || !decide_effects(all, LightmapRecipe::kStage, facts, {}, error))
         return false;
     std::copy_if(all.begin(), all.end(), std::back_inserter(shown), [](const EffectDecision& decision) {
         return std::find(kRows.begin(), kRows.end(), decision.name) != kRows.end();
     });
-    options.report(format("effects: {}:", name));
+    options.report_answer(format("effects: {}:", name));
     for (const std::string& line : decision_lines(shown))
-        options.report(line);
+        options.report_answer(line);
     return true;
 }
 

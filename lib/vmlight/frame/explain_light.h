@@ -16,10 +16,10 @@ namespace vmlight {
 /// frames decide on.
 ///
 /// @param name     of the object
-/// @param albedo   nullptr if no bounce is asked for; else texel_albedo()
+/// @param albedo, bounce   nullptr if no bounce is asked for; else texel_albedo(), and what traces it
 /// @returns false, with the reason in `error`, if a parameter is out of range
 bool explain_traced(const std::string& name, const TraceParams& trace, const OIIO::ImageBuf& map,
                     const SceneLight& light, const LightmapParams& params, const OIIO::ImageBuf* albedo,
-                    const MakeOptions& options, std::string& error);
+                    BounceShading* bounce, const MakeOptions& options, std::string& error);
 
 } // namespace vmlight

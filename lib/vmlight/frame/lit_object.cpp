@@ -11,6 +11,7 @@
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/uv_warnings.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/baker.h>
 
@@ -132,6 +133,7 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
                                           recipe.vismap, m_mesh->path));
         m_maps[""][udim] = std::move(images[0]);
     }
+    warn_of_uvs(*m_mesh, tiles, options);
     return true;
 }
 
@@ -146,6 +148,8 @@ bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOpt
         error = format("\"{}\": its texture coordinates are outside all UDIM tiles", m_mesh->path);
     if (!error.empty() || !prepare_scene(options, error))
         return false;
+    if (m_maps.empty()) // rather than of another basis
+        warn_of_uvs(*m_mesh, tiles, options);
     for (const int udim : tiles) {
         const Stopwatch timer;
         params.udim = udim;

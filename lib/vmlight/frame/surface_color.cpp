@@ -71,12 +71,26 @@ const SurfaceMaterial* material_of(const SeenPoint& seen)
                                                               : &seen.surface->materials[numbers[seen.triangle]];
 }
 
+// White is what a material has that says nothing of its colour.
+bool has_color(const SurfaceMaterial& material)
+{
+    return material.texture || material.color != Imath::C3f(1, 1, 1);
+}
+
 } // namespace
+
+bool has_all_colors(const FrameSurface& surface)
+{
+    const std::vector<uint32_t>& numbers = surface.mesh->triangle_materials;
+    return !surface.materials.empty() && !numbers.empty()
+        && std::all_of(numbers.begin(), numbers.end(),
+                       [&](uint32_t number) { return has_color(surface.materials[number]); });
+}
 
 bool look_up_albedo(Imath::C3f& dst, const SeenPoint& seen, double reach)
 {
     const SurfaceMaterial* material = material_of(seen);
-    if (!material || (!material->texture && material->color == Imath::C3f(1, 1, 1)))
+    if (!material || !has_color(*material))
         return false;
     SeenPoint at = seen;
     if (!seen.surface->mesh->uvs.empty())

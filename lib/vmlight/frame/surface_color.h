@@ -17,6 +17,9 @@ void look_up_material(SeenPoint& seen);
 /// @returns false if no material says a colour: white is what one has that says nothing
 bool look_up_albedo(Imath::C3f& dst, const SeenPoint& seen, double reach);
 
+/// Whether the materials of all triangles say a colour.
+bool has_all_colors(const FrameSurface& surface);
+
 /// Look up the light, and V and B if asked, of `seen`, whose material is looked up. False, with the reason in `error`,
 /// if a texture cannot be read.
 bool look_up_light(SeenPoint& seen, bool with_visibility, std::string& error);

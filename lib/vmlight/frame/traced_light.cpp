@@ -113,8 +113,8 @@ bool TracedLight::trace_suns(const ImageBuf& map, const SceneLight& light, const
     return true;
 }
 
-bool TracedLight::add_bounce(const ImageBuf& map, const SceneLight& light, const LightmapParams& params,
-                             const MakeOptions& options, std::string& error)
+// Made when it is first needed.
+BounceShading& TracedLight::bounce_shading()
 {
     const auto otherwise = float(m_params.bounce.bounce_albedo);
     if (!m_bounce_shading) {
@@ -130,9 +130,15 @@ bool TracedLight::add_bounce(const ImageBuf& map, const SceneLight& light, const
             return Imath::V3f(albedo);
         });
     }
+    return *m_bounce_shading;
+}
+
+bool TracedLight::add_bounce(const ImageBuf& map, const SceneLight& light, const LightmapParams& params,
+                             const MakeOptions& options, std::string& error)
+{
     AlbedoReader albedo;
     return albedo.open(m_albedo, map.roi(), options.threads, error)
-        && m_bounce_shading->light(m_bounce, map, light.filtered, suns(), params, albedo, options, error);
+        && bounce_shading().light(m_bounce, map, light.filtered, suns(), params, albedo, options, error);
 }
 
 bool TracedLight::light(const ImageBuf& map, const SceneLight& light, const LightmapParams& params,
@@ -145,7 +151,7 @@ bool TracedLight::light(const ImageBuf& map, const SceneLight& light, const Ligh
         m_albedo = texel_albedo(m_surface, map, m_udim, float(m_params.bounce.bounce_albedo), options.threads);
     if (options.explain
         && !explain_traced(m_surface.mesh->name, m_params, map, light, params, has_bounce ? &m_albedo : nullptr,
-                           options, error))
+                           has_bounce ? &bounce_shading() : nullptr, options, error))
         return false;
     const bool has_suns = m_params.suns != "off" && !light.suns.empty();
     if (!has_suns)

@@ -18,11 +18,13 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace vmlight {
 
-/// What is traced of the light: keys of frames and views, as lightmaps have them.
+/// What is traced of the light: keys of frames and views, as lightmaps have them, with a help of their own: the mesh is
+/// always known, and materials are the albedo.
 struct TraceParams
 {
     /// As LightmapRecipe::suns, but that the mesh is always known: `auto` and `on` differ for maps that nothing can be
@@ -34,8 +36,23 @@ struct TraceParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        visit_suns(field, suns);
-        bounce.visit(field);
+        field("suns", suns,
+              Choices { { { "off", "suns stay in the environment" },
+                          { "auto", "small strong lights are split off and traced, if the visibility map allows it" },
+                          { "on", "the same; an error if it does not" } } },
+              "Lights with hard shadows, such as the sun");
+        bounce.visit([&](const char* name, auto& value, const auto& allowed, const Help& help) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(allowed)>, Choices>)
+                field(name, value,
+                      Choices { { { "off", "direct light only" },
+                                  { "auto", "adds one bounce between all surfaces, coloured by their materials" },
+                                  { "on", "the same" } } },
+                      help);
+            else if (OIIO::string_view(name) == "bounce_albedo")
+                field(name, value, allowed, Help("Albedo, for the bounce, of surfaces whose materials have no colour"));
+            else
+                field(name, value, allowed, help);
+        });
     }
 };
 
@@ -79,6 +96,7 @@ public:
 private:
     bool trace_suns(const OIIO::ImageBuf& map, const SceneLight& light, const LightmapParams& params,
                     const MakeOptions& options, std::string& error);
+    BounceShading& bounce_shading();
     bool add_bounce(const OIIO::ImageBuf& map, const SceneLight& light, const LightmapParams& params,
                     const MakeOptions& options, std::string& error);
 

@@ -160,11 +160,19 @@ bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const
     return describe_scene_linear(spec, unused, path, settings, note, error);
 }
 
+std::string conversion_note(const OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings)
+{
+    OIIO::ImageSpec described = spec;
+    ColorConversion conversion;
+    std::string note, ignored;
+    return describe_scene_linear(described, conversion, path, settings, note, ignored) && conversion ? note : "";
+}
+
 void convert_color(OIIO::ImageBuf& image, const ColorConversion& conversion, const std::string& interop_id,
                    int nthreads)
 {
     std::array<int, 3> index;
-    std::string ignored; // without colour there is nothing to convert
+    std::string ignored; // without colour all inputs are in the space of the result
     if (conversion && find_color_channels(image.spec(), index, ignored))
         convert_pixels(image, index, conversion, nthreads);
     tag_scene_linear(image.specmod(), interop_id);

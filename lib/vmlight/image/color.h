@@ -58,6 +58,10 @@ VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, ColorConversion& c
 VMLIGHT_API bool describe_scene_linear(OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings,
                                        std::string& error);
 
+/// How to_scene_linear() would convert the colours of a file with this header, such as "sRGB -> ACEScg"; "" if it would
+/// leave them as they are, or fail.
+std::string conversion_note(const OIIO::ImageSpec& spec, const std::string& path, const ColorSettings& settings);
+
 /// Convert R, G, B of a float image in memory by `conversion`, which may be empty, and tag it with `interop_id`.
 /// nthreads: 0 means OIIO's default.
 void convert_color(OIIO::ImageBuf& image, const ColorConversion& conversion, const std::string& interop_id,

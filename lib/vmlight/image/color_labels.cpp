@@ -63,7 +63,7 @@ void add_contradiction(std::vector<std::string>& warnings, const ColorLabels& la
 
 std::string unknown_primaries_text(const ColorLabels& labels)
 {
-    return format("its chromaticities ({}) are those of no known space and are ignored", labels.unknown_primaries);
+    return format("its chromaticities ({}) match no known space and are ignored", labels.unknown_primaries);
 }
 
 std::string converting_flag(const OIIO::ImageSpec& spec)

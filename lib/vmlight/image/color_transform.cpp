@@ -51,8 +51,9 @@ bool find_source(SourceSpace& from, std::vector<std::string>& warnings, const Co
     const PathSpace by_path = settings.labels_only ? PathSpace {} : space_of_path(config, path);
     const SourceSpace ruled = by_path.space.empty() ? SourceSpace {} : source_named(config, by_path.space);
     if (!label.found() && !labels.interop_id.empty())
-        warnings.push_back(format("its colorInteropID \"{}\" is no space of OCIO config \"{}\" and is ignored",
-                                  labels.interop_id, config_name));
+        warnings.push_back(
+            format("its colorInteropID \"{}\" is not a colour space of OCIO config \"{}\" and is ignored",
+                   labels.interop_id, config_name));
     if (ruled.found() && by_path.by_name) {
         from = ruled;
         const SourceSpace& own = label.found() ? label : primaries;
@@ -173,7 +174,7 @@ bool find_without_config(ColorTransform& transform, const ColorLabels& labels, c
     return true;
 }
 
-// A curve would make light of what is none.
+// A curve would make light of values that are not light.
 bool is_linear(const ColorConversion& convert)
 {
     if (!convert)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/light_level.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
 #include <vmlight/image/color_labels.h>
 #include <vmlight/image/color_space.h>
 #include <vmlight/image/primaries.h>
+#include <vmlight/lightmap/lightmap.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,11 +51,27 @@ LightLevel measure_light(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& v
     return level;
 }
 
-double LightLevel::stops_to_gray() const
+GrayExposure GrayExposure::of(double mean)
 {
-    if (texels == 0)
-        return 0;
-    return std::clamp(std::round(100 * std::log2(kMiddleGray / mean)) / 100, -64.0, 64.0);
+    if (!(mean > 0))
+        return {};
+    const double wanted = std::log2(kMiddleGray / mean),
+                 stops = std::clamp(wanted, LightmapParams::kExposure.min, LightmapParams::kExposure.max);
+    return { stops, mean * std::exp2(stops), stops == wanted };
+}
+
+std::string GrayExposure::advice() const
+{
+    return is_gray
+        ? format("--exposure {:.2f} brings the mean to {}", stops, kMiddleGray)
+        : format("no --exposure brings the mean to {}: {:.2f} brings it to {:.3g}", kMiddleGray, stops, mean);
+}
+
+GrayExposure LightLevel::gray_exposure(double exposure) const
+{
+    GrayExposure gray = texels == 0 ? GrayExposure() : GrayExposure::of(mean * std::exp2(-exposure));
+    gray.stops = std::round(100 * gray.stops) / 100;
+    return gray;
 }
 
 double covered_luminance(const OIIO::ImageBuf& picture, const std::string& space)

@@ -32,7 +32,8 @@ struct LightmapParams
     std::vector<double> rotate, matrix, quaternion;
     /// Rotation of the environment, as `rotate`; applied after the object's.
     std::vector<double> env_rotate;
-    /// Stops, -64 to 64: the result is multiplied by 2^exposure.
+    static constexpr Range kExposure { -64, 64 };
+    /// Stops: the result is multiplied by 2^exposure.
     double exposure = 0;
     /// Whether lookups in light of one colour, and products with an albedo of 1, are left out: the same result for
     /// less. Not parameters of the result, and so not in the metadata.
@@ -46,7 +47,7 @@ struct LightmapParams
               advanced("Rotate the object by a 3x3 matrix, row major, for column vectors"));
         field("quaternion", quaternion, Numbers { 4 }, advanced("Rotate the object by a quaternion w,x,y,z"));
         field("env_rotate", env_rotate, Numbers { 3 }, "Rotate the environment: x,y,z in degrees, as for rotate");
-        field("exposure", exposure, Range { -64, 64 }, "Exposure in stops");
+        field("exposure", exposure, kExposure, "Exposure in stops");
     }
 };
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/sun_light.h>
 
+#include <vmlight/cfem/one_color.h>
+
+#include <algorithm>
+
 namespace vmlight {
 
 void SunLight::add(OIIO::ROI part, double gain, float* rgb) const
@@ -15,6 +19,15 @@ void SunLight::add(OIIO::ROI part, double gain, float* rgb) const
                     for (size_t c = 0; c < 3; ++c)
                         rgb[c] = float(double(rgb[c]) + sun.color[c] * t);
     }
+}
+
+bool is_black(OIIO::cspan<OIIO::ImageBuf> cfem, const std::vector<Sun>* suns)
+{
+    const auto is_zero = [](const auto& rgb) { return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0; };
+    if (suns && !std::all_of(suns->begin(), suns->end(), [&](const Sun& sun) { return is_zero(sun.color); }))
+        return false;
+    const auto color = find_one_color(cfem);
+    return color && is_zero(*color);
 }
 
 } // namespace vmlight

@@ -23,6 +23,10 @@ struct SunLight
     void add(OIIO::ROI part, double gain, float* rgb) const;
 };
 
+/// Whether the images of the light and `suns`, which may be nullptr, are 0 everywhere. Reads up to the first pixel that
+/// is not.
+bool is_black(OIIO::cspan<OIIO::ImageBuf> cfem, const std::vector<Sun>* suns);
+
 /// The other make_lightmap(), with suns: `cfem` is the environment's rest (SunSplit), and to what the model makes of it
 /// the light of `suns` is added, before the albedo and the exposure.
 ///

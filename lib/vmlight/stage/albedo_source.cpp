@@ -48,6 +48,11 @@ const AlbedoReader* AlbedoSource::reader(std::string& error)
     return m_prepare.run([&](std::string& reason) { return prepare(reason); }, error) ? &m_reader : nullptr;
 }
 
+std::string AlbedoSource::conversion_note() const
+{
+    return vmlight::conversion_note(m_image->spec(), m_path, m_color);
+}
+
 bool AlbedoSource::prepare(std::string& error)
 {
     std::string note;

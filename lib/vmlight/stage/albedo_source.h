@@ -33,6 +33,10 @@ public:
     /// nullptr, with the reason in `error`, if it cannot be read or converted. Valid as long as this source.
     const AlbedoReader* reader(std::string& error);
 
+    /// How its colours are converted, such as "sRGB -> ACEScg"; "" if they are not, or if that fails, which reader()
+    /// reports.
+    std::string conversion_note() const;
+
     bool read(OIIO::ROI roi, float* dst, std::string& error) override;
     /// The texture in linear light, but not resized: make_lightmap() does that.
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange range, const MakeOptions& options,

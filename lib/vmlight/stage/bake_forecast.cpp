@@ -148,9 +148,9 @@ bool forecast_bake(BakeForecast& dst, const BakeScenePointer& scene, const Norma
     dst.bake_seconds = map.seconds;
     dst.tests = facts.bake.tests;
     if (options.explain || options.dry_run) {
-        options.report("effects:");
+        options.report_answer("effects:");
         for (const std::string& line : decision_lines(dst.decisions))
-            options.report(line);
+            options.report_answer(line);
     }
     const std::string missing = left_out(dst.decisions);
     return missing.empty() || options.repeated_inputs
@@ -178,10 +178,11 @@ void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, c
     const std::string compared = !options.poses && options.pose_count > 1
         ? format("; comparing {} comes on top", count_text(options.pose_count - 1, "other pose", "other poses"))
         : "";
-    options.report(format("expected: {}{:.2f} s: start {:.2f} s, read and build {:.2f} s, bake {:.2f} s, margin and "
-                          "file {:.2f} s; {:.0f} MB of memory{}{}",
-                          poses > 1 ? "at most " : "", seconds, start, read, bake, margin + write, bytes / 1e6,
-                          poses > 1 ? format("; each of {:.0f} poses baked whole", poses) : "", compared));
+    options.report_answer(
+        format("expected: {}{:.2f} s: start {:.2f} s, read and build {:.2f} s, bake {:.2f} s, margin and "
+               "file {:.2f} s; {:.0f} MB of memory{}{}",
+               poses > 1 ? "at most " : "", seconds, start, read, bake, margin + write, bytes / 1e6,
+               poses > 1 ? format("; each of {:.0f} poses baked whole", poses) : "", compared));
 }
 
 BakeWork BakeWork::so_far(const BakeScene& scene)
@@ -194,21 +195,21 @@ void report_taken(const BakeForecast& forecast, const VismapReport& report, cons
                   const BakeScene& scene, const MakeOptions& options)
 {
     const double covered = double(std::max<int64_t>(1, report.covered));
-    options.report(
+    options.report_answer(
         format("took: {:.2f} M rays ({:.1f} per covered texel); {:.1f} % of covered texels traced none; bake "
                "{:.2f} s, build {:.2f} s, margin {:.2f} s",
                double(report.rays) * 1e-6, double(report.rays) / covered, 100 * double(report.open) / covered,
                report.bake_seconds, report.build_seconds, report.margin_seconds));
     const BakeWork now = BakeWork::so_far(scene);
-    options.report(
+    options.report_answer(
         format("  deciding: {:.3f} M boxes and vertices compared with horizons", double(forecast.tests) * 1e-6));
     if (const int64_t hits = now.hits - before.hits; hits > 0)
-        options.report(format("  cut-outs: {:.2f} M hits asked, {:.1f} % of them the texture", double(hits) * 1e-6,
-                              100 * double(now.lookups - before.lookups) / double(hits)));
+        options.report_answer(format("  cut-outs: {:.2f} M hits looked up an opacity, {:.1f} % of them in the texture",
+                                     double(hits) * 1e-6, 100 * double(now.lookups - before.lookups) / double(hits)));
     if (const int64_t blocked = now.below_ground - before.below_ground; blocked > 0)
-        options.report(format("  ground: {:.2f} M directions blocked without a ray", double(blocked) * 1e-6));
+        options.report_answer(format("  ground: {:.2f} M directions blocked without a ray", double(blocked) * 1e-6));
     if (const int64_t filled = now.margin - before.margin; filled > 0)
-        options.report(format("  margin: {:.3f} M texels filled", double(filled) * 1e-6));
+        options.report_answer(format("  margin: {:.3f} M texels filled", double(filled) * 1e-6));
 }
 
 } // namespace vmlight

@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/stage/overlap_hint.h>
+#include <vmlight/stage/uv_warnings.h>
 #include <vmlight/vismap/reconstruct.h>
 
 #include <algorithm>
@@ -31,9 +32,7 @@ void report_outside(const MakeOptions& options, const UvReport& uv, const Vismap
                     count_text(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
                     recipe.vismap_params.udim));
     if (recipe.udim_given && uv.beyond_udims > 0 && !options.repeated_inputs)
-        warn(format("{} of {} {} outside all UDIM tiles (u below 0 or above 10, or v below 0): that part is not baked",
-                    uv.beyond_udims, count_text(uv.triangles, "triangle", "triangles"),
-                    plural(uv.beyond_udims, "reaches", "reach")));
+        warn(beyond_udims_warning(uv));
 }
 
 // Triangles of the tile that are not baked, and those too small to bake well.
@@ -124,8 +123,6 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
     if (is_reconstructed(recipe.vismap_params))
         say(format("reconstruct: from neighbours within {} texels; {:.2f} s", NeighbourWindow::kReach,
                    report.reconstruct_seconds));
-    else if (recipe.vismap_params.reconstruct != "off")
-        say("reconstruct: off, " + reconstruct_fault(recipe.vismap_params));
     if (report.error_texels > 0)
         say(error_line(report, is_reconstructed(recipe.vismap_params)));
     if (report.expected_seconds > recipe.time_budget)
@@ -135,9 +132,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
     report_overlap(options, report, recipe, mesh);
     report_outside(options, uv, recipe);
     if (uv.without_uv > 0 && !options.repeated_inputs)
-        warn(format("{} of {} {}", uv.without_uv, count_text(uv.triangles, "triangle", "triangles"),
-                    plural(uv.without_uv, "has no UVs: it occludes, but is not baked",
-                           "have no UVs: they occlude, but are not baked")));
+        warn(without_uv_warning(uv));
     report_lost(options, report);
     report_rounding(options, report);
     if (report.covered == 0)

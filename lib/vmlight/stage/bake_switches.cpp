@@ -46,8 +46,6 @@ VismapRecipe with_switches(const VismapRecipe& recipe)
         params.max_distance = defaults.max_distance;
     if (switches.of("margin") == Switch::off)
         params.margin = 0;
-    if (switched.has_normal_map())
-        params.reconstruct = "off"; // as VismapBaker does
     params.skip_open = switches.of("self-occlusion") != Switch::on;
     return switched;
 }

@@ -8,6 +8,7 @@
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/shader.h>
 #include <vmlight/stage/open_source.h>
+#include <vmlight/stage/sun_choice.h>
 #include <vmlight/vismap/point_visibility.h>
 
 #include <OpenImageIO/strutil.h>
@@ -82,10 +83,8 @@ std::shared_ptr<BounceShading> BounceShading::open(const LightmapRecipe& recipe,
 {
     if (recipe.albedo.empty())
         error = "the bounce needs an albedo: set --albedo";
-    else if (!scene->has_mesh())
-        error = format("\"{}\": a visibility map file does not store its mesh, which the bounce needs: set --mesh (and "
-                       "--occluder)",
-                       recipe.vismap);
+    else
+        error = why_no_mesh(recipe, recipe.vismap);
     std::string config;
     if (!error.empty() || !stamp_config(config, recipe.colorconfig, error)) {
         error = with_location(recipe, "bounce", chain, error);
@@ -119,16 +118,36 @@ void BounceShading::tag(OIIO::ImageSpec& lightmap) const
     append_params(lightmap, params);
 }
 
+TransportParams BounceShading::transport_params() const
+{
+    TransportParams params;
+    params.rays = m_recipe.bounce_params.bounce_rays;
+    params.ground = m_recipe.bounce_params.ground_albedo > 0;
+    return params;
+}
+
+bool BounceShading::forecast(TransportForecast& dst, const ImageBuf& vismap, const MakeOptions& options,
+                             std::string& error)
+{
+    dst = {};
+    std::vector<float> visibility;
+    if (m_prepare.succeeded())
+        return true;
+    if (!read_visibility(visibility, vismap, error) || !m_scene->prepare(options, error))
+        return false;
+    const VismapParams& map = m_scene->params();
+    return forecast_transport(dst, m_scene->scene(), map, visibility, transport_params(), options.threads,
+                              options.step("prepare", 0, 0), m_scene->normal_map())
+        || interrupted(error);
+}
+
 bool BounceShading::prepare(const std::vector<float>& visibility, const MakeOptions& options, std::string& error)
 {
     if (!m_scene->prepare(options, error))
         return false;
     const Stopwatch timer;
     const VismapParams& map = m_scene->params();
-    TransportParams params;
-    params.rays = m_recipe.bounce_params.bounce_rays;
-    params.ground = m_recipe.bounce_params.ground_albedo > 0;
-    if (!m_transport.prepare(m_scene->scene(), map, visibility, params, error, options.threads,
+    if (!m_transport.prepare(m_scene->scene(), map, visibility, transport_params(), error, options.threads,
                              options.step("bounce", map.size().width, map.size().height), m_scene->normal_map()))
         return false;
     const VismapParams samples = point_params(map);
@@ -139,12 +158,27 @@ bool BounceShading::prepare(const std::vector<float>& visibility, const MakeOpti
         m_albedo.find(*m_scene, m_transport.points(), Imath::V3f(float(m_recipe.bounce_params.ground_albedo)), m_color);
     else if (!m_albedo.read(*m_scene, m_transport.points(), m_recipe, m_space, options, error))
         return false;
+    warn_of_unused(options);
     options.report(format(
         "bounce: {} in {:.3f} s, and {} off the map; {}", count_text(m_transport.rays(), "ray", "rays"), timer(),
         count_text(int64_t(m_transport.points().size()), "point", "points"),
         m_transport.is_kept() ? OIIO::Strutil::memformat(int64_t(m_transport.bytes())) + " are kept for other light"
                               : "traced again for other light, as memory is short"));
     return true;
+}
+
+// Whatever the light: only the meshes say it.
+void BounceShading::warn_of_unused(const MakeOptions& options) const
+{
+    const BounceParams &given = m_recipe.bounce_params, defaults;
+    if (options.repeated_inputs)
+        return;
+    if (given.ground_albedo > 0 && !m_scene->params().ground)
+        options.report_warning("ground_albedo changes nothing: the visibility map has no ground");
+    if (!m_color && given.bounce_albedo != defaults.bounce_albedo && !m_albedo.uses_bounce_albedo())
+        options.report_warning(m_scene->recipe().occluder.empty()
+                                   ? "bounce_albedo changes nothing: the visibility map has no occluder"
+                                   : "bounce_albedo changes nothing: every occluder that lights a texel has a colour");
 }
 
 bool BounceShading::light_points(std::vector<float>& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem,
@@ -204,6 +238,10 @@ bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<
 {
     dst.roi = vismap.roi();
     dst.light.clear();
+    if (is_black(cfem, suns ? &suns->suns : nullptr)) {
+        options.report("bounce: none, as the light is black");
+        return true;
+    }
     std::vector<float> reflected, points;
     if (!read_albedo(reflected, albedo, dst.roi, error))
         return false;

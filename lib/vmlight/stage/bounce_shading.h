@@ -12,6 +12,7 @@
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/vismap/light_transport.h>
+#include <vmlight/vismap/transport_forecast.h>
 
 #include <OpenImageIO/imagebuf.h>
 
@@ -42,6 +43,12 @@ public:
     /// Equal keys, equal surfaces.
     const std::string& key() const { return m_key; }
 
+    /// Estimate what the first light() is going to trace, unless an earlier one has: nothing then.
+    ///
+    /// @param vismap   the pixels of the map
+    /// @returns false, with the location and reason in `error`, as light()
+    bool forecast(TransportForecast& dst, const OIIO::ImageBuf& vismap, const MakeOptions& options, std::string& error);
+
     /// Say in the metadata of a lightmap what was asked for.
     void tag(OIIO::ImageSpec& lightmap) const;
 
@@ -67,7 +74,9 @@ public:
     size_t bytes() const { return m_transport.bytes() + m_points.capacity() * sizeof(float); }
 
 private:
+    TransportParams transport_params() const;
     bool prepare(const std::vector<float>& visibility, const MakeOptions& options, std::string& error);
+    void warn_of_unused(const MakeOptions& options) const;
     bool light_points(std::vector<float>& dst, const OIIO::ImageBuf& vismap, OIIO::cspan<OIIO::ImageBuf> cfem,
                       const SunLight* suns, const LightmapParams& params, const MakeOptions& options,
                       std::string& error) const;

@@ -129,7 +129,7 @@ bool read_cutouts(Mesh& mesh, const CutoutSource& source, std::vector<FileStamp>
         if (!textures.add(read, material.base_color_texture, true, error)
             || !textures.add(read, material.opacity_texture, false, error)) {
             error
-                = format("\"{}\": material \"{}\" needs the alpha of its texture: {}; mend it, or take all surfaces as "
+                = format("\"{}\": material \"{}\" needs the alpha of its texture: {}; fix it, or take all surfaces as "
                          "opaque with --cutouts off",
                          mesh.path.empty() ? mesh.name : mesh.path, shortened_line(material_name(mesh, i)), error);
             return false;

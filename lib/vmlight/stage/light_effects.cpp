@@ -73,15 +73,17 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
     dst.levels = int(inputs.cfem.size());
     dst.has_environment = recipe.cfem.empty();
     dst.is_one_color = find_one_color(inputs.cfem).has_value();
-    dst.color_note = inputs.color;
-    dst.converts_color = !inputs.color.empty();
+    dst.is_black = is_black(inputs.cfem, inputs.suns ? &inputs.suns->list : nullptr);
+    dst.color_note = inputs.color();
+    dst.converts_color = !dst.color_note.empty();
     dst.has_albedo = !recipe.albedo.empty();
     find_albedo_facts(dst, inputs.albedo, options.threads);
     dst.wants_bounce = wants_bounce(recipe);
     dst.bounce_rays = recipe.bounce_params.bounce_rays;
     dst.no_bounce = dst.wants_bounce ? why_no_trace(recipe, inputs.vismap.spec(), recipe.vismap) : "";
     find_visibility_facts(dst, inputs.vismap);
-    return find_sun_facts(dst, inputs, recipe, rotation, options, error);
+    return find_sun_facts(dst, inputs, recipe, rotation, options, error)
+        && find_bounce_facts(dst, inputs.bounce.get(), inputs.vismap, options, error);
 }
 
 // How far the light is from what it would be without the switches.
@@ -171,9 +173,9 @@ bool explain_light(const LightmapInputs& inputs, const SwitchedLight& given, con
         || !decide_effects(decisions, LightmapRecipe::kStage, facts, switches, error))
         return false;
     if (options.explain || options.dry_run) {
-        options.report("effects:");
+        options.report_answer("effects:");
         for (const std::string& line : decision_lines(decisions))
-            options.report(line);
+            options.report_answer(line);
     }
     const std::string missing = left_out(decisions);
     if (missing.empty() || options.repeated_inputs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/light_facts.h>
 
+#include <vmlight/effects/rows.h>
 #include <vmlight/image/channels.h>
 
 #include <cmath>
@@ -32,6 +33,19 @@ void find_visibility_facts(LightFacts& dst, const OIIO::ImageBuf& vismap)
             dst.hidden += !(value > 0);
         }
     }
+}
+
+bool find_bounce_facts(LightFacts& dst, BounceShading* bounce, const OIIO::ImageBuf& vismap, const MakeOptions& options,
+                       std::string& error)
+{
+    TransportForecast forecast;
+    if (!bounce || !(options.explain || options.dry_run) || !calls_for_bounce(dst))
+        return true;
+    if (!bounce->forecast(forecast, vismap, options, error))
+        return false;
+    dst.traced_rays = forecast.rays;
+    dst.traced_points = forecast.points;
+    return true;
 }
 
 } // namespace vmlight

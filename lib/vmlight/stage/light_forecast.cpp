@@ -37,10 +37,10 @@ bool forecast_light(const LightmapInputs& inputs, const LightmapParams& params, 
     const double seconds = start + read + light + write, bytes = expected_bytes(lightmap.spec(), 0.5);
     if (options.forecasts)
         options.forecasts->add(seconds, bytes);
-    options.report(format("expected: {:.2f} s: start {:.2f} s, read and filter {:.2f} s, light {:.2f} s, {} {:.2f} s; "
-                          "{:.0f} MB of memory",
-                          seconds, start, read, light, count_text(int64_t(plan.frames), "file", "files"), write,
-                          bytes / 1e6));
+    options.report_answer(
+        format("expected: {:.2f} s: start {:.2f} s, read and filter {:.2f} s, light {:.2f} s, {} {:.2f} s; "
+               "{:.0f} MB of memory",
+               seconds, start, read, light, count_text(int64_t(plan.frames), "file", "files"), write, bytes / 1e6));
     return true;
 }
 
@@ -54,16 +54,16 @@ LightWork LightWork::so_far()
 void report_taken(const LightWork& before, const MakeOptions& options)
 {
     const LightWork now = LightWork::so_far();
-    options.report(
+    options.report_answer(
         format("took: {} over the environment; {:.3f} M texels looked light up, {:.3f} M were multiplied by an albedo; "
                "{:.3f} M pixels changed their colour space",
                count_text(now.filter_passes - before.filter_passes, "pass of a filter", "passes of filters"),
                double(now.looked_up - before.looked_up) * 1e-6, double(now.multiplied - before.multiplied) * 1e-6,
                double(now.converted - before.converted) * 1e-6));
     if (const int64_t rays = now.sun_rays - before.sun_rays; rays > 0)
-        options.report(format("  suns: {:.3f} M rays", double(rays) * 1e-6));
+        options.report_answer(format("  suns: {:.3f} M rays", double(rays) * 1e-6));
     if (const int64_t rays = now.bounce_rays - before.bounce_rays; rays > 0)
-        options.report(format("  bounce: {:.3f} M rays", double(rays) * 1e-6));
+        options.report_answer(format("  bounce: {:.3f} M rays", double(rays) * 1e-6));
 }
 
 } // namespace vmlight

@@ -6,15 +6,19 @@
 #include <vmlight/stage/output_color.h>
 #include <vmlight/stage/sun_choice.h>
 
+#include <OpenImageIO/strutil.h>
+
 namespace vmlight {
 namespace {
 
-PixelSourcePointer open_light(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, std::string& error,
-                              const RecipeChain& chain)
+PixelSourcePointer open_light(PixelSourcePointer& environment, const LightmapRecipe& recipe,
+                              const OIIO::ImageSpec& vismap, std::string& error, const RecipeChain& chain)
 {
     if (!recipe.cfem.empty())
         return open_input(recipe, "cfem", recipe.cfem, InputKind::Cfem, error, chain);
-    if (!open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, chain, recipe.layer))
+    environment
+        = open_input(recipe, "environment", recipe.environment, InputKind::Environment, error, chain, recipe.layer);
+    if (!environment)
         return nullptr;
     // Errors of the visibility map are reported by describe().
     ShadingModel model;
@@ -52,6 +56,23 @@ std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::RO
 
 } // namespace
 
+std::string conversions_of(const LightmapRecipe& recipe, const LightmapImages& images, const OutputColor& output)
+{
+    std::vector<std::string> notes;
+    const auto add = [&](const char* input, const std::string& note) {
+        if (!note.empty())
+            notes.push_back(std::string(input) + note);
+    };
+    if (images.environment)
+        add("environment: ",
+            conversion_note(images.environment->spec(), recipe.environment,
+                            { recipe.colorconfig, recipe.colorspace, images.environment->spec().format }));
+    add("light: ", images.light.conversion ? images.light.note : "");
+    add("albedo: ", images.albedo ? images.albedo->conversion_note() : "");
+    add("result: ", output.converts() ? output.space() : "");
+    return OIIO::Strutil::join(notes, "; ");
+}
+
 bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& error, const RecipeChain& chain)
 {
     LightmapRecipe recipe = given;
@@ -65,7 +86,7 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
         recipe.bounce_params.bounce = dst.no_bounce.empty() ? "auto" : "off";
     }
     if (dst.vismap)
-        dst.cfem = open_light(recipe, dst.vismap->spec(), error, chain);
+        dst.cfem = open_light(dst.environment, recipe, dst.vismap->spec(), error, chain);
     if (!error.empty())
         return false;
     if (recipe.suns == "auto" && !recipe.cfem.empty() && !dst.cfem->spec().find_attribute(kSunsAttribute))

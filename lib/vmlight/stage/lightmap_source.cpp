@@ -150,7 +150,9 @@ public:
             dst.vismap = std::move(images[0]);
             dst.map = map;
         }
-        dst.color = (m_images.light.conversion ? m_images.light.note : std::string()) + m_output.note();
+        dst.color = [recipe = m_recipe, images = m_images, output = m_output] {
+            return conversions_of(recipe, images, output);
+        };
         dst.finish = [output = m_output, no_suns = no_suns_text(),
                       effects = switched_off(m_given.effects, LightmapRecipe::kStage),
                       threads = options.threads](OIIO::ImageBuf& lightmap) {
@@ -202,8 +204,8 @@ private:
         m_images.light.convert(cfem, 1);
         const auto read_map
             = [&](OIIO::ImageBuf& map, std::string& reason) { return read_all(map, *m_images.vismap, reason); };
-        const bool converts = m_images.light.conversion || !m_output.note().empty();
-        if (m_given.effects != "auto" && !check_switches(m_given, cfem, converts, read_map, error))
+        if (m_given.effects != "auto"
+            && !check_switches(m_given, cfem, !conversions_of(m_recipe, m_images, m_output).empty(), read_map, error))
             return false;
         WholeLight whole(m_recipe, m_images);
         if (!whole.add_suns(m_shader, error))

@@ -27,6 +27,8 @@ struct MakeOptions
     std::function<Progress(const std::string& step, int64_t texels)> progress;
     /// Receive a line of information, or a warning.
     std::function<void(const std::string&)> say, warn;
+    /// Receives the lines that `explain` and `dry_run` ask for; if empty, say() does.
+    std::function<void(const std::string&)> answer;
     /// Say which effects run and why, before the work and after it; or instead of it, with time and memory expected.
     bool explain = false, dry_run = false;
     /// nullptr, or adds up the forecasts of a dry run.
@@ -62,6 +64,14 @@ struct MakeOptions
     {
         if (say)
             say(line);
+    }
+    /// A line that `explain` or `dry_run` asked for.
+    void report_answer(const std::string& line) const
+    {
+        if (answer)
+            answer(line);
+        else
+            report(line);
     }
     void report_warning(const std::string& line) const
     {

@@ -59,8 +59,8 @@ struct LightmapInputs
     std::shared_ptr<LightmapSuns> suns;
     /// The surfaces that light bounces off; nullptr if the recipe asks for none, or has no albedo.
     std::shared_ptr<BounceShading> bounce;
-    /// What of their colour is converted, or "".
-    std::string color;
+    /// How their colours are converted: conversions_of().
+    std::function<std::string()> color;
     /// Brings what make_lightmap() makes of these to the output_colorspace of the recipe.
     std::function<void(OIIO::ImageBuf& lightmap)> finish;
 

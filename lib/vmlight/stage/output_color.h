@@ -26,6 +26,10 @@ public:
     /// Convert RGB triples.
     void apply(float* rgb, size_t count) const;
 
+    /// Whether pixels change.
+    bool converts() const { return bool(m_convert); }
+    /// Its interop id; "" if the light keeps its own.
+    const std::string& space() const { return m_space; }
     /// ", written as SPACE", or "".
     std::string note() const { return m_space.empty() ? "" : ", written as " + m_space; }
 

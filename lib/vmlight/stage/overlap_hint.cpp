@@ -58,7 +58,7 @@ std::string better_uv_set(const VismapReport& report, const VismapRecipe& recipe
 {
     int best = -1;
     double least = kHeavy;
-    // A set of a few decals is none for all.
+    // A set of a few decals is no choice for the whole mesh.
     const int64_t most_lost = lost_triangles(report.uv) + report.uv.triangles / 100;
     for_each_other_uv_set(recipe, [&](int set, const Mesh& part) {
         const double overlap = measure_overlap(part, recipe.vismap_params, most_lost);

@@ -78,6 +78,7 @@ struct MaterialColor
 {
     V3f factor { 1 };
     std::optional<ColorBlocks> texture;
+    bool is_given = false; // by the file
     bool has_uvs = false; // those of the texture are those that are read
 };
 
@@ -122,10 +123,9 @@ public:
             MaterialColor& color = m_materials[i];
             if (!used[i])
                 continue;
-            if (!has_color(material)) {
-                color.factor = otherwise;
+            color.is_given = has_color(material);
+            if (!color.is_given)
                 continue;
-            }
             color.factor = { material.base_color.r, material.base_color.g, material.base_color.b };
             if (convert)
                 convert(&color.factor.x, 1);
@@ -144,13 +144,17 @@ public:
         return true;
     }
 
-    V3f at(const LightPoint& point) const
+    // `is_given`: by the file.
+    V3f at(const LightPoint& point, bool& is_given) const
     {
         const size_t triangle = point.triangle;
         const uint32_t material
             = triangle < m_mesh.triangle_materials.size() ? m_mesh.triangle_materials[triangle] : ~0u;
-        if (material >= m_materials.size())
+        if (material >= m_materials.size() || !m_materials[material].is_given) {
+            is_given = false;
             return m_otherwise;
+        }
+        is_given = true;
         const MaterialColor& color = m_materials[material];
         if (!color.texture)
             return non_negative(color.factor);
@@ -201,6 +205,7 @@ bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& poi
     const ColorSettings settings { recipe.colorconfig, "", OIIO::TypeUInt8, space };
     const V3f ground(float(recipe.bounce_params.ground_albedo)), otherwise(float(recipe.bounce_params.bounce_albedo));
     std::vector<std::optional<CasterColors>> casters(bake.occluder.size());
+    m_uses_bounce_albedo = false;
     m_sources.clear();
     m_files.clear();
     for (const LightPoint& point : points) {
@@ -218,7 +223,9 @@ bool PointAlbedo::read(const MapScene& scene, const std::vector<LightPoint>& poi
             && !caster.emplace().read(bake.occluder[size_t(occluder)], bake.mesh_params, settings, otherwise, options,
                                       m_files, error))
             return false;
-        m_sources.push_back({ Source::kColor, caster->at(point) });
+        bool is_given;
+        m_sources.push_back({ Source::kColor, caster->at(point, is_given) });
+        m_uses_bounce_albedo = m_uses_bounce_albedo || !is_given;
     }
     return true;
 }

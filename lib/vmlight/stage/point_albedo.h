@@ -41,6 +41,9 @@ public:
     /// @param map      says which texels the mesh covers
     void multiply(std::vector<float>& light, const std::vector<float>& albedo, const LightTransport& map) const;
 
+    /// After read(): whether some point has the recipe's `bounce_albedo`.
+    bool uses_bounce_albedo() const { return m_uses_bounce_albedo; }
+
     /// The files that occluders' colours were read from.
     const std::vector<FileStamp>& files() const { return m_files; }
 
@@ -56,6 +59,7 @@ private:
 
     std::vector<Source> m_sources; // of each point
     std::vector<FileStamp> m_files;
+    bool m_uses_bounce_albedo = false;
 };
 
 } // namespace vmlight

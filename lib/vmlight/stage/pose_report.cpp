@@ -8,6 +8,7 @@
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
+#include <vmlight/vismap/pose_ground.h>
 #include <vmlight/vismap/pose_plan.h>
 #include <vmlight/vismap/pose_proof.h>
 
@@ -24,7 +25,7 @@ double percent_of(int64_t part, int64_t whole)
 std::string change_text(const PoseChange& change, double allowed)
 {
     if (change.probes == 0)
-        return "none of its texels trace a ray: nothing to compare";
+        return "no texel traces a ray";
     return format(
         "V changes by at most {:.2g} in 99 % of the texels, and by {:.2g} at most; in {:.1f} % by more than {:.3g} "
         "({} looked at)",
@@ -83,7 +84,8 @@ bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allo
     // Normals of an object-space map do not turn with the surface.
     const bool keeps_normals = have_same_normals(base.normal_map, pose.normal_map)
         && !(is_turned && pose.normal_map && pose.normal_map->is_object_space());
-    if (std::find(same.begin(), same.end(), 0) == same.end() && keeps_normals) {
+    if (std::find(same.begin(), same.end(), 0) == same.end() && keeps_normals
+        && PoseGround(motion, params, 0).keeps_all()) {
         options.report(format("pose \"{}\": everything moves as one body: V stays, and B turns with it{}", recipe.mesh,
                               is_turned ? unturned_text(params) : ""));
         return true;
@@ -118,7 +120,8 @@ void report_pose(const PoseReport& pose, const MakeOptions& options)
         options.report(format("pose: V changes by at most {:.2g} in 99 % of the texels that could be kept; {}",
                               pose.change.bound, traced));
     else
-        options.report(format("pose: {}{}", pose.is_rigid ? "everything moves as one body; " : "", traced));
+        options.report(
+            format("pose: {}{}", pose.is_rigid && pose.kept > 0 ? "everything moves as one body; " : "", traced));
 }
 
 bool report_pose_changes(const VismapRecipe& recipe, const std::vector<VismapRecipe>& poses, double error_allowed,

@@ -12,16 +12,7 @@
 #include <array>
 
 namespace vmlight {
-
 namespace {
-
-std::string why_no_mesh(const LightmapRecipe& recipe, const std::string& name)
-{
-    return recipe_stage(recipe.vismap) == VismapRecipe::kStage || !recipe.mesh.empty()
-        ? ""
-        : format("\"{}\" does not say where its mesh is; set --mesh, and --occluder for all else that occluded it",
-                 name);
-}
 
 std::string why_no_part(const OIIO::ImageSpec& vismap, const std::string& name)
 {
@@ -29,6 +20,13 @@ std::string why_no_part(const OIIO::ImageSpec& vismap, const std::string& name)
 }
 
 } // namespace
+
+std::string why_no_mesh(const LightmapRecipe& recipe, const std::string& name)
+{
+    return recipe_stage(recipe.vismap) == VismapRecipe::kStage || !recipe.mesh.empty()
+        ? ""
+        : format("\"{}\" does not store its mesh: set --mesh, and --occluder for each mesh that occluded it", name);
+}
 
 std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name)
 {

@@ -13,7 +13,9 @@
 
 namespace vmlight {
 
-/// Why nothing can be traced on the map with this header, in a clause that begins with `name`, of the map; or "".
+/// Why the mesh of the map is not known, in a clause that begins with `name`, of the map; "" if it is.
+std::string why_no_mesh(const LightmapRecipe& recipe, const std::string& name);
+/// Why nothing can be traced on the map with this header, in such a clause; or "".
 std::string why_no_trace(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);
 /// The same of the bounce, which needs an albedo too.
 std::string why_no_bounce(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const std::string& name);

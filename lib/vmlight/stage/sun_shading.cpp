@@ -5,6 +5,7 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cfem/suns.h>
+#include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_source.h>
 
 namespace vmlight {
@@ -18,10 +19,8 @@ std::shared_ptr<SunShading> SunShading::open(const LightmapRecipe& recipe, const
     suns->m_stored = stored_suns(vismap);
     if (!scene->has_mesh() && suns->m_stored.empty()) {
         error = with_location(recipe, "suns", chain,
-                              format("\"{}\": a visibility map in a file does not say where its mesh is, which suns "
-                                     "are traced on; set --mesh, and --occluder for all else that occluded it, or bake "
-                                     "them with makevismap --sun-directions",
-                                     recipe.vismap));
+                              why_no_mesh(recipe, recipe.vismap)
+                                  + "; or bake what it sees of the suns with makevismap --sun-directions");
         return nullptr;
     }
     suns->m_scene = std::move(scene);

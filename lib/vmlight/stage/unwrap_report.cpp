@@ -18,9 +18,10 @@ std::string unwrap_line(const UnwrapReport& report, const UnwrapParams& params)
 std::string unwrap_warning(const UnwrapReport& report)
 {
     const int64_t lost = report.without_area + report.too_thin;
-    return lost == 0 ? ""
-                     : format("unwrap: {} no area in the atlas: {} without area in space, {} thinner than UVs can tell",
-                              count_text(lost, "triangle has", "triangles have"), report.without_area, report.too_thin);
+    return lost == 0
+        ? ""
+        : format("unwrap: {} no area in the atlas: {} without area in space, {} thinner than UVs can resolve",
+                 count_text(lost, "triangle has", "triangles have"), report.without_area, report.too_thin);
 }
 
 } // namespace vmlight

@@ -16,6 +16,7 @@
 #include <vmlight/stage/source_cache.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/pose_sequence.h>
+#include <vmlight/vismap/reconstruct.h>
 #include <vmlight/vismap/tiles.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -217,7 +218,7 @@ private:
         NormalMapPointer normal_map;
         std::vector<std::string> ignored;
         MakeOptions quiet;
-        quiet.repeated_inputs = true; // whoever asks for tiles is not told what is left out, so nothing is compared
+        quiet.repeated_inputs = true; // whoever asks for tiles gets no warnings, so nothing is compared
         BakeForecast decided;
         if (!share_scene(m_scene, m_recipe, m_stamps, 0, nullptr, at, error)
             || !read_normal_map(normal_map, m_recipe, mesh_of(m_scene), 0, ignored, ignored, error, &m_textures)
@@ -226,12 +227,12 @@ private:
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
         if (m_tiles->is_whole())
-            error = memory_shortage(m_spec);
+            error = memory_shortage(m_spec, reconstruct_bytes(m_baker.params()));
         if (!error.empty())
             return false;
         // This source owns the triangle lists, and the map if it was baked as a whole.
         const size_t lists = sizeof(uint32_t) * m_scene->mesh().triangles.size();
-        m_bytes = 1 + lists + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
+        m_bytes = 1 + lists + m_baker.seams().bytes() + (m_tiles->is_whole() ? size_t(m_spec.image_bytes()) : 0);
         return true;
     }
 

@@ -179,11 +179,15 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
     if (good) {
         scene->m_scene = rtcNewScene(scene->m_device);
         rtcSetSceneFlags(scene->m_scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilteredByQuery));
-        for (size_t id = 0; id < meshes.size(); ++id)
+        for (size_t id = 0; id < meshes.size(); ++id) {
+            const size_t first = scene->m_buffers.size();
             good = good
                 && (id < cutouts.size() && cutouts[id] ? scene->attach_sorted(
                         *meshes[id], *cutouts[id], frame, unsigned(id), unsigned(meshes.size() + id))
                                                        : scene->attach(*meshes[id], frame, unsigned(id)));
+            for (size_t i = first; i < scene->m_buffers.size(); ++i)
+                scene->m_buffers[i].mesh = id;
+        }
         rtcCommitScene(scene->m_scene);
         good = good && rtcGetDeviceError(scene->m_device) == RTC_ERROR_NONE;
     }

@@ -27,6 +27,7 @@ struct Buffers
     const Cutouts* cutouts = nullptr;
     /// The longest edge of each of those.
     std::vector<float> longest_edges {};
+    size_t mesh = 0; ///< its place among those that Scene::build() was given
 };
 
 /// How far Embree's barycentric weights of a hit are off at most, robust traversal at unit directions: by the rounding

@@ -81,38 +81,25 @@ uint8_t enter(const SceneBox& box, const PacketInverse& inverse, const V3f& orig
     return bits;
 }
 
-// Whether a triangle is where it was: to the bit, if both poses are rounded alike.
-bool is_same_place(const PoseMotion& motion, const TracedTriangles& before, const TracedTriangles& after,
-                   size_t triangle)
-{
-    const SceneFrame &base = motion.base().frame(), &pose = motion.pose().frame();
-    if (base.scale != pose.scale || base.centre != pose.centre)
-        return true;
-    for (int k = 0; k < 3; ++k)
-        if (before.corner(triangle, k) != after.corner(triangle, k))
-            return false;
-    return true;
-}
-
 } // namespace
 
 MovedBoxes::MovedBoxes(const PoseMotion& motion)
 {
     const BakeScene &base = motion.base(), &pose = motion.pose();
-    const std::vector<TracedTriangles> before = base.occluder().triangles(), after = pose.occluder().triangles();
     const double scale = pose.frame().scale / base.frame().scale;
     const V3d shift = (base.frame().centre - pose.frame().centre) * pose.frame().scale;
     std::vector<SceneBox> boxes;
     size_t at = 0;
-    for (size_t part = 0; part < before.size(); ++part)
-        for (size_t i = 0; i < before[part].count; ++i, ++at) {
-            if (motion.stands_still() && motion.body_of_traced(at) == 0
-                && is_same_place(motion, before[part], after[part], i))
+    for (const PosedPart& part : motion.parts())
+        for (size_t i = 0; i < part.count(); ++i, ++at) {
+            if (motion.stands_still() && motion.body_of_traced(at) == 0)
                 continue;
             SceneBox box;
             for (int k = 0; k < 3; ++k) {
-                box.add(V3f(V3d(before[part].corner(i, k)) * scale + shift));
-                box.add(after[part].corner(i, k));
+                if (part.base.count > 0)
+                    box.add(V3f(V3d(part.base.corner(i, k)) * scale + shift));
+                if (part.pose.count > 0)
+                    box.add(part.pose.corner(i, k));
             }
             boxes.push_back(box);
         }

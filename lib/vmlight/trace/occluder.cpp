@@ -79,10 +79,10 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
     return m_scene != nullptr;
 }
 
-bool Occluder::has_cutouts_of(const Occluder& other) const
+bool Occluder::has_cutouts_of(size_t mesh, const Occluder& other, size_t its_mesh) const
 {
-    return std::equal(m_cutouts.begin(), m_cutouts.end(), other.m_cutouts.begin(), other.m_cutouts.end(),
-                      [](const auto& a, const auto& b) { return a && b ? *a == *b : !a && !b; });
+    const auto &a = m_cutouts[mesh], &b = other.m_cutouts[its_mesh];
+    return a && b ? *a == *b : !a && !b;
 }
 
 void Occluder::count(const CutoutWork& work) const
@@ -97,7 +97,7 @@ std::vector<TracedTriangles> Occluder::triangles() const
 {
     std::vector<TracedTriangles> all;
     for (const embree::Buffers& mesh : m_scene->buffers())
-        all.push_back({ mesh.vertices, mesh.triangles, mesh.triangle_count });
+        all.push_back({ mesh.vertices, mesh.triangles, mesh.triangle_count, mesh.mesh });
     return all;
 }
 

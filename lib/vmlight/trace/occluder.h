@@ -39,6 +39,7 @@ struct TracedTriangles
     const Imath::V3f* vertices;
     const std::array<uint32_t, 3>* triangles;
     size_t count;
+    size_t mesh = 0; ///< its place among those that are traced: see BakeScene::casters()
 
     const Imath::V3f& corner(size_t triangle, int k) const { return vertices[triangles[triangle][size_t(k)]]; }
 };
@@ -93,8 +94,8 @@ public:
 
     /// After build().
     const CutoutCounts& cutouts() const { return m_counts; }
-    /// Whether light passes the same points of the same triangles of the same meshes.
-    bool has_cutouts_of(const Occluder& other) const;
+    /// Whether light passes the same points of the same triangles of two meshes, by their places among those traced.
+    bool has_cutouts_of(size_t mesh, const Occluder& other, size_t its_mesh) const;
     /// What rays have asked so far.
     CutoutWork cutout_work() const { return { m_hits, m_lookups }; }
     /// All triangles that rays can meet. Valid as long as this is.

@@ -18,7 +18,7 @@ namespace {
 
 // Nearer than this in both poses is the same place: rays do not tell such triangles apart.
 constexpr double kSamePlace = kTinyTriangle;
-// Four roundings of a coordinate to a float.
+// Four roundings of a coordinate to a float, in the plane of a triangle.
 constexpr double kFloatRounding = 1.0 / (1 << 22);
 // Seeds that are tried for a body, and triangles that are asked whether they belong to it.
 constexpr uint32_t kTries = 32;
@@ -36,15 +36,16 @@ bool has_shape(const V3d* corner)
 
 } // namespace
 
-PoseTriangles::PoseTriangles(const BakeScene& pose, const BakeScene& first)
+PoseTriangles::PoseTriangles(const BakeScene& pose, const BakeScene& first, const std::vector<PosedPart>& parts,
+                             TracedTriangles PosedPart::*side)
     : m_scene(pose)
-    , m_traced(pose.occluder().triangles())
     , m_scale(first.frame().scale / pose.frame().scale)
     , m_count(pose.mesh().triangles.size())
 {
-    for (const TracedTriangles& part : m_traced) {
+    for (const PosedPart& part : parts) {
+        m_traced.push_back(part.*side);
         m_first.push_back(m_count);
-        m_count += part.count;
+        m_count += part.count();
     }
 }
 
@@ -64,25 +65,30 @@ void PoseTriangles::corners(size_t triangle, V3d* dst) const
 PoseMotion::PoseMotion(const BakeScene& base, const BakeScene& pose)
     : m_base(base)
     , m_pose(pose)
-    , m_before(base, base)
-    , m_after(pose, base)
+    , m_parts(match_parts(base, pose, m_fault))
+    , m_before(base, base, m_parts, &PosedPart::base)
+    , m_after(pose, base, m_parts, &PosedPart::pose)
 {
-    const auto &before = m_before.traced(), &after = m_after.traced();
-    if (before.size() != after.size())
-        m_fault = format("{} meshes can be met by rays, and {} in the other pose", after.size(), before.size());
-    for (size_t i = 0; i < before.size() && m_fault.empty(); ++i)
-        if (before[i].count != after[i].count)
-            m_fault = format("mesh {} has {} triangles that rays can meet, and {} in the other pose", i, after[i].count,
-                             before[i].count);
-    if (m_fault.empty() && !base.occluder().has_cutouts_of(pose.occluder()))
-        m_fault = "other parts of the meshes are cut out";
     if (m_before.baked() != m_after.baked())
         m_fault = "the baked mesh has a different number of triangles";
     if (!m_fault.empty())
         return;
     m_tolerance = std::max(kSamePlace, 4 * (base.rounding() + pose.rounding()));
+    m_is_same_scene = base.frame().scale == pose.frame().scale && base.frame().centre == pose.frame().centre;
+    m_box.add(V3f(-1));
+    m_box.add(V3f(1));
+    m_box_to.add(V3f(float(-base.frame().scale / pose.frame().scale)));
+    m_box_to.add(V3f(float(base.frame().scale / pose.frame().scale)));
     m_body.assign(m_before.count(), kSoft);
-    m_soft = int64_t(m_body.size());
+    size_t first = m_before.baked();
+    for (const PosedPart& part : m_parts) {
+        if (!part.is_in_both()) {
+            std::fill_n(m_body.begin() + int64_t(first), part.count(), kAway);
+            m_away += int64_t(part.count());
+        }
+        first += part.count();
+    }
+    m_soft = int64_t(m_body.size()) - m_away;
     m_stands_still = take({ Rotation(), (base.frame().centre - pose.frame().centre) * base.frame().scale }) > 0;
     while (m_soft > 0 && m_motions.size() < kMotions) {
         std::vector<uint32_t> left;
@@ -100,21 +106,23 @@ bool PoseMotion::fits(size_t triangle, const RigidMotion& motion, double slack) 
     std::array<V3d, 3> before, after;
     m_before.corners(triangle, before.data());
     m_after.corners(triangle, after.data());
-    // Without a turn each coordinate is rounded on its own: a wide plane may pass close by, however far its corners
-    // are.
-    if (is_straight(motion.turn)) {
-        for (size_t k = 0; k < 3; ++k)
-            for (int axis = 0; axis < 3; ++axis) {
-                const double far = std::max(std::abs(before[k][axis]), std::abs(after[k][axis]));
-                const double off = std::abs(before[k][axis] + motion.shift[axis] - after[k][axis]);
-                if (!(off <= slack * (m_tolerance + kFloatRounding * far)))
-                    return false;
-            }
-        return true;
-    }
+    if (m_is_same_scene && is_straight(motion.turn) && motion.shift == V3d(0))
+        return before == after; // what is traced stays, to the bit
+    SceneBox box, box_to;
     for (size_t k = 0; k < 3; ++k) {
-        const double far = std::max(1.0, std::max(before[k].length(), after[k].length()) / 2);
-        if (!((motion(before[k]) - after[k]).length() <= m_tolerance * slack * far))
+        box.add(V3f(before[k]));
+        box_to.add(V3f(after[k]));
+    }
+    // What is far looks smaller. How far corners are does not matter: a wide plane may pass close by.
+    const double nearest = std::sqrt(std::min(box.distance2(m_box), box_to.distance2(m_box_to)));
+    const double tolerance = slack * m_tolerance * std::max(1.0, nearest / 2);
+    const V3d normal = (after[1] - after[0]).cross(after[2] - after[0]).normalized();
+    for (size_t k = 0; k < 3; ++k) {
+        const V3d off = motion(before[k]) - after[k];
+        const double rounding = slack * kFloatRounding * std::max(before[k].length(), after[k].length());
+        // Corners round far away, but a plane must stay where it is seen.
+        if (!(off.length() <= tolerance + (normal.length2() > 0.5 ? rounding : 0))
+            || !(std::abs(off.dot(normal)) <= tolerance))
             return false;
     }
     return true;

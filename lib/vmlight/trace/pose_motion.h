@@ -3,6 +3,8 @@
 #pragma once
 
 #include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/horizon.h>
+#include <vmlight/trace/posed_parts.h>
 #include <vmlight/trace/rigid_motion.h>
 
 #include <cstddef>
@@ -12,22 +14,23 @@
 
 namespace vmlight {
 
-/// The triangles of a scene in a pose: those of the baked mesh, then all that rays can meet (the baked mesh again, if
-/// it occludes). As they are traced, in units of the scene of the first pose.
+/// The triangles of a scene in a pose: those of the baked mesh, then those of the parts. As they are traced, in units
+/// of the scene of the first pose.
 class PoseTriangles
 {
 public:
-    PoseTriangles(const BakeScene& pose, const BakeScene& first);
+    /// @param side     of `parts`, that of the pose
+    PoseTriangles(const BakeScene& pose, const BakeScene& first, const std::vector<PosedPart>& parts,
+                  TracedTriangles PosedPart::*side);
 
     size_t count() const { return m_count; }
     size_t baked() const { return m_scene.mesh().triangles.size(); }
-    const std::vector<TracedTriangles>& traced() const { return m_traced; }
-    /// The three corners of triangle number `triangle`.
+    /// The three corners of triangle number `triangle`, which must be traced in this pose.
     void corners(size_t triangle, Imath::V3d* dst) const;
 
 private:
     const BakeScene& m_scene;
-    std::vector<TracedTriangles> m_traced;
+    std::vector<TracedTriangles> m_traced; // by part
     std::vector<size_t> m_first; // of each part, the baked mesh being the first
     double m_scale;
     size_t m_count;
@@ -36,8 +39,8 @@ private:
 class PoseMotion
 {
 public:
-    /// Of triangles that move like no body.
-    static constexpr uint32_t kSoft = ~0u;
+    /// Of triangles that move like no body, and of those that rays can meet in one pose only.
+    static constexpr uint32_t kSoft = ~0u, kAway = ~1u;
 
     /// Both must outlive this.
     PoseMotion(const BakeScene& base, const BakeScene& pose);
@@ -49,17 +52,19 @@ public:
     /// most kMotions bodies, what stands still first.
     static constexpr size_t kMotions = 16;
     const std::vector<RigidMotion>& motions() const { return m_motions; }
-    /// The body of a triangle of the baked mesh, and of one that rays can meet (in the order of Occluder::triangles()).
+    /// The body of a triangle of the baked mesh, and of one that rays can meet (in the order of parts()).
     uint32_t body(uint32_t triangle) const { return m_body[triangle]; }
     uint32_t body_of_traced(size_t triangle) const { return m_body[m_before.baked() + triangle]; }
+
+    const std::vector<PosedPart>& parts() const { return m_parts; }
 
     /// How a triangle of the baked mesh turns: with its body, or else on its own.
     Rotation turn(uint32_t triangle) const;
 
-    /// Whether the first body stands still.
+    /// Whether the first body stands still: to the bit, if both scenes have the same frame.
     bool stands_still() const { return m_stands_still; }
     /// Whether everything is one body.
-    bool is_whole() const { return m_motions.size() == 1 && m_soft == 0; }
+    bool is_whole() const { return m_motions.size() == 1 && m_soft == 0 && m_away == 0; }
     /// Triangles that belong to no body.
     int64_t soft() const { return m_soft; }
 
@@ -74,13 +79,15 @@ private:
     bool refine(RigidMotion& dst, size_t& fitting, const std::vector<uint32_t>& some) const;
 
     const BakeScene &m_base, &m_pose;
+    std::string m_fault;
+    const std::vector<PosedPart> m_parts;
     const PoseTriangles m_before, m_after;
     double m_tolerance = 0;
-    std::string m_fault;
     std::vector<RigidMotion> m_motions;
     std::vector<uint32_t> m_body;
-    int64_t m_soft = 0;
-    bool m_stands_still = false;
+    int64_t m_soft = 0, m_away = 0;
+    bool m_stands_still = false, m_is_same_scene = false;
+    SceneBox m_box, m_box_to; // of the baked mesh, at most
 };
 
 } // namespace vmlight

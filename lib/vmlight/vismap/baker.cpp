@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/uv/islands.h>
 #include <vmlight/vismap/baker_setup.h>
+#include <vmlight/vismap/reconstruct.h>
 #include <vmlight/vismap/sun_visibility.h>
 
 namespace vmlight {
@@ -56,15 +57,19 @@ bool VismapBaker::prepare(BakeScenePointer scene, const VismapParams& params, st
     OpenTriangles open;
     if (params.skip_open)
         open.find(*scene, params.max_distance * scene->frame().scale, most_rays(params));
-    SampleCount chosen;
-    if (!choose_samples(chosen, *scene, normal_map.get(), raster, open, params, time_budget, nthreads, progress, error))
-        return false;
     VismapParams settled = params;
-    settled.samples = chosen.samples;
     if (normal_map)
         settled.reconstruct = "off"; // normals that change from texel to texel hide what neighbours share
-    m_setup = std::make_unique<Setup>(std::move(scene), std::move(raster), std::move(open), settled, chosen,
-                                      std::move(normal_map), suns);
+    SeamLinks seams;
+    if (is_reconstructed(settled))
+        seams = SeamLinks(scene->mesh(), raster, width_of(params), height_of(params), params.udim);
+    SampleCount chosen;
+    if (!choose_samples(chosen, *scene, normal_map.get(), raster, open, seams, params, time_budget, nthreads, progress,
+                        error))
+        return false;
+    settled.samples = chosen.samples;
+    m_setup = std::make_unique<Setup>(std::move(scene), std::move(raster), std::move(open), std::move(seams), settled,
+                                      chosen, std::move(normal_map), suns);
     return true;
 }
 
@@ -142,6 +147,11 @@ const SampleCount& VismapBaker::error() const
 const OpenTriangles& VismapBaker::open() const
 {
     return m_setup->open;
+}
+
+const SeamLinks& VismapBaker::seams() const
+{
+    return m_setup->seams;
 }
 
 VismapBaker::ScratchPointer VismapBaker::scratch() const

@@ -11,6 +11,7 @@
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/open_triangles.h>
 #include <vmlight/vismap/sample_count.h>
+#include <vmlight/vismap/seam_links.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imageio.h>
@@ -90,6 +91,8 @@ public:
     const SampleCount& error() const;
     /// Which triangles trace no ray.
     const OpenTriangles& open() const;
+    /// The seams between its islands; none unless it is reconstructed.
+    const SeamLinks& seams() const;
 
     /// Working memory of one thread.
     class Scratch;

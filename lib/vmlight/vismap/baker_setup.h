@@ -16,12 +16,14 @@ namespace vmlight {
 
 struct VismapBaker::Setup
 {
-    Setup(BakeScenePointer the_scene, UvRaster&& the_raster, OpenTriangles&& the_open, const VismapParams& the_params,
-          const SampleCount& the_error, NormalMapPointer the_normal_map, const std::vector<Disc>& the_suns)
+    Setup(BakeScenePointer the_scene, UvRaster&& the_raster, OpenTriangles&& the_open, SeamLinks&& the_seams,
+          const VismapParams& the_params, const SampleCount& the_error, NormalMapPointer the_normal_map,
+          const std::vector<Disc>& the_suns)
         : scene(std::move(the_scene))
         , normal_map(std::move(the_normal_map))
         , raster(std::move(the_raster))
         , open(std::move(the_open))
+        , seams(std::move(the_seams))
         , params(the_params)
         , error(the_error)
         , has_normal(params.has("normal"))
@@ -38,6 +40,7 @@ struct VismapBaker::Setup
     const NormalMapPointer normal_map;
     const UvRaster raster;
     const OpenTriangles open;
+    const SeamLinks seams;
     const VismapParams params;
     const SampleCount error;
     const bool has_normal, has_error, has_coverage;

@@ -31,10 +31,10 @@ bool parse_sun_directions(std::vector<Disc>& dst, const std::string& text, std::
             && std::isfinite(direction.length()) && direction.length() > 0
             && (!has_angle || (numbers[3] >= 0 && numbers[3] <= 90));
         if (!good) {
-            error
-                = format("sun_directions: \"{}\" is no sun; each is x,y,z or x,y,z,HALF_ANGLE, with a direction other "
-                         "than 0 and 0 to 90 degrees, and \";\" goes between them",
-                         part);
+            error = format(
+                "sun_directions: \"{}\" is not a sun; each is x,y,z or x,y,z,HALF_ANGLE, with a direction other "
+                "than 0 and 0 to 90 degrees, and \";\" goes between them",
+                part);
             return false;
         }
         discs.push_back({ direction.normalized(), (has_angle ? numbers[3] : kSunHalfAngle) * kDegree });

@@ -64,12 +64,18 @@ void LightCells::find(const LightCells& other, std::vector<uint32_t>& numbers) c
         numbers.push_back(m_numbers.at(cell.key));
 }
 
-void LightCells::take_points(std::vector<LightPoint>& points, std::vector<SurfacePoint>& surfaces,
-                             std::vector<uint32_t>& first)
+size_t LightCells::point_count() const
 {
     size_t count = 0;
     for (const Cell& cell : m_cells)
         count += size_t(cell.count);
+    return count;
+}
+
+void LightCells::take_points(std::vector<LightPoint>& points, std::vector<SurfacePoint>& surfaces,
+                             std::vector<uint32_t>& first)
+{
+    const size_t count = point_count();
     points.clear();
     points.reserve(count);
     surfaces.clear();

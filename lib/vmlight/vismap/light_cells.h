@@ -61,6 +61,8 @@ public:
                      std::vector<uint32_t>& first);
 
     size_t count() const { return m_numbers.size(); }
+    /// Of all cells: what take_points() would hand over.
+    size_t point_count() const;
     void clear();
     /// Approximate memory use.
     size_t bytes() const;

@@ -32,8 +32,15 @@ struct BakedTexels
     TexelContexts contexts; ///< empty if the map is not reconstructed
 };
 
-/// Set all covered texels of the map, their coverage, counts and contexts. False if stopped.
-using BakeTexels = std::function<bool(const VismapBaker& baker, BakedTexels& dst)>;
+/// The same job, telling its progress to another.
+inline MapJob with_progress(MapJob job, const Progress& progress)
+{
+    job.progress = progress;
+    return job;
+}
+
+/// Set all covered texels of the map, their coverage, counts and contexts. False if `progress` stopped it.
+using BakeTexels = std::function<bool(const VismapBaker& baker, const Progress& progress, BakedTexels& dst)>;
 
 /// make_vismap(), with the texels of `bake`.
 bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report);

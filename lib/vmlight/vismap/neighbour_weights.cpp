@@ -58,6 +58,14 @@ HWY_INLINE WeightVec load(const Window::Plane& plane, size_t at)
     return hn::LoadU(WeightTag(), plane.data() + at);
 }
 
+// Whether the tile wants a texel from `first` to `last` of a row.
+HWY_INLINE bool wants(uint64_t row, int first, int last)
+{
+    first = first < 0 ? 0 : first;
+    last = last < kTileSize ? last : kTileSize - 1;
+    return first <= last && (row >> first & ~uint64_t(0) >> (kTileSize - 1 - last + first)) != 0;
+}
+
 // Of each texel that a patch of the tile reaches and its neighbour: how different they are, how different they may be
 // by chance, and how near on the surface.
 HWY_INLINE void compare(Window& window, Neighbour to)
@@ -67,8 +75,13 @@ HWY_INLINE void compare(Window& window, Neighbour to)
     const auto farthest = hn::Set(d, kStretch * float(to.x * to.x + to.y * to.y));
     const auto both = hn::Set(d, kBoth);
     const auto zero = hn::Zero(d);
-    for (int y = -Window::kPatch; y < kTileSize + Window::kPatch; ++y)
+    for (int y = -Window::kPatch; y < kTileSize + Window::kPatch; ++y) {
+        uint64_t rows = 0; // whose patches have a texel of this row
+        for (int row = std::max(0, y - Window::kPatch); row <= std::min(kTileSize - 1, y + Window::kPatch); ++row)
+            rows |= window.wanted[size_t(row)];
         for (int x = -Window::kPatch; x < kTileSize + Window::kPatch; x += int(hn::Lanes(d))) {
+            if (!wants(rows, x - Window::kPatch, x + int(hn::Lanes(d)) - 1 + Window::kPatch))
+                continue;
             const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
             auto facing = zero, distance = zero;
             for (size_t c = 0; c < 3; ++c) {
@@ -89,6 +102,7 @@ HWY_INLINE void compare(Window& window, Neighbour to)
             hn::StoreU(hn::IfThenElseZero(kept, expected), d, window.scratch_expected.data() + i);
             hn::StoreU(hn::IfThenElseZero(kept, square(square(square(facing)))), d, window.scratch_surface.data() + i);
         }
+    }
 }
 
 HWY_INLINE WeightVec patch_sum(const Window::Plane& plane, size_t at)
@@ -112,7 +126,9 @@ void weigh_neighbours_target(Window& window)
         const auto near = square(square(square(nearby)));
         float* weights = window.weights.data() + size_t(number) * kTileSize * kTileSize;
         for (int y = 0; y < kTileSize; ++y)
-            for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
+            for (int x = 0; x < kTileSize; x += int(hn::Lanes(d)), weights += hn::Lanes(d)) {
+                if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
+                    continue;
                 const size_t i = Window::index(x, y);
                 const auto expected = patch_sum(window.scratch_expected, i);
                 const auto beyond = hn::Max(zero, hn::Sub(patch_sum(window.scratch_difference, i), expected));
@@ -124,7 +140,6 @@ void weigh_neighbours_target(Window& window)
                 hn::StoreU(weight, d, weights);
                 float* sum = window.scale.data() + size_t(y) * kTileSize + size_t(x);
                 hn::StoreU(hn::Add(hn::LoadU(d, sum), weight), d, sum);
-                weights += hn::Lanes(d);
             }
     }
     for (size_t i = 0; i < window.scale.size(); i += hn::Lanes(d))
@@ -136,6 +151,8 @@ void mean_change_target(const Window& window, const float* plane, float* change)
     const WeightTag d;
     for (int y = 0; y < kTileSize; ++y)
         for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
+            if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
+                continue;
             const size_t i = Window::index(x, y), texel = size_t(y) * kTileSize + size_t(x);
             const auto own = hn::LoadU(d, plane + i);
             auto sum = hn::Zero(d);
@@ -155,6 +172,8 @@ void mean_variance_target(const Window& window, float* variance)
     const WeightTag d;
     for (int y = 0; y < kTileSize; ++y)
         for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
+            if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
+                continue;
             const size_t i = Window::index(x, y), texel = size_t(y) * kTileSize + size_t(x);
             auto sum = load(window.variance, i);
             for (int number = 0; number < Window::kNeighbours; ++number) {
@@ -192,6 +211,7 @@ NeighbourWindow::NeighbourWindow()
 
 void NeighbourWindow::clear()
 {
+    wanted.fill(~uint64_t(0));
     constexpr size_t kTexels = size_t(kSide) * kStride + 8;
     for (Plane* plane : { &visibility, &x, &y, &z, &variance, &spacing })
         plane->assign(kTexels, 0);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace vmlight {
@@ -26,7 +27,11 @@ struct NeighbourWindow
 
     /// Of the texel at (x, y) from the tile's first one, both at least -kHalo.
     static size_t index(int x, int y) { return size_t(y + kHalo) * kStride + size_t(x + kHalo); }
+    /// Forget all texels. All of the tile are wanted.
     void clear();
+
+    /// The texels of the tile to reconstruct; bit x of word y. What the functions below set for others means nothing.
+    std::array<uint64_t, kTileSize> wanted;
 
     /// V, and B less that of an open texel of this V, (2/3) V n.
     Plane visibility, x, y, z;

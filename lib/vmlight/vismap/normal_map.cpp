@@ -85,11 +85,11 @@ bool NormalMap::decode(const ImageBuf& image, const NormalMapParams& params, Siz
         return false;
     const double share = double(count_faulty(directions)) / double(directions.spec().image_pixels());
     if (share > kRefused) {
-        error = format("{:.0f} % of its pixels are no directions of length 1: not a normal map", 100 * share);
+        error = format("{:.0f} % of its pixels are not unit vectors: not a normal map", 100 * share);
         return false;
     }
     if (share > kWarned)
-        warnings.push_back(format("{:.1f} % of its pixels are no directions of length 1", 100 * share));
+        warnings.push_back(format("{:.1f} % of its pixels are not unit vectors", 100 * share));
     m_is_object_space = params.normal_map_space == "object";
     if (directions.spec().width != size.width || directions.spec().height != size.height) {
         // Its own display window must not place it.

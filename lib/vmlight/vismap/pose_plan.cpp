@@ -4,6 +4,7 @@
 #include <vmlight/base/parallel.h>
 #include <vmlight/uv/islands.h>
 #include <vmlight/vismap/pose_grid.h>
+#include <vmlight/vismap/pose_ground.h>
 #include <vmlight/vismap/pose_proof.h>
 
 #include <algorithm>
@@ -107,10 +108,12 @@ private:
         Worker(const PosePair& poses, const SamplePattern& pattern)
             : cover(std::make_unique<TileCover>())
             , probe(std::make_unique<PoseProbe>(poses.base, poses.pose, poses.baker.params(), pattern, poses.hints))
+            , sides(std::make_unique<GroundSides>(poses.motion, poses.baker.params()))
         {
         }
         std::unique_ptr<TileCover> cover;
         std::unique_ptr<PoseProbe> probe;
+        std::unique_ptr<GroundSides> sides;
         std::vector<Change> changes;
     };
 
@@ -165,16 +168,17 @@ void keep(TileBits& bits, size_t texel)
 bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_keep, int nthreads,
                       const Progress& progress)
 {
-    const bool by_proof = error <= 0 || poses.motion.is_whole();
     const Progress waiting = [&](double) { return !progress || progress(0); };
     std::vector<uint8_t> same;
-    if (by_proof)
+    if (error <= 0 || poses.motion.is_whole())
         same = prove_same_view(poses.motion, poses.baker.params(), error <= 0, nthreads);
-    if (by_proof && poses.pose.normal_map)
+    if (poses.pose.normal_map)
         for (uint32_t t = 0; t < same.size(); ++t)
             same[t] = same[t]
                 && poses.pose.normal_map->is_turned(*poses.base.normal_map, t, poses.motion.turn(t),
                                                     poses.motion.stands_still() && poses.motion.body(t) == 0);
+    const bool by_proof = error <= 0 || (!same.empty() && std::find(same.begin(), same.end(), 0) == same.end());
+    same.resize(poses.pose.scene->mesh().triangles.size());
     Probing probing(poses, may_keep, nthreads, waiting);
     const double limit = kProbeShare * error;
     PoseGrid coarse(kCoarse, probing.raster()), fine(kFine, probing.raster());
@@ -190,7 +194,13 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
     };
     std::vector<Counts> counts(m_kept.size());
     const bool has_known = poses.hints && poses.hints->known;
-    const auto decide_tile = [&](int tile, const TileCover& cover, const auto&) {
+    const PoseGround ground(poses.motion, poses.baker.params(), error);
+    const auto keeps_ground = [&](uint32_t triangle, const TileCover& cover, size_t texel, GroundSides& sides) {
+        const PoseGround::Keeps keeps = ground.keeps(triangle);
+        return keeps == PoseGround::all
+            || (keeps == PoseGround::by_side && sides.are_same(triangle, cover.weight1[texel], cover.weight2[texel]));
+    };
+    const auto decide_tile = [&](int tile, const TileCover& cover, const auto& worker) {
         const int tile_x = tile % probing.raster().tiles_across() * kTileSize;
         const int tile_y = tile / probing.raster().tiles_across() * kTileSize;
         for (size_t texel = 0; texel < cover.triangle.size(); ++texel) {
@@ -201,10 +211,11 @@ bool PosePlan::decide(const PosePair& poses, double error, const MayKeep& may_ke
             counts[size_t(tile)].tracing += traces;
             const bool unknown = traces && !(has_known && (*poses.hints->still)[triangle]);
             counts[size_t(tile)].unknown += unknown;
-            if (!may_keep(triangle))
+            if (!may_keep(triangle) || !keeps_ground(triangle, cover, texel, *worker.sides))
                 continue;
             const int x = tile_x + int(texel % kTileSize), y = tile_y + int(texel / kTileSize);
-            if (by_proof ? same[triangle] : is_cold(x, y) || !fine.exceeds(x, y, probing.part(triangle), limit)) {
+            if (same[triangle]
+                || (!by_proof && (is_cold(x, y) || !fine.exceeds(x, y, probing.part(triangle), limit)))) {
                 keep(m_kept[size_t(tile)], texel);
                 ++counts[size_t(tile)].kept;
                 counts[size_t(tile)].unknown -= unknown;

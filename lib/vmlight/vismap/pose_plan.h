@@ -39,7 +39,7 @@ public:
     /// Whether the texels of a triangle can keep what they had; the others are neither looked at nor kept.
     using MayKeep = std::function<bool(uint32_t triangle)>;
 
-    /// Decide on all texels. Where all that is traced moves as one body, or `error` is 0, by proof. Else by probes: in
+    /// Decide on all texels. Where all is proven to move as one body, or `error` is 0, by proof. Else by probes: in
     /// each square of 8 x 8 texels one for each part of the mesh (UV island and body), and in each of 4 x 4 where one
     /// of those, or of its neighbours, changes by more than half of `error`. A texel is traced again if a probe of its
     /// part does, in its square or one beside it.

@@ -4,6 +4,7 @@
 #include <vmlight/base/parallel.h>
 #include <vmlight/trace/facet.h>
 #include <vmlight/trace/triangle_tree.h>
+#include <vmlight/vismap/pose_ground.h>
 
 #include <algorithm>
 #include <array>
@@ -16,28 +17,7 @@ using Imath::V3f;
 
 namespace {
 
-// Files round normals, mostly to four digits: twice 9e-5.
-constexpr double kSameNormal = 2.5e-4;
 constexpr int64_t kStep = 256; // triangles that one thread takes at once
-
-// Height of the ground above the centre of the scene, in units of `first`.
-double ground_height(const BakeScene& scene, const VismapParams& params, const BakeScene& first)
-{
-    const double height = params.ground_height == VismapParams::kLowest ? scene.lowest() : params.ground_height;
-    return (height - scene.frame().centre.y) * first.frame().scale;
-}
-
-// Whether the ground is where it was, as the body sees it.
-bool keeps_ground(const RigidMotion& motion, const PoseMotion& poses, const VismapParams& params)
-{
-    if (!params.ground)
-        return true;
-    const V3d up(0, 1, 0);
-    const double before = ground_height(poses.base(), params, poses.base());
-    const double after = ground_height(poses.pose(), params, poses.base());
-    return (rotate(motion.turn, up) - up).length() <= kSameNormal
-        && std::abs(motion.shift.y + before - after) <= kTinyTriangle;
-}
 
 bool keeps_normals(const Mesh& before, const Mesh& after, uint32_t triangle, const Rotation& turn)
 {
@@ -49,22 +29,32 @@ bool keeps_normals(const Mesh& before, const Mesh& after, uint32_t triangle, con
     return true;
 }
 
+// Exactly: rays are made of it.
+bool is_same_surface(const Mesh& before, const Mesh& after, uint32_t triangle)
+{
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t from = before.triangles[triangle][k], to = after.triangles[triangle][k];
+        if (before.normals[from] != after.normals[to] || before.positions[from] != after.positions[to])
+            return false;
+    }
+    return true;
+}
+
 // What rays can meet and does not move with a body, in one pose.
 class Others
 {
 public:
-    Others(const BakeScene& scene, const PoseMotion& motion, uint32_t body)
-        : m_all(scene.occluder().triangles())
+    Others(TracedTriangles PosedPart::*pose, const PoseMotion& motion, uint32_t body)
     {
         size_t at = 0;
-        for (const TracedTriangles& part : m_all) {
+        for (const PosedPart& part : motion.parts()) {
             m_indices.emplace_back();
-            for (size_t i = 0; i < part.count; ++i, ++at)
-                if (motion.body_of_traced(at) != body)
-                    m_indices.back().push_back(part.triangles[i]);
+            for (size_t i = 0; i < part.count(); ++i, ++at)
+                if ((part.*pose).count > 0 && motion.body_of_traced(at) != body)
+                    m_indices.back().push_back((part.*pose).triangles[i]);
         }
-        for (size_t i = 0; i < m_all.size(); ++i)
-            m_others.push_back({ m_all[i].vertices, m_indices[i].data(), m_indices[i].size() });
+        for (size_t i = 0; i < m_indices.size(); ++i)
+            m_others.push_back({ (motion.parts()[i].*pose).vertices, m_indices[i].data(), m_indices[i].size() });
         m_tree = std::make_unique<TriangleTree>(m_others);
     }
     bool rise_above(const Facet& facet, double reach) const
@@ -73,7 +63,7 @@ public:
     }
 
 private:
-    std::vector<TracedTriangles> m_all, m_others;
+    std::vector<TracedTriangles> m_others;
     std::vector<std::vector<std::array<uint32_t, 3>>> m_indices;
     std::unique_ptr<TriangleTree> m_tree;
 };
@@ -88,20 +78,22 @@ std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParam
     std::vector<uint8_t> same(triangles, 0);
     for (uint32_t body = 0; body < motion.motions().size(); ++body) {
         const RigidMotion& own = motion.motions()[body];
-        if (!keeps_ground(own, motion, params) || (!search && !motion.is_whole()))
+        if (!search && !motion.is_whole())
             continue;
         std::unique_ptr<Others> others_before, others_after;
         if (!motion.is_whole()) {
-            others_before = std::make_unique<Others>(base, motion, body);
-            others_after = std::make_unique<Others>(pose, motion, body);
+            others_before = std::make_unique<Others>(&PosedPart::base, motion, body);
+            others_after = std::make_unique<Others>(&PosedPart::pose, motion, body);
         }
         const double reach_before = params.max_distance * base.frame().scale;
         const double reach_after = params.max_distance * pose.frame().scale;
+        const bool is_still = body == 0 && motion.stands_still();
         const auto prove = [&](int64_t item, int) {
             const auto end = uint32_t(std::min<int64_t>(triangles, (item + 1) * kStep));
             for (auto t = uint32_t(item * kStep); t < end; ++t)
                 same[t] = same[t]
-                    || (motion.body(t) == body && keeps_normals(before, after, t, own.turn)
+                    || (motion.body(t) == body
+                        && (is_still ? is_same_surface(before, after, t) : keeps_normals(before, after, t, own.turn))
                         && (!others_before
                             || (!others_before->rise_above(Facet(base, t), reach_before)
                                 && !others_after->rise_above(Facet(pose, t), reach_after))));
@@ -115,15 +107,10 @@ std::vector<uint8_t> find_still(const PoseMotion& motion, const VismapParams& pa
 {
     const Mesh &before = motion.base().mesh(), &after = motion.pose().mesh();
     std::vector<uint8_t> still(before.triangles.size(), 0);
-    if (!motion.stands_still() || !keeps_ground(motion.motions().front(), motion, params))
+    if (!motion.stands_still() || !is_same_ground(motion.base(), motion.pose(), params))
         return still;
-    for (uint32_t t = 0; t < still.size(); ++t) {
-        bool same = motion.body(t) == 0;
-        for (size_t k = 0; k < 3 && same; ++k) // exactly: directions of rays are made of them
-            same = before.normals[before.triangles[t][k]] == after.normals[after.triangles[t][k]]
-                && before.positions[before.triangles[t][k]] == after.positions[after.triangles[t][k]];
-        still[t] = same;
-    }
+    for (uint32_t t = 0; t < still.size(); ++t)
+        still[t] = motion.body(t) == 0 && is_same_surface(before, after, t);
     return still;
 }
 

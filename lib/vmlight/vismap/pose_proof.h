@@ -11,9 +11,12 @@
 
 namespace vmlight {
 
-/// For each triangle of the baked mesh, 1 where it, its normals, the ground, and all that may rise above its tangent
+/// Files round normals, mostly to four digits: twice 9e-5. Turned normals that differ by less are the same.
+constexpr double kSameNormal = 2.5e-4;
+
+/// For each triangle of the baked mesh, 1 where it, its normals, and all that may rise above its tangent
 /// plane within `params.max_distance` move together: what its texels see is then what they saw, turned with it. 0 where
-/// that is not so, or not proven.
+/// that is not so, or not proven. The ground is PoseGround's.
 ///
 /// @param search   whether to look for what rises above each; otherwise only a scene that is one body is proven
 std::vector<uint8_t> prove_same_view(const PoseMotion& motion, const VismapParams& params, bool search, int nthreads);

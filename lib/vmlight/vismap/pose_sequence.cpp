@@ -104,8 +104,12 @@ public:
                     continue;
                 const SurfacePoint point
                     = worker.surface->at(triangle, worker.cover->weight1[i], worker.cover->weight2[i]);
-                map.contexts.at(column, row) = { point.near_origin, point.normal, spacing.of(triangle),
-                                                 m_base.contexts.at(column, row).variance, false };
+                map.contexts.at(column, row) = { point.near_origin,
+                                                 point.normal,
+                                                 spacing.of(triangle),
+                                                 m_base.contexts.at(column, row).variance,
+                                                 false,
+                                                 m_baker.seams().island(triangle) };
             }
     }
 
@@ -176,8 +180,9 @@ PosePlan::MayKeep may_keep(const PosePair& poses)
 bool PoseSequence::bake_whole(OIIO::ImageBuf& dst, const MapJob& job, const std::string& name, VismapReport* report)
 {
     Traced traced;
-    const BakeTexels bake
-        = [&](const VismapBaker& baker, BakedTexels& map) { return bake_base(baker, job, map, traced); };
+    const BakeTexels bake = [&](const VismapBaker& baker, const Progress& progress, BakedTexels& map) {
+        return bake_base(baker, with_progress(job, progress), map, traced);
+    };
     if (!make_map(dst, job, bake, report))
         return false;
     m_traced = std::move(traced);
@@ -236,7 +241,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
     // A map does not know of less than a ray. A sun may be in few rays.
     const double error
         = m_error > 0 && next.params.sun_directions.empty() ? std::max(m_error, 1.0 / double(m_traced.samples)) : 0;
-    const BakeTexels bake = [&](const VismapBaker& baker, BakedTexels& map) {
+    const BakeTexels bake = [&](const VismapBaker& baker, const Progress& progress, BakedTexels& map) {
         const MovedBoxes moved(*motion);
         const std::vector<uint8_t> still = find_still(*motion, next.params);
         BakeHints hints;
@@ -247,7 +252,7 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         }
         const PosePair poses { m_base, pose, *motion, baker, &hints };
         PosePlan plan;
-        if (!plan.decide(poses, error, may_keep(poses), job.nthreads, job.progress))
+        if (!plan.decide(poses, error, may_keep(poses), job.nthreads, progress))
             return false;
         m_last.is_rigid = motion->is_whole();
         m_last.change = plan.change();
@@ -255,14 +260,15 @@ bool PoseSequence::bake(OIIO::ImageBuf& dst, const MapJob& job, const std::strin
         m_last.covered = plan.covered();
         map.counts.rays += plan.change().rays;
         if (double(plan.unknown()) > kMostUnknown * double(plan.tracing())) {
+            m_last.why
+                = plan.kept() == 0 && plan.change().probes == 0 ? "nothing of it can be kept" : "most of it changes";
             m_last.kept = 0;
-            m_last.why = "most of it changes";
-            return bake_base(baker, next, map, traced);
+            return bake_base(baker, with_progress(next, progress), map, traced);
         }
         const BaseTexels base { m_traced.texels.empty() ? static_cast<const float*>(m_map.localpixels())
                                                         : m_traced.texels.data(),
                                 m_traced.contexts, m_traced.errors };
-        return bake_changed(base, poses, plan, job, map);
+        return bake_changed(base, poses, plan, with_progress(job, progress), map);
     };
     if (!make_map(dst, next, bake, report))
         return false;

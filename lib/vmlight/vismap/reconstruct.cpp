@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/reconstruct.h>
 
-#include <vmlight/base/parallel.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/longest_direction.h>
@@ -29,12 +28,20 @@ std::string reconstruct_fault(const VismapParams& params)
     if (params.reconstruct == "off")
         return "it is switched off";
     if (params.measure != "cosine")
-        return "the measure uniform makes of B no mean of rays";
+        return "with the measure uniform, B is not a mean over rays";
     if (find_basis(params.basis).whole_numbers)
         return "what the basis " + params.basis + " packs of each ray has no mean";
     if (params.samples < 2 && params.target_error <= 0)
-        return "one ray does not scatter: give at least 2";
+        return "it needs at least 2 rays per texel";
     return "";
+}
+
+double reconstruct_bytes(const VismapParams& params)
+{
+    const double texels = double(params.size().width) * params.size().height;
+    return is_reconstructed(params)
+        ? texels * double(size_t(describe_vismap("", params).nchannels) * sizeof(float) + sizeof(TexelContext))
+        : 0;
 }
 
 Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, double error_scale)
@@ -50,6 +57,11 @@ Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, do
     m_bands.assign(m_layout.order > 0 ? size_t(m_layout.order * m_layout.order) - 4 : 0,
                    NeighbourWindow::Plane(m_window.spacing.size()));
     m_open = m_bands;
+    m_planes = { &m_window.visibility, &m_window.x, &m_window.y, &m_window.z, &m_window.variance, &m_window.spacing };
+    for (size_t c = 0; c < 3; ++c)
+        m_planes.insert(m_planes.end(), { &m_window.normal[c], &m_window.position[c] });
+    for (size_t k = 0; k < m_bands.size(); ++k)
+        m_planes.insert(m_planes.end(), { &m_bands[k], &m_open[k] });
     m_values.resize(size_t(m_layout.order * m_layout.order) * Harmonics::kLanes);
     for (std::vector<float>& change : m_change)
         change.resize(size_t(kTileSize) * kTileSize);
@@ -86,7 +98,43 @@ void Reconstruction::add(int x, int y, const float* texel, const TexelContext& c
 }
 
 int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int left, int top,
-                              const TexelContexts& contexts)
+                              const TexelContexts& contexts, const std::vector<Continuation>& continuations)
+{
+    std::vector<uint32_t> islands(m_change[0].size(), kNoIsland);
+    for (size_t i = 0; i < islands.size(); ++i) {
+        const int x = int(i % kTileSize), y = int(i / kTileSize);
+        if (m_window.spacing[NeighbourWindow::index(x, y)] > 0)
+            islands[i] = contexts.at(left + x, top + y).island;
+    }
+    int64_t dark = 0;
+    std::vector<float> added;
+    for (const IslandLayer& layer : layers_of_islands(islands, continuations)) {
+        if (layer.texels == decltype(layer.texels) {})
+            continue;
+        m_window.wanted = layer.texels;
+        added.clear();
+        const auto each = [&](auto&& visit) {
+            for (const auto& [first, last] : layer.continuations)
+                for (size_t k = first; k < last; ++k)
+                    visit(continuations[k], NeighbourWindow::index(continuations[k].x, continuations[k].y));
+        };
+        each([&](const Continuation& there, size_t i) {
+            for (const NeighbourWindow::Plane* plane : m_planes)
+                added.push_back((*plane)[i]);
+            add(there.x, there.y, there.texel, *there.context);
+        });
+        dark += apply_layer(raw, texels, pitch, left, top, contexts);
+        const float* value = added.data();
+        each([&](const Continuation&, size_t i) {
+            for (NeighbourWindow::Plane* plane : m_planes)
+                (*plane)[i] = *value++;
+        });
+    }
+    return dark;
+}
+
+int64_t Reconstruction::apply_layer(const float* raw, float* texels, size_t pitch, int left, int top,
+                                    const TexelContexts& contexts)
 {
     weigh_neighbours(m_window);
     const std::array<const float*, 4> planes { m_window.visibility.data(), m_window.x.data(), m_window.y.data(),
@@ -100,7 +148,7 @@ int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int
     std::vector<size_t> changed;
     for (size_t i = 0; i < m_change[0].size(); ++i) {
         const int x = int(i % kTileSize), y = int(i / kTileSize);
-        if (m_window.spacing[NeighbourWindow::index(x, y)] == 0)
+        if (!(m_window.wanted[size_t(y)] >> x & 1))
             continue;
         const size_t at = size_t(y) * pitch + size_t(x) * m_layout.channels;
         const TexelContext& context = contexts.at(left + x, top + y);
@@ -148,49 +196,6 @@ void Reconstruction::change_bands(const float* raw, float* texels, size_t pitch,
                     = m_narrowed[i] == 1 ? sum : sum * float(std::pow(double(m_narrowed[i]), 0.5 * l * (l + 1)));
             }
         }
-}
-
-bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContexts& contexts, int64_t& dark,
-                     int nthreads, const Progress& progress)
-{
-    constexpr int kHalo = NeighbourWindow::kHalo;
-    struct Worker
-    {
-        std::unique_ptr<Reconstruction> reconstruction;
-        int64_t dark = 0;
-    };
-    std::vector<Worker> workers(static_cast<size_t>(worker_count(nthreads)));
-    for (Worker& worker : workers)
-        worker.reconstruction
-            = std::make_unique<Reconstruction>(baker.params(), baker.error().lane_scale, baker.error().error_scale);
-    const int width = baker.width(), height = baker.height();
-    const auto channels = size_t(baker.channels());
-    const size_t pitch = size_t(width) * channels;
-    const std::vector<float> raw(pixels, pixels + pitch * size_t(height));
-    const auto work = [&](int64_t tile, int index) {
-        Worker& worker = workers[size_t(index)];
-        const int left = int(tile % baker.tiles_across()) * kTileSize;
-        const int top = int(tile / baker.tiles_across()) * kTileSize;
-        worker.reconstruction->clear();
-        bool any = false;
-        for (int y = std::max(0, top - kHalo); y < std::min(height, top + kTileSize + kHalo); ++y)
-            for (int x = std::max(0, left - kHalo); x < std::min(width, left + kTileSize + kHalo); ++x)
-                if (const TexelContext& context = contexts.at(x, y); context.spacing > 0) {
-                    worker.reconstruction->add(x - left, y - top, &raw[size_t(y) * pitch + size_t(x) * channels],
-                                               context);
-                    any = true;
-                }
-        if (any)
-            worker.dark += worker.reconstruction->apply(&raw[size_t(top) * pitch + size_t(left) * channels],
-                                                        pixels + size_t(top) * pitch + size_t(left) * channels, pitch,
-                                                        left, top, contexts);
-    };
-    if (!parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), nthreads, work, progress))
-        return false;
-    dark = 0;
-    for (const Worker& worker : workers)
-        dark += worker.dark;
-    return true;
 }
 
 } // namespace vmlight

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vmlight/base/progress.h>
+#include <vmlight/vismap/island_layers.h>
 #include <vmlight/vismap/neighbour_weights.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -25,6 +26,10 @@ inline bool is_reconstructed(const VismapParams& params)
     return reconstruct_fault(params).empty();
 }
 
+/// Bytes that the reconstruction of a whole map takes besides the map: the texels as they were baked, and their
+/// contexts. 0 if it is not reconstructed.
+double reconstruct_bytes(const VismapParams& params);
+
 /// What a bake knows of a texel beside its channels.
 struct TexelContext
 {
@@ -32,6 +37,7 @@ struct TexelContext
     float spacing = 0; ///< the longest distance to the next texel, in the scene's space; 0: not covered
     float variance = 0; ///< of V, up to SampleCount::lane_scale squared
     bool is_open = false; ///< no ray was traced, and nothing blocks one: V and B are exact
+    uint32_t island = 0; ///< SeamLinks::island()
 };
 
 /// The contexts of a rectangle of texels.
@@ -73,12 +79,17 @@ public:
     /// kTileSize + kHalo. In any order.
     void add(int x, int y, const float* texel, const TexelContext& context);
     /// Once all covered texels are added, set those of the tile.
+    ///
     /// @param raw, texels  the tile's first texel, as it was baked and to be set; rows are `pitch` floats apart
     /// @param contexts     has those of the tile
+    /// @param continuations    what is where islands end, instead of what was added there
     /// @returns how many of them have V below 0.01
-    int64_t apply(const float* raw, float* texels, size_t pitch, int left, int top, const TexelContexts& contexts);
+    int64_t apply(const float* raw, float* texels, size_t pitch, int left, int top, const TexelContexts& contexts,
+                  const std::vector<Continuation>& continuations = {});
 
 private:
+    int64_t apply_layer(const float* raw, float* texels, size_t pitch, int left, int top,
+                        const TexelContexts& contexts);
     void change_bands(const float* raw, float* texels, size_t pitch, const std::vector<size_t>& changed);
 
     struct Layout
@@ -90,17 +101,12 @@ private:
     const Layout m_layout;
     const float m_lane_scale, m_error_scale;
     NeighbourWindow m_window;
+    std::vector<NeighbourWindow::Plane*> m_planes; // all that add() sets
     std::unique_ptr<Harmonics> m_harmonics;
     std::vector<NeighbourWindow::Plane> m_bands, m_open; // less those of an open texel of the same V; and those, by V
     std::vector<float> m_values;
     std::array<std::vector<float>, 4> m_change;
     std::vector<float> m_narrowed, m_band_change;
 };
-
-class VismapBaker;
-
-/// Reconstruct a whole map. False if `progress` stopped it.
-bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContexts& contexts, int64_t& dark,
-                     int nthreads, const Progress& progress);
 
 } // namespace vmlight

@@ -5,7 +5,6 @@
 #include <vmlight/math/sampling.h>
 #include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/reconstruct.h>
-#include <vmlight/vismap/texel_spacing.h>
 #include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
@@ -16,8 +15,6 @@
 namespace vmlight {
 namespace {
 
-// One window for so many covered texels, within limits.
-constexpr int64_t kTexelsPerWindow = 128, kLeastWindows = 64, kMostWindows = 256;
 // Rays of a probe, in those of a texel.
 constexpr int kProbeRays = 4;
 constexpr int kMostProbeRays = 1 << 20;
@@ -37,64 +34,6 @@ ReconstructPilot::ReconstructPilot(const BakeScene& scene, const VismapPilot& pi
     m_params.channels = { "error" };
     m_params.basis = "vector";
     m_params.sun_directions.clear();
-}
-
-bool ReconstructPilot::pick(const UvRaster& raster, const OpenTriangles& open)
-{
-    const int64_t wanted = std::clamp(m_pilot.covered() / kTexelsPerWindow, kLeastWindows, kMostWindows);
-    m_windows.resize(size_t(std::min(wanted, m_pilot.texels())));
-    const int width = m_params.size().width, height = m_params.size().height;
-    const double run = double(m_pilot.texels()) / double(std::max<size_t>(1, m_windows.size()));
-    for (size_t k = 0; k < m_windows.size(); ++k) {
-        // A random one of each run: equal steps might all fall into one column of a tile.
-        const double chance = texel_hash(uint32_t(k), 1, 0).u * 0x1p-32;
-        const auto [left, top] = m_pilot.place(std::min(m_pilot.texels() - 1, int64_t((double(k) + chance) * run)));
-        for (int i = 0; i < kSide * kSide; ++i) {
-            Texel& texel = m_windows[k][size_t(i)];
-            texel.x = left + i % kSide - kSide / 2;
-            texel.y = top + i / kSide - kSide / 2;
-        }
-    }
-    struct Worker
-    {
-        TileCover cover;
-        std::unique_ptr<Surface> surface;
-        std::unique_ptr<TexelSpacing> spacing;
-    };
-    std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
-    for (Worker& worker : workers) {
-        worker.surface = std::make_unique<Surface>(m_scene.mesh(), m_scene.frame());
-        worker.spacing = std::make_unique<TexelSpacing>(m_scene.mesh(), m_scene.frame(), width, height);
-    }
-    const auto fill = [&](int64_t tile, int index) {
-        auto& [cover, surface, spacing] = workers[size_t(index)];
-        const int left = int(tile) % raster.tiles_across() * kTileSize;
-        const int top = int(tile) / raster.tiles_across() * kTileSize;
-        bool is_covered = false;
-        for (Window& window : m_windows) {
-            const Texel &first = window.front(), &last = window.back();
-            if (last.x < left || first.x >= left + kTileSize || last.y < top || first.y >= top + kTileSize)
-                continue;
-            if (!is_covered)
-                raster.cover(int(tile), cover);
-            is_covered = true;
-            for (Texel& texel : window) {
-                const int x = texel.x - left, y = texel.y - top;
-                if (x < 0 || y < 0 || x >= kTileSize || y >= kTileSize)
-                    continue;
-                const size_t i = size_t(y) * kTileSize + size_t(x);
-                const uint32_t triangle = cover.triangle[i];
-                if (triangle == TileCover::kNone)
-                    continue;
-                texel.point = surface->at(triangle, cover.weight1[i], cover.weight2[i]);
-                texel.spacing = spacing->of(triangle);
-                texel.open = open.is_open(triangle);
-                if (!texel.open)
-                    adjust_ray_origins(&texel.point, 1, m_scene.occluder());
-            }
-        }
-    };
-    return parallel_items(int64_t(raster.tiles_across()) * raster.tiles_down(), m_threads, fill, m_progress);
 }
 
 bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) const
@@ -167,7 +106,7 @@ bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) c
             for (int i = 0; i < kMiddle * kMiddle; ++i) {
                 const int inside = (i / kMiddle + kHalo) * kSide + i % kMiddle + kHalo;
                 const Texel& texel = m_windows[k][size_t(inside)];
-                if (texel.spacing == 0)
+                if (texel.spacing == 0 || texel.continues)
                     continue;
                 const Imath::V2i at = slot(k, inside);
                 const size_t channel = size_t(at.y) * kPitch + size_t(at.x) * kChannels;

@@ -10,6 +10,7 @@
 #include <vmlight/vismap/neighbour_weights.h>
 #include <vmlight/vismap/open_triangles.h>
 #include <vmlight/vismap/pilot.h>
+#include <vmlight/vismap/seam_links.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <array>
@@ -34,8 +35,9 @@ public:
     ReconstructPilot(const BakeScene& scene, const VismapPilot& pilot, const VismapParams& params, int nthreads,
                      const Progress& progress);
 
-    /// Find what the windows cover: around texels of the pilot, evenly over the map. False if stopped.
-    bool pick(const UvRaster& raster, const OpenTriangles& open);
+    /// Find what the windows cover: around texels of the pilot, evenly over the map, and beyond the seams of the
+    /// islands in their middle. False if stopped.
+    bool pick(const UvRaster& raster, const OpenTriangles& open, const SeamLinks& seams);
 
     /// Bake and reconstruct the windows, and trace their middles twice with 4 times the rays and other seeds: the
     /// product of the two differences is an unbiased estimate of the squared error. Measured on nine scenes: within 25
@@ -53,8 +55,13 @@ private:
         int x = 0, y = 0;
         float spacing = 0; // 0: not covered
         bool open = false;
+        uint32_t island = 0;
+        bool continues = false; // what lies beyond a seam
     };
     using Window = std::array<Texel, kSide * kSide>;
+    bool fill(const std::vector<Texel*>& texels, const UvRaster& raster, const OpenTriangles& open,
+              const SeamLinks& seams) const;
+    bool continue_windows(const UvRaster& raster, const OpenTriangles& open, const SeamLinks& seams);
 
     const BakeScene& m_scene;
     const VismapPilot& m_pilot;

@@ -110,8 +110,8 @@ bool time_rays(double& seconds, const VismapPilot& pilot, double time_budget)
 } // namespace
 
 bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* normal_map, const UvRaster& raster,
-                    const OpenTriangles& open, const VismapParams& params, double time_budget, int nthreads,
-                    const Progress& progress, std::string& error)
+                    const OpenTriangles& open, const SeamLinks& seams, const VismapParams& params, double time_budget,
+                    int nthreads, const Progress& progress, std::string& error)
 {
     dst = {};
     dst.samples = params.samples;
@@ -124,7 +124,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         error = "interrupted";
         return false;
     };
-    // One ray does not scatter.
+    // One ray has no scatter.
     const int least = params.has("error") || reconstructs ? 2 : 1;
     if (target <= 0 && time_budget <= 0 && params.samples < least) {
         error = "samples: 1 is too few for the channel error, which needs 2";
@@ -138,7 +138,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
     std::unique_ptr<ReconstructPilot> windows;
     if (reconstructs && wants_error) {
         windows = std::make_unique<ReconstructPilot>(scene, pilot, params, nthreads, progress);
-        if (!windows->pick(raster, open))
+        if (!windows->pick(raster, open, seams))
             return stopped();
     }
     double lane_scale = 1, error_scale = 1; // of the last measurement

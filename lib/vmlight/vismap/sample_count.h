@@ -7,6 +7,7 @@
 #include <vmlight/uv/raster.h>
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/open_triangles.h>
+#include <vmlight/vismap/seam_links.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <cstdint>
@@ -38,6 +39,7 @@ struct SampleCount
 /// @param dst      only `samples` is set if neither a target error, a time budget nor the channel `error` is asked for
 /// @param normal_map nullptr if there is none
 /// @param open     the triangles whose texels trace no ray
+/// @param seams    of the map, if it is reconstructed
 /// @param time_budget seconds for the bake on all threads, at least one ray per texel; 0 is unlimited
 /// @returns false, with the reason in `error`, if `params.target_error` is out of reach, `progress` stopped it, or the
 ///          channel `error` is asked for with 1 ray per texel
@@ -46,7 +48,7 @@ struct SampleCount
 /// fewer texels the count is 64. A measured error of 0 with less than 64 rays is taken as chance if 64 rays show
 /// scatter. A function of scene and params alone, except for a time budget.
 bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* normal_map, const UvRaster& raster,
-                    const OpenTriangles& open, const VismapParams& params, double time_budget, int nthreads,
-                    const Progress& progress, std::string& error);
+                    const OpenTriangles& open, const SeamLinks& seams, const VismapParams& params, double time_budget,
+                    int nthreads, const Progress& progress, std::string& error);
 
 } // namespace vmlight

@@ -26,11 +26,11 @@ namespace vmlight {
 /// Half as many find out before whether it is there.
 int disc_rays(double half_angle);
 
-/// The discs of VismapParams::sun_directions. Returns false, with the reason in `error`, if the text is none.
+/// The discs of VismapParams::sun_directions. Returns false, with the reason in `error`, if the text is not valid.
 bool parse_sun_directions(std::vector<Disc>& dst, const std::string& text, std::string& error);
 /// Text that parse_sun_directions() reads back.
 std::string sun_directions_text(OIIO::cspan<Disc> discs);
-/// Names of their channels: `sun.0`, ...; none if the text is none.
+/// Names of their channels: `sun.0`, ...; none if the text is not valid.
 std::vector<std::string> sun_channels(const std::string& text);
 
 /// Traces one disc for surface points of one scene, eight rays at a time. One per thread.

@@ -114,13 +114,13 @@ MapTilePointer VismapTiles::baked(int tile)
     });
 }
 
-// Those of the eight tiles around are baked that have a covered texel within reach.
+// Those of the eight tiles around are baked that have a covered texel within reach, and those that have one beyond a
+// seam.
 MapTilePointer VismapTiles::reconstructed(int tile)
 {
     if (!is_reconstructed(m_baker.params()))
         return baked(tile);
     return cache().get({ m_id, tile, Step::reconstructed }, [&] {
-        constexpr int kHalo = NeighbourWindow::kHalo;
         const MapTilePointer raw = baked(tile);
         auto result = std::make_shared<MapTile>();
         result->texels = raw->texels;
@@ -128,35 +128,12 @@ MapTilePointer VismapTiles::reconstructed(int tile)
         if (raw->texels.empty())
             return result;
         Reconstruction reconstruction(m_baker.params(), m_baker.error().lane_scale, m_baker.error().error_scale);
-        const OIIO::ROI own = tile_roi(m_baker, tile);
-        const OIIO::ROI reach(std::max(0, own.xbegin - kHalo), std::min(m_baker.width(), own.xend + kHalo),
-                              std::max(0, own.ybegin - kHalo), std::min(m_baker.height(), own.yend + kHalo));
-        const auto scratch = m_baker.scratch();
-        for (int ty = reach.ybegin / kTileSize; ty <= (reach.yend - 1) / kTileSize; ++ty)
-            for (int tx = reach.xbegin / kTileSize; tx <= (reach.xend - 1) / kTileSize; ++tx)
-                add_neighbours(reconstruction, ty * m_baker.tiles_across() + tx, own, reach, *scratch);
-        const size_t pitch = size_t(kTileSize) * m_baker.channels();
-        reconstruction.apply(raw->texels.data(), result->texels.data(), pitch, own.xbegin, own.ybegin, raw->contexts);
+        BakedTiles tiles(m_baker, [&](int other) { return baked(other); });
+        reconstruct_tile(
+            reconstruction, m_baker, tile, [&](int x, int y) { return tiles.at(x, y); }, raw->texels.data(),
+            result->texels.data(), size_t(kTileSize) * m_baker.channels(), raw->contexts);
         return result;
     });
-}
-
-void VismapTiles::add_neighbours(Reconstruction& reconstruction, int tile, OIIO::ROI centre, OIIO::ROI reach,
-                                 VismapBaker::Scratch& scratch)
-{
-    TileBits bits;
-    m_baker.cover_tile(tile, scratch, bits);
-    const OIIO::ROI own = tile_roi(m_baker, tile), both = OIIO::roi_intersection(own, reach);
-    MapTilePointer raw;
-    for (int y = both.ybegin; y < both.yend; ++y)
-        for (int x = both.xbegin; x < both.xend; ++x)
-            if (bits[size_t(y - own.ybegin)] >> (x - own.xbegin) & 1) {
-                if (!raw)
-                    raw = baked(tile);
-                const size_t at = size_t(y - own.ybegin) * kTileSize + size_t(x - own.xbegin);
-                reconstruction.add(x - centre.xbegin, y - centre.ybegin, &raw->texels[at * size_t(m_baker.channels())],
-                                   raw->contexts.at(x, y));
-            }
 }
 
 // Add a tile to the window; baked only if the window has one of its covered texels. Returns whether it does.

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <vmlight/base/once_cache.h>
+#include <vmlight/vismap/baked_tiles.h>
 #include <vmlight/vismap/baker.h>
-#include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/imageio.h>
 
@@ -15,23 +15,6 @@
 #include <vector>
 
 namespace vmlight {
-
-/// A tile of kTileSize x kTileSize texels.
-struct MapTile
-{
-    /// Rows without padding; empty if all values are 0.
-    std::vector<float> texels;
-    /// Texels that a triangle covers; excludes the margin.
-    TileBits covered {};
-    /// What reconstruction needs of a tile that it has not been applied to.
-    TexelContexts contexts {};
-
-    size_t bytes() const
-    {
-        return sizeof(*this) + texels.size() * sizeof(float) + contexts.texels.size() * sizeof(TexelContext);
-    }
-};
-using MapTilePointer = std::shared_ptr<const MapTile>;
 
 class VismapTiles
 {
@@ -59,8 +42,6 @@ private:
     struct Window;
     MapTilePointer baked(int tile);
     MapTilePointer reconstructed(int tile);
-    void add_neighbours(Reconstruction& reconstruction, int tile, OIIO::ROI centre, OIIO::ROI reach,
-                        VismapBaker::Scratch& scratch);
     MapTilePointer filled(int tile);
     MapTilePointer copied(int tile);
     bool add_tile(Window& window, int tile, VismapBaker::Scratch& scratch);

@@ -9,6 +9,7 @@
 #include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/make_map.h>
+#include <vmlight/vismap/reconstruct_map.h>
 
 #include <utility>
 
@@ -25,6 +26,17 @@ OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
     if (!scene.occluder_hashes().empty())
         spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
     return spec;
+}
+
+// Of the progress of a bake that is reconstructed: about its share of the time at 64 rays.
+constexpr double kBakeShare = 0.95;
+
+// Goes from `first` to `last` of a whole.
+Progress part_of(const Progress& whole, double first, double last)
+{
+    if (!whole)
+        return {};
+    return [&whole, first, last](double done) { return whole(first + (last - first) * done); };
 }
 
 } // namespace
@@ -49,10 +61,10 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
                  int nthreads, const Progress& progress, double time_budget, NormalMapPointer normal_map,
                  const StepListener& at_step)
 {
-    const BakeTexels all = [&](const VismapBaker& baker, BakedTexels& map) {
+    const BakeTexels all = [&](const VismapBaker& baker, const Progress& baking, BakedTexels& map) {
         BakeHints hints;
         hints.contexts = map.contexts.texels.empty() ? nullptr : &map.contexts;
-        return baker.bake_all(map.pixels, map.coverage, map.counts, nthreads, progress, &hints);
+        return baker.bake_all(map.pixels, map.coverage, map.counts, nthreads, baking, &hints);
     };
     return make_map(dst, { scene, params, nthreads, progress, time_budget, std::move(normal_map), at_step }, all,
                     report);
@@ -65,7 +77,7 @@ bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, Vi
     Stopwatch timer;
     std::string error;
     if (check_params(params, error))
-        error = memory_shortage(describe_vismap("", params));
+        error = memory_shortage(describe_vismap("", params), reconstruct_bytes(params));
     VismapBaker baker;
     begin_step(at_step, "prove");
     if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, normal_map))
@@ -88,13 +100,13 @@ bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, Vi
     const bool reconstructs = is_reconstructed(baker.params());
     if (reconstructs)
         map.contexts = TexelContexts(0, 0, spec.width, spec.height);
-    if (!bake(baker, map))
+    const double share = reconstructs ? kBakeShare : 1;
+    if (!bake(baker, part_of(progress, 0, share), map))
         return fail_with(dst, "interrupted");
     counts.bake_seconds = timer.lap();
     BakeCounts& baked = map.counts;
     if (reconstructs) {
-        begin_step(at_step, "reconstruct");
-        if (!reconstruct_map(baker, pixels, map.contexts, baked.dark, nthreads, {}))
+        if (!reconstruct_map(baker, pixels, map.contexts, baked.dark, nthreads, part_of(progress, share, 1)))
             return fail_with(dst, "interrupted");
         counts.reconstruct_seconds = timer.lap();
     }

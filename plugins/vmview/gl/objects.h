@@ -52,7 +52,7 @@ VertexArray make_vertex_array();
 /// A buffer of `bytes` bytes of `data`, bound to `target`.
 Buffer make_buffer(GLenum target, const void* data, size_t bytes);
 
-/// A texture of any kind, with nearest filtering and clamped edges unless told otherwise.
+/// A texture of any kind, with nearest filtering and clamped edges by default.
 class Texture
 {
 public:

@@ -66,7 +66,7 @@ std::unique_ptr<Window> Window::open(int width, int height, const std::string& t
 
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // settings.h keeps what there is to keep
+    ImGui::GetIO().IniFilename = nullptr; // settings.h stores the settings
     ImGui::StyleColorsDark();
     ImGui_ImplGlfw_InitForOpenGL(window->m_window, true);
     ImGui_ImplOpenGL3_Init("#version 410 core");

@@ -161,7 +161,7 @@ void App::expose()
         }
     if (!(sum > 0))
         return;
-    m_state.light.exposure = std::clamp(std::round(100 * std::log2(kMiddleGray * covered / sum)) / 100, -64.0, 64.0);
+    m_state.light.exposure = std::round(100 * GrayExposure::of(sum / covered).stops) / 100;
     m_exposes = false;
     m_frames_due = std::max(m_frames_due, 1);
 }

@@ -3,6 +3,7 @@
 
 #include "../render/lighting.h"
 #include "../scene/loading.h"
+#include "params_key.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
@@ -18,18 +19,6 @@ namespace {
 
 // A drag stays smooth up to this.
 constexpr double kSlowFrame = 33;
-// Pairs of rays of the reference, from step to step.
-constexpr int kFirstPairs = 4, kMostPairs = 4096;
-
-template <class Params> std::string key_of(const Params& params)
-{
-    std::string key;
-    Params copy = params;
-    copy.visit(
-        [&](const char*, auto& value, const auto& allowed, const char*) { key += value_text(value, allowed) + "|"; });
-    return key;
-}
-
 std::string key_of(const Camera& c)
 {
     std::string key;
@@ -53,7 +42,7 @@ Viewport::Viewport(int spp, const std::string& filter, int threads, std::functio
     , m_threads(threads)
     , m_filter(filter)
     , m_slots { { Slot(wake), Slot(wake) } }
-    , m_trace_job(wake)
+    , m_tracing(threads, wake)
 {
 }
 
@@ -88,6 +77,12 @@ void Viewport::set_light(LightPointer light)
     m_renderer.set_light(std::move(light), m_problem);
 }
 
+void Viewport::start(Slot& slot, const std::string& activity, ImageJob::Work work)
+{
+    slot.activity = activity;
+    slot.job.start(std::move(work));
+}
+
 void Viewport::stop(Slot& slot)
 {
     slot.job.stop();
@@ -100,11 +95,7 @@ void Viewport::stop()
 {
     for (Slot& slot : m_slots)
         stop(slot);
-    m_trace_job.stop();
-    m_tracer.reset(); // one that was stopped would not start again
-    m_tracer_key.clear();
-    m_traced_key.clear();
-    m_added_key.clear();
+    m_tracing.stop();
 }
 
 std::string Viewport::activity() const
@@ -113,133 +104,6 @@ std::string Viewport::activity() const
         : m_slots[1].job.is_busy()  ? m_slots[1].activity
         : is_tracing()              ? "trace: light"
                                     : "";
-}
-
-bool Viewport::start_relight(int index, const LightmapParams& params)
-{
-    m_slots[size_t(index)].activity = format("light: {}", params.model);
-    const MapPointer map = m_renderer.map();
-    const LightPointer light = m_renderer.light();
-    m_slots[size_t(index)].job.start([map, light, params, threads = m_threads](const auto& post, const auto& go_on) {
-        JobResult<OIIO::ImageBuf> result;
-        result.is_last = true;
-        if (!make_lightmap(result.value, map->image, light->filtered(), params, nullptr, threads, go_on))
-            result.error = result.value.geterror();
-        post(std::move(result));
-    });
-    return true;
-}
-
-void Viewport::start_reference(int index, const LightmapParams& params)
-{
-    m_slots[size_t(index)].activity = "trace: reference";
-    const MeshPointer mesh = m_renderer.mesh();
-    const MapPointer map = m_renderer.map();
-    const LightPointer light = m_renderer.light();
-    m_slots[size_t(index)].job.start([=, threads = m_threads](const auto& post, const auto& go_on) {
-        VismapParams size = mesh->recipe.vismap_params;
-        size.width = map->image.spec().width;
-        size.height = map->image.spec().height;
-        LightmapParams turned = params;
-        turned.model = "auto";
-        for (int pairs = kFirstPairs; pairs <= kMostPairs; pairs *= 4) {
-            JobResult<OIIO::ImageBuf> result;
-            ReferenceParams reference;
-            reference.samples = pairs;
-            result.is_last = pairs == kMostPairs;
-            if (!make_reference(result.value, *mesh->scene, light->light.environment, size, turned, reference, threads,
-                                go_on)) {
-                result.error = result.value.geterror();
-                result.is_last = true;
-            }
-            const bool is_last = result.is_last;
-            post(std::move(result));
-            if (is_last)
-                return;
-        }
-    });
-}
-
-// The models of both textures; "" for one that nothing is added to.
-bool Viewport::wanted_models(std::array<std::string, 2>& dst, const ViewState& state)
-{
-    const std::array<std::string, 2> asked { state.light.model, state.second };
-    for (size_t i = 0; i < asked.size(); ++i) {
-        ShadingModel model;
-        std::string ignored; // refresh_texture() reports it
-        const bool is_lit = !asked[i].empty() && asked[i] != kReferenceModel
-            && model_for(model, asked[i], *m_renderer.map(), *m_renderer.light(), ignored);
-        dst[i] = is_lit ? model.name : "";
-    }
-    return !dst[0].empty() || !dst[1].empty();
-}
-
-void Viewport::drop_added()
-{
-    if (m_trace_job.is_busy()) {
-        m_trace_job.stop();
-        m_tracer.reset(); // one that was stopped would not start again
-        m_tracer_key.clear();
-    }
-    m_added_key.clear();
-    if (!m_renderer.has_added())
-        return;
-    m_renderer.add_light(0, {});
-    m_renderer.add_light(1, {});
-    ++m_added_count;
-}
-
-// Take what is traced, and trace what is wanted now once the job is free: a job that is stopped at each movement of the
-// mouse would never end.
-void Viewport::refresh_added(const ViewState& state)
-{
-    if (auto result = m_trace_job.take()) {
-        if (result->error.empty()) {
-            for (int i = 0; i < 2; ++i)
-                m_renderer.add_light(i, std::move(result->value[size_t(i)]));
-            ++m_added_count;
-        } else if (result->error != "interrupted") {
-            m_trace_problem = result->error;
-        }
-        m_added_key = m_traced_key; // not tried again
-    }
-    LightmapParams params;
-    std::array<std::string, 2> models;
-    const bool has_all = is_light(state.show) && m_renderer.mesh() && m_renderer.map() && m_renderer.light();
-    const bool has_suns = state.trace.suns != "off" && has_all && !m_renderer.light()->light.suns.empty();
-    m_wanted_key.clear();
-    if (!(has_suns || (has_all && state.trace.bounce.bounce != "off"))
-        || !untraceable_reason(m_renderer.map()->image.spec()).empty() || !wanted_models(models, state)
-        || !light_params(params, state.light, state.turn, m_problem)) {
-        drop_added();
-        return;
-    }
-    const std::string of = format("{}|{}|{}|", m_generation, state.trace.suns, m_is_white) + key_of(state.trace.bounce);
-    m_wanted_key = of + key_of(params) + models[0] + "|" + models[1];
-    if (m_wanted_key == m_added_key && !m_trace_problem.empty())
-        m_problem = m_trace_problem;
-    if (m_wanted_key == m_added_key || m_trace_job.is_busy())
-        return;
-    m_trace_problem.clear();
-    m_traced_key = m_wanted_key;
-    if (of != m_tracer_key)
-        m_tracer = std::make_shared<AddedLight>(state.trace, m_renderer.mesh(), m_is_white, m_renderer.map(),
-                                                m_renderer.light());
-    m_tracer_key = of;
-    m_trace_job.start([tracer = m_tracer, params, models, threads = m_threads](const auto& post, const auto& go_on) {
-        JobResult<AddedPair> result;
-        result.is_last = true;
-        MakeOptions options;
-        options.threads = threads;
-        options.progress = [go_on](const std::string&, int64_t) { return go_on; };
-        for (size_t i = 0; i < models.size() && result.error.empty(); ++i) {
-            LightmapParams own = params;
-            own.model = models[i];
-            if (!models[i].empty())
-                tracer->trace(result.value[i], own, options, result.error);
-        }
-        post(std::move(result));
-    });
 }
 
 // Whether the texture has changed.
@@ -255,8 +119,8 @@ bool Viewport::refresh_texture(int index, const ViewState& state, const std::str
     params.model = model;
     const std::string key = format("{}|{}|", m_generation, word) + (needs_light ? key_of(params) : "");
     bool changed = false;
-    const bool has_other = slot.added != m_added_count && needs_light && model != kReferenceModel;
-    slot.added = m_added_count;
+    const bool has_other = slot.added != m_tracing.count() && needs_light && model != kReferenceModel;
+    slot.added = m_tracing.count();
     if (key == slot.key && has_other && !slot.rest.empty()) {
         m_renderer.set_texture(index, slot.rest.data(), true);
         changed = true;
@@ -268,14 +132,16 @@ bool Viewport::refresh_texture(int index, const ViewState& state, const std::str
         ShadingModel chosen;
         if (needs_light && model == kReferenceModel) {
             if (m_renderer.light()->light.environment.initialized())
-                start_reference(index, params);
+                start(slot, "trace: reference",
+                      reference_work(m_renderer.mesh(), m_renderer.map(), m_renderer.light(), params, m_threads));
             else
                 m_problem = "a traced reference needs the environment itself, and this is only its filtered map";
         } else if (needs_light && !model_for(chosen, model, *m_renderer.map(), *m_renderer.light(), m_problem)) {
             slot.used.clear();
         } else if (needs_light && !has_relight_shader(chosen.name)) {
             slot.used = params.model = chosen.name;
-            start_relight(index, params);
+            start(slot, format("light: {}", params.model),
+                  relight_work(m_renderer.map(), m_renderer.light(), params, m_threads));
         } else {
             if (needs_light)
                 slot.used = params.model = chosen.name;
@@ -319,7 +185,7 @@ void Viewport::update(const ViewState& state, int width, int height, bool is_dra
     }
     glBindVertexArray(m_no_vertices.get());
     const bool has_second = !state.second.empty() && is_light(state.show);
-    refresh_added(state);
+    m_tracing.update(m_renderer, state, m_generation, m_is_white, m_problem);
     bool changed = refresh_texture(0, state, state.show, state.light.model);
     if (has_second)
         changed |= refresh_texture(1, state, state.show, state.second);

@@ -6,8 +6,8 @@
 
 #include "../display/display_pass.h"
 #include "../render/picture.h"
-#include "../scene/added_light.h"
-#include "../scene/job.h"
+#include "light_jobs.h"
+#include "light_tracing.h"
 #include "view_state.h"
 
 #include <OpenImageIO/imagebuf.h>
@@ -54,7 +54,7 @@ public:
     /// What goes on in the background, or "": "reference: 64 rays".
     std::string activity() const;
     /// Whether light is still to be traced.
-    bool is_tracing() const { return m_added_key != m_wanted_key; }
+    bool is_tracing() const { return m_tracing.is_tracing(); }
     /// Stop all background work.
     void stop();
 
@@ -67,19 +67,13 @@ private:
         {
         }
         std::string key, used, activity;
-        Job<OIIO::ImageBuf> job;
+        ImageJob job;
         std::vector<float> rest; ///< what the job made, before light is added to it; empty: the graphics card lights
-        int added = 0; ///< m_added_count when the texture was made
+        int added = 0; ///< m_tracing.count() when the texture was made
     };
+    static void start(Slot& slot, const std::string& activity, ImageJob::Work work);
     static void stop(Slot& slot);
-    // Light that is added to both textures.
-    using AddedPair = std::array<std::vector<float>, 2>;
-    void refresh_added(const ViewState& state);
-    void drop_added();
-    bool wanted_models(std::array<std::string, 2>& dst, const ViewState& state);
     bool refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model);
-    bool start_relight(int index, const LightmapParams& params);
-    void start_reference(int index, const LightmapParams& params);
     bool refresh_display(const ViewState& state);
 
     const int m_spp, m_threads;
@@ -89,10 +83,7 @@ private:
     DisplayPass m_light_display, m_data_display;
     DisplayChoice m_choice;
     std::array<Slot, 2> m_slots;
-    Job<AddedPair> m_trace_job;
-    std::shared_ptr<AddedLight> m_tracer; // the job's while it runs
-    std::string m_tracer_key, m_wanted_key, m_added_key, m_traced_key, m_trace_problem;
-    int m_added_count = 0; // changes with what is added
+    LightTracing m_tracing;
     bool m_is_white = false;
     PictureSum m_sum;
     Framebuffer m_shown;

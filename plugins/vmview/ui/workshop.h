@@ -18,7 +18,7 @@ public:
     Workshop(Request request, std::function<void()> wake);
 
     /// Read a file of the kind that its name or contents say; a map that comes before a mesh waits for it. False, with
-    /// the reason in `error`, if it is none that can be looked at.
+    /// the reason in `error`, if it cannot be looked at.
     bool open(const std::string& path, std::string& error);
     /// Bake the mesh's map for `model`, whole maps of 1, 4, 16, ... rays per texel, up to those that were asked for;
     /// nothing if the map that is there, or being baked, serves.

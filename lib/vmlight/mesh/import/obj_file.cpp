@@ -155,7 +155,7 @@ int32_t Parser::index(string_view word, const Statement& statement, size_t count
     const bool is_negative = !word.empty() && word[0] == '-';
     const string_view digits = word.substr(is_negative ? 1 : 0);
     if (digits.empty() || digits.find_first_not_of("0123456789") != string_view::npos) {
-        m_error = format("cannot read as OBJ: line {} has a corner that is none of 1, 1/1, 1//1 and 1/1/1: {}",
+        m_error = format("cannot read as OBJ: line {} has a corner that is not one of 1, 1/1, 1//1 and 1/1/1: {}",
                          statement.line, quoted(statement));
         return 0;
     }

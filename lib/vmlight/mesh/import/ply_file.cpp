@@ -105,7 +105,7 @@ std::string Parser::read_property(const Element& element, const Property& proper
     const auto failure = [&](Reading reading) {
         return reading == Reading::end
             ? format("PLY ends inside {} {} of {}", element.name, row, element.count)
-            : format("PLY {} {} has something else than a number as {}", element.name, row, property.name);
+            : format("PLY {} {} has something other than a number as {}", element.name, row, property.name);
     };
     m_numbers.clear();
     TextNumber number;

@@ -44,11 +44,9 @@ struct CutoutParams
 };
 
 /// The key of recipes whose effects can be switched.
-template <class Visit> void visit_effects(Visit&& field, std::string& effects)
+template <class Visit> void visit_effects(Visit&& field, std::string& effects, const Help& help)
 {
-    field(
-        "effects", effects, Text {},
-        advanced("Effects to simulate: auto, all, or switches such as -ground,+self-occlusion; --explain lists them"));
+    field("effects", effects, Text {}, help);
 }
 
 /// `hero.vismap`
@@ -94,7 +92,9 @@ struct VismapRecipe
               "Use the normal maps that the mesh's materials name: glTF's normalTexture, MTL's norm");
         normal_map_params.visit(field);
         vismap_params.visit(field);
-        visit_effects(field, effects);
+        visit_effects(field, effects,
+                      advanced("Effects to simulate: auto, all, or switches such as -ground,+self-occlusion; "
+                               "--explain lists them"));
         mesh_params.visit(field);
         cutout_params.visit(field);
     }
@@ -175,7 +175,7 @@ struct BounceParams
     std::string bounce = "off";
     /// Rays per texel.
     int bounce_rays = 64;
-    /// Albedo of occluders whose files say nothing of it; and of the ground.
+    /// Albedo of occluders whose materials have no colour; and of the ground.
     double bounce_albedo = 0.5, ground_albedo = 0;
 
     template <class Visit> void visit(Visit&& field)
@@ -183,14 +183,14 @@ struct BounceParams
         field("bounce", bounce,
               Choices { { { "off", "direct light only" },
                           { "auto",
-                            "adds one bounce off the mesh, its occluders and the ground, if the mesh is known; needs "
-                            "an albedo" },
-                          { "on", "the same; an error if the mesh is not known, or without an albedo" } } },
+                            "adds one bounce off the mesh, its occluders and the ground, if the mesh is known and an "
+                            "albedo is given" },
+                          { "on", "the same; an error without mesh or albedo" } } },
               "Light from surface to surface");
         field("bounce_rays", bounce_rays, TransportParams::kRays, advanced("Rays per texel for the bounce"));
         field("bounce_albedo", bounce_albedo, Range { 0, 1 },
-              "Albedo, for the bounce, of occluders whose files have no colour");
-        field("ground_albedo", ground_albedo, Range { 0, 1 }, "Albedo of the ground, for the bounce");
+              "Albedo, for the bounce, of occluders whose materials have no colour");
+        field("ground_albedo", ground_albedo, Range { 0, 1 }, "Albedo of the visibility map's ground, for the bounce");
     }
 };
 
@@ -236,7 +236,9 @@ struct LightmapRecipe
         bounce_params.visit(field);
         field("mesh", mesh, Path {}, "Mesh of the visibility map, to trace light on; a recipe of a map names it");
         field("occluder", occluder, Paths {}, "Mesh that occluded the visibility map, to trace light against");
-        visit_effects(field, effects);
+        visit_effects(field, effects,
+                      advanced("Effects to simulate: auto, all, or switches such as -albedo,+stack-levels; --explain "
+                               "lists them"));
         cfem_params.visit([&](const char* name, auto& value, const auto& allowed, const char* help) {
             field(("cfem_" + std::string(name)).c_str(), value, allowed, advanced(help));
         });

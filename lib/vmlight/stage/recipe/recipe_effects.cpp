@@ -2,6 +2,7 @@
 #include <vmlight/stage/recipe/recipe_effects.h>
 
 #include <vmlight/effects/effect.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -56,12 +57,29 @@ EffectFacts known_facts(const LightmapRecipe& recipe, const EffectSwitches& swit
 
 namespace {
 
+// What a key demands and a switch leaves out. That `auto` asks for it is no contradiction: the switch shows what it
+// adds.
+std::string contradiction(const LightmapRecipe& recipe, const EffectSwitches& switches)
+{
+    if (recipe.suns == "on" && switches.names("suns") && switches.of("suns") == Switch::off)
+        return "-suns contradicts suns = on";
+    if (recipe.bounce_params.bounce == "on" && switches.names("bounce") && switches.of("bounce") == Switch::off)
+        return "-bounce contradicts bounce = on";
+    return "";
+}
+
+std::string contradiction(const VismapRecipe&, const EffectSwitches&)
+{
+    return "";
+}
+
 template <class Recipe> std::string fault_of(const Recipe& recipe)
 {
     EffectSwitches switches;
     std::vector<EffectDecision> ignored;
     std::string error;
     if (EffectSwitches::parse(switches, recipe.effects, Recipe::kStage, error)
+        && (error = contradiction(recipe, switches)).empty()
         && decide_effects(ignored, Recipe::kStage, known_facts(recipe, switches), switches, error))
         return "";
     const OIIO::string_view prefix = "effects: ";
@@ -78,6 +96,19 @@ bool wants_suns(const LightmapRecipe& recipe)
 bool wants_bounce(const LightmapRecipe& recipe)
 {
     return recipe.bounce_params.bounce != "off" || is_named_on(recipe, "bounce");
+}
+
+std::string unreconstructable(const VismapRecipe& recipe)
+{
+    EffectSwitches switches;
+    std::string ignored;
+    if (recipe.vismap_params.reconstruct == "off")
+        return "";
+    if (recipe.has_normal_map()
+        && !(EffectSwitches::parse(switches, recipe.effects, VismapRecipe::kStage, ignored)
+             && switches.of("normal-map") == Switch::off))
+        return "with a normal map, neighbouring texels have normals of their own";
+    return reconstruct_fault(recipe.vismap_params);
 }
 
 std::string switched_fault(const VismapRecipe& recipe)

@@ -6,7 +6,6 @@
 #include <vmlight/mesh/import/importer.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/vismap/basis.h>
-#include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -33,9 +32,8 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "width and height override it";
     if (key == "ground_height" && !recipe.vismap_params.ground)
         return "no ground is given";
-    if (key == "reconstruct" && recipe.vismap_params.reconstruct != "off")
-        return recipe.has_normal_map() ? "with a normal map, neighbouring texels have normals of their own"
-                                       : reconstruct_fault(recipe.vismap_params);
+    if (key == "reconstruct")
+        return unreconstructable(recipe);
     const std::string other_basis = unused_basis_parameter(recipe.vismap_params, key);
     if (!other_basis.empty())
         return other_basis;

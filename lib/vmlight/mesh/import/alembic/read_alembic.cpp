@@ -236,7 +236,7 @@ private:
         const double first = m_moment.first() * params.fps, last = m_moment.last() * params.fps;
         constexpr double kHardly = 1e-3; // of a frame
         if (!(first <= last))
-            m_dst.warn(format("frame {:.6g} is as any other: nothing is animated", params.frame));
+            m_dst.warn(format("frame {:.6g}: nothing is animated", params.frame));
         else if (params.frame < first - kHardly || params.frame > last + kHardly)
             m_dst.warn(format("frame {:.6g} is beyond the animation, which has frames {:.6g} to {:.6g} at {:.6g} per "
                               "second: its {} stands still",

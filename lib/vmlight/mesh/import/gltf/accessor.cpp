@@ -48,7 +48,7 @@ const ComponentType& component_type_of(int id)
     for (const ComponentType& type : kComponentTypes)
         if (type.id == id)
             return type;
-    throw Error(format("component type {} is none of glTF's", id));
+    throw Error(format("{} is not a component type of glTF", id));
 }
 
 const tinygltf::Accessor& accessor_of(Document& document, int index, const std::string& what)
