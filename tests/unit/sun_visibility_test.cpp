@@ -55,14 +55,17 @@ Disc disc_at(double elevation, double half_angle, double azimuth = 0)
 
 TEST(SunVisibility, AnOpenFloorSeesTheWholeDisc)
 {
-    for (const double half_angle : { 0.0, 0.265, 2.0, 8.0 })
-        for (const double elevation : { 90.0, 45.0, 10.0 }) {
+    for (const auto& [half_angle, probes] :
+         { std::pair(0.0, 8), { 0.265, 8 }, { 2.0, 8 }, { 4.0, 16 }, { 8.0, 8 }, { 25.0, 8 } })
+        for (const double elevation : { 90.0, 45.0, 27.0, 10.0 }) {
+            if (elevation < half_angle)
+                continue;
             const Disc disc = disc_at(elevation, half_angle, 77);
             const SunTrace traced(floor_facing_z(1), {}, { disc }, sun_map_of(16));
             for (const float t : traced.seen)
                 ASSERT_NEAR(t, disc.direction.z * (1 + std::cos(disc.half_angle)) / 2, 1e-6);
             // The corners of the map have too few neighbours to agree with, and probe the disc.
-            EXPECT_EQ(traced.rays, 256 + 4 * (half_angle > 2 ? 16 : 8));
+            EXPECT_EQ(traced.rays, 256 + 4 * probes);
         }
 }
 
@@ -197,7 +200,9 @@ TEST(SunVisibility, RaysGrowWithTheDisc)
     EXPECT_EQ(disc_rays(0), 16);
     EXPECT_EQ(disc_rays(0.265 * latlong::pi / 180), 16);
     EXPECT_EQ(disc_rays(2.5 * latlong::pi / 180), 32);
-    EXPECT_EQ(disc_rays(40 * latlong::pi / 180), 32);
+    EXPECT_EQ(disc_rays(5.9 * latlong::pi / 180), 32);
+    EXPECT_EQ(disc_rays(6.1 * latlong::pi / 180), 16);
+    EXPECT_EQ(disc_rays(40 * latlong::pi / 180), 16);
 }
 
 TEST(SunVisibility, DirectionsFillTheDiscEvenly)

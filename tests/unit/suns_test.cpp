@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Environments are split into suns and a rest without loss, and into none where there is none.
-#include "sun_sky.h"
+#include "split_sky.h"
 
 #include <vmlight/cfem/stack.h>
 #include <vmlight/cfem/suns.h>
@@ -13,62 +13,6 @@
 
 using namespace vmlight;
 using namespace vmlight::sun_sky;
-
-namespace {
-
-SunSplit split_of(const Environment& env)
-{
-    SunSplit split;
-    std::string error;
-    EXPECT_TRUE(split.find(env, false, error)) << error;
-    return split;
-}
-
-std::vector<float> sky_pixels(const Environment& env)
-{
-    const OIIO::ImageSpec& spec = env.spec();
-    std::vector<float> pixels(size_t(3) * spec.width * spec.height);
-    std::string error;
-    for (int y = 0; y < spec.height; ++y)
-        EXPECT_TRUE(
-            env.read(OIIO::ROI(0, spec.width, y, y + 1, 0, 1, 0, 3), &pixels[size_t(3) * spec.width * y], error))
-            << error;
-    return pixels;
-}
-
-// The integral of the direction over a pixel, by the midpoint rule.
-V3d pixel_moment(int x, int y, int width, int height)
-{
-    constexpr int n = 16;
-    V3d sum(0);
-    for (int j = 0; j < n; ++j) {
-        const double top = (y + double(j) / n) / height * M_PI, bottom = (y + (j + 1.0) / n) / height * M_PI;
-        for (int i = 0; i < n; ++i)
-            sum += latlong::direction((x + (i + 0.5) / n) / width, (y + (j + 0.5) / n) / height)
-                * ((std::cos(top) - std::cos(bottom)) * 2 * M_PI / width / n);
-    }
-    return sum;
-}
-
-Sky one_sun(const V3d& direction, double half_angle = 0.265, double glow = 0)
-{
-    return { gray_sky, { { direction, half_angle, V3d(12, 10, 8), glow } } };
-}
-
-// The red light above 1 of a sky as its pixels have it, as a vector: a pixel does not tell where in it the sun is.
-V3d painted(const Sky& sky, int width)
-{
-    const std::vector<float> pixels = sky_pixels(sky.environment(width));
-    V3d sum(0);
-    for (int y = 0; y < width / 2; ++y)
-        for (int x = 0; x < width; ++x)
-            if (const double excess = double(pixels[3 * (size_t(y) * size_t(width) + size_t(x))]) - 1; excess > 0)
-                sum += latlong::direction((x + 0.5) / width, (y + 0.5) / (width / 2))
-                    * (excess * latlong::row_solid_angle(y, width / 2) / width);
-    return sum;
-}
-
-} // namespace
 
 TEST(Suns, ASunKeepsItsPlaceItsWidthAndItsLight)
 {
@@ -219,41 +163,6 @@ TEST(Suns, RealSkies)
     EXPECT_LT(sunny.suns()[0].disc.half_angle * 180 / M_PI, 1);
     EXPECT_TRUE(suns("forest_slope.hdr").suns().empty());
     EXPECT_GE(suns("studio_small_03.hdr").suns().size(), 1u);
-}
-
-TEST(Suns, SizesOfOneSkyGiveOneSun)
-{
-    const V3d direction = at_angles(123.4, 27.1);
-    const Sky sky = one_sun(direction, 0.265, 0.2);
-    const Sun most = split_of(sky.environment(8192)).suns().at(0);
-    for (const int width : { 512, 1000, 2048 }) {
-        const SunSplit split = split_of(sky.environment(width));
-        ASSERT_EQ(split.suns().size(), 1u) << width;
-        const Sun& sun = split.suns()[0];
-        EXPECT_LT(degrees_between(sun.disc.direction, direction), 0.1) << width;
-        for (size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(sun.color[c] / most.color[c], 1, 0.01) << width;
-    }
-}
-
-TEST(Suns, TurnedSkiesGiveTheTurnedSun)
-{
-    std::vector<V3d> places { V3d(0, 1, 0), V3d(0, -1, 0), V3d(0, 0, -1), at_angles(0, 89.5), at_angles(179.9, 2) };
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal;
-    while (places.size() < 16)
-        places.push_back(V3d(normal(random), normal(random), normal(random)).normalized());
-    for (const V3d& place : places) {
-        Sky sky = one_sun(place, 0.265, 0.2);
-        sky.background = [](double) { return V3d(1); };
-        const SunSplit split = split_of(sky.environment(512));
-        ASSERT_EQ(split.suns().size(), 1u) << place;
-        const Sun& sun = split.suns()[0];
-        const V3d light = painted(sky, 512);
-        EXPECT_LT(degrees_between(sun.disc.direction, light.normalized()), 0.1) << place;
-        EXPECT_LT(degrees_between(sun.disc.direction, place), 0.15) << place;
-        EXPECT_NEAR(sun.color[0] * M_PI / light.length(), 1, 0.01) << place;
-    }
 }
 
 TEST(Suns, BadPixelsAreRefusedOrRepairedAsByTheFilter)

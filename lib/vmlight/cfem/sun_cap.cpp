@@ -12,15 +12,7 @@ namespace {
 using Imath::V3d;
 using latlong::pi;
 
-constexpr double kDegree = pi / 180;
-/// Radii of cuts: the least is two texels of a map 512 wide, so that the light of a point stays inside.
-constexpr double kLeastRadius = 1.5 * kDegree, kRadiusStep = 1.25;
-/// Of the ring around a cut, whose median is the background.
-constexpr double kRingWidth = 6 * kDegree;
-/// A disc as wide as this gains nothing: models resolve about that much of the sky.
-constexpr double kModelWidth = 10 * kDegree;
-/// A cut ends where the light rises again by this factor: another source begins.
-constexpr double kRise = 1.5;
+constexpr double kRadiusStep = 1.25;
 
 // The least value that at least half of all weight is not above. Reorders `values`.
 double weighted_median(std::vector<std::pair<float, float>>& values)
@@ -46,15 +38,23 @@ double weighted_median(std::vector<std::pair<float, float>>& values)
     return begin == end ? 0 : double(begin->first);
 }
 
+std::vector<float> pixels_of(const OIIO::ImageBuf& map)
+{
+    const OIIO::ImageSpec& spec = map.spec();
+    std::vector<float> rgb(size_t(3) * size_t(spec.width) * size_t(spec.height));
+    map.get_pixels(OIIO::ROI(0, spec.width, 0, spec.height, 0, 1, 0, 3), OIIO::TypeFloat, rgb.data());
+    return rgb;
+}
+
 } // namespace
 
-SunMap::SunMap(const OIIO::ImageBuf& map)
-    : width(map.spec().width)
-    , height(map.spec().height)
-    , rgb(size_t(3) * size_t(width) * size_t(height))
-    , least_radius(std::max(kLeastRadius, 1.5 * pi / height))
+SunMap::SunMap(int map_width, int map_height, std::vector<float> pixels, const SunScale& lights)
+    : width(map_width)
+    , height(map_height)
+    , rgb(std::move(pixels))
+    , scale(lights)
 {
-    map.get_pixels(OIIO::ROI(0, width, 0, height, 0, 1, 0, 3), OIIO::TypeFloat, rgb.data());
+    scale.least_radius = std::max(scale.least_radius, 1.5 * pi / height);
     light.reserve(rgb.size() / 3);
     direction.reserve(rgb.size() / 3);
     std::vector<V3d> equator;
@@ -74,11 +74,38 @@ SunMap::SunMap(const OIIO::ImageBuf& map)
     }
 }
 
+SunMap::SunMap(const OIIO::ImageBuf& map, const SunScale& lights)
+    : SunMap(map.spec().width, map.spec().height, pixels_of(map), lights)
+{
+}
+
+SunMap SunMap::reduced(int factor, const SunScale& lights) const
+{
+    const int wide = width / factor, high = height / factor;
+    std::vector<float> means;
+    means.reserve(size_t(3) * size_t(wide) * size_t(high));
+    for (int j = 0; j < high; ++j)
+        for (int i = 0; i < wide; ++i) {
+            std::array<double, 3> sum {};
+            double weight = 0;
+            for (int y = j * factor; y < (j + 1) * factor; ++y)
+                for (int x = i * factor; x < (i + 1) * factor; ++x) {
+                    const float* pixel = &rgb[3 * (size_t(y) * size_t(width) + size_t(x))];
+                    for (size_t c = 0; c < 3; ++c)
+                        sum[c] += area[size_t(y)] * double(pixel[c]);
+                    weight += area[size_t(y)];
+                }
+            for (const double channel : sum)
+                means.push_back(float(channel / weight));
+        }
+    return SunMap(wide, high, std::move(means), lights);
+}
+
 SunCap::SunCap(const SunMap& map, const V3d& centre)
     : m_map(map)
     , m_centre(centre)
 {
-    constexpr double reach = SunMap::kMostRadius + kRingWidth;
+    const double reach = map.scale.most_radius + map.scale.ring_width;
     // In the order of the map first, by rings a sixteenth of a texel wide.
     const double ring = map.height_of_texel() / 16, cosine = std::cos(reach);
     const size_t rings = size_t(reach / ring) + 2;
@@ -126,7 +153,7 @@ SunCap::SunCap(const SunMap& map, const V3d& centre)
 
 SunCandidate SunCap::grow(bool between_steps) const
 {
-    const double least = m_map.least_radius, end = std::clamp(end_of_light(), least, SunMap::kMostRadius);
+    const double least = m_map.scale.least_radius, end = std::clamp(end_of_light(), least, m_map.scale.most_radius);
     std::vector<Knot> knots;
     const auto add = [&](double radius) {
         knots.push_back({ radius, ring_median(radius, [](const Texel& texel) { return texel.light; }) });
@@ -196,17 +223,17 @@ SunCandidate SunCap::cap(double radius, double background) const
     if (!(energy > 0))
         return {};
     const double width = disc_half_angle(moment.length() / energy);
-    return { cut, energy * (1 - width / kModelWidth), moment.normalized() };
+    return { cut, energy * (1 - width / m_map.scale.model_width), moment.normalized() };
 }
 
 // Where rings of texels become brighter again.
 double SunCap::end_of_light() const
 {
-    const double step = std::max(0.5 * m_map.least_radius, m_map.height_of_texel());
-    double least = INFINITY, sum = 0, weight = 0, edge = m_map.least_radius;
+    const double step = std::max(0.5 * m_map.scale.least_radius, m_map.height_of_texel());
+    double least = INFINITY, sum = 0, weight = 0, edge = m_map.scale.least_radius;
     for (const Texel& texel : m_texels) {
         while (double(texel.angle) > edge) {
-            if (weight > 0 && sum / weight > kRise * least)
+            if (weight > 0 && sum / weight > m_map.scale.rise * least)
                 return edge - step;
             if (weight > 0)
                 least = std::min(least, sum / weight);
@@ -216,7 +243,7 @@ double SunCap::end_of_light() const
         sum += double(texel.light) * double(texel.area);
         weight += double(texel.area);
     }
-    return SunMap::kMostRadius;
+    return m_map.scale.most_radius;
 }
 
 std::vector<SunCap::Texel>::const_iterator SunCap::beyond(double angle) const
@@ -228,7 +255,7 @@ std::vector<SunCap::Texel>::const_iterator SunCap::beyond(double angle) const
 template <class Value> double SunCap::ring_median(double radius, Value&& value) const
 {
     m_ring.clear();
-    const auto end = beyond(radius + std::min(radius + m_map.least_radius, kRingWidth));
+    const auto end = beyond(radius + std::min(radius + m_map.scale.least_radius, m_map.scale.ring_width));
     for (auto texel = beyond(radius); texel < end; ++texel)
         m_ring.emplace_back(value(*texel), texel->area);
     return weighted_median(m_ring);

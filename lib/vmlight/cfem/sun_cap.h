@@ -6,14 +6,29 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <array>
 #include <vector>
 
 namespace vmlight {
 
+/// What the search takes for one light. Angles are in radians.
+struct SunScale
+{
+    double least_radius, most_radius; ///< of a cut
+    double ring_width; ///< of the ring around a cut, whose median is the background
+    double model_width; ///< half angle of a disc that models light as well as rays do
+    double rise; ///< a cut ends where the light rises again by this factor: another source begins
+    std::array<int, 3> seed_rows; ///< cells from pole to pole in which seeds are looked for
+    double near, still; ///< seeds that come so near each other are one; so little does a found one move in the end
+    bool is_wide;
+};
+
 /// A map as the search for suns reads it.
 struct SunMap
 {
-    explicit SunMap(const OIIO::ImageBuf& map);
+    SunMap(const OIIO::ImageBuf& map, const SunScale& scale);
+    /// The same map, `factor` times smaller, which must divide its size.
+    SunMap reduced(int factor, const SunScale& scale) const;
 
     double height_of_texel() const { return latlong::pi / height; }
 
@@ -21,10 +36,11 @@ struct SunMap
     std::vector<float> rgb, light; ///< light: the mean of R, G and B
     std::vector<double> area; ///< of a texel of each row
     std::vector<Imath::V3d> direction;
-    double least_radius; ///< of a cut: two texels of a map 512 wide, or as many as hold a point's light
     double all = 0; ///< light over the sphere
+    SunScale scale; ///< its least radius holds a point's light
 
-    static constexpr double kMostRadius = 12 * latlong::pi / 180; ///< of a cut
+private:
+    SunMap(int width, int height, std::vector<float> rgb, const SunScale& scale);
 };
 
 /// A cap that may become a cut.

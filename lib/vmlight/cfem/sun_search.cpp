@@ -20,41 +20,52 @@ constexpr double kLeastShare = 1.0 / 32;
 constexpr double kLeastFurtherShare = 1.0 / 128, kLeastOfOthers = 1.0 / 16;
 /// A seed that gains less than this part of it will not become a sun on its way.
 constexpr double kHopeless = 0.125;
-/// Seeds that come so near each other are one; and so far does the best one move in the end.
-constexpr double kNear = 0.2 * pi / 180, kStill = 0.0025 * pi / 180;
+constexpr double kDegree = pi / 180;
+
+/// Suns and lamps. The least cut is two texels of a map 512 wide, so that the light of a point stays inside.
+constexpr SunScale kNarrow { 1.5 * kDegree,   12 * kDegree,  6 * kDegree,      10 * kDegree, 1.5,
+                             { 128, 64, 32 }, 0.2 * kDegree, 0.0025 * kDegree, false };
+/// The glow around a sun, a window, a softbox. Of light spread over 30 degrees, models still make two thirds of the
+/// error that they make of a point's (docs/accuracy.md). Such light is lumpy: it does not end where it rises again.
+constexpr SunScale kWide { 12 * kDegree,  30 * kDegree, 6 * kDegree,    60 * kDegree, 1e30,
+                           { 32, 16, 8 }, 2 * kDegree,  0.05 * kDegree, true };
 
 class Search
 {
 public:
-    explicit Search(const OIIO::ImageBuf& map)
-        : m_map(map)
+    /// @param all  light of the whole environment
+    Search(SunMap map, double all)
+        : m_map(std::move(map))
+        , m_all(all)
     {
     }
 
-    std::vector<SunSplit::Cut> run()
+    const SunMap& map() const { return m_map; }
+
+    /// Add cuts to those of earlier searches, which took `taken`.
+    void run(std::vector<SunSplit::Cut>& cuts, double& taken)
     {
-        std::vector<SunSplit::Cut> cuts;
-        double taken = 0;
-        while (cuts.size() < SunSplit::kMostSuns && m_map.least_radius < SunMap::kMostRadius && m_map.all > 0) {
+        while (cuts.size() < SunSplit::kMostSuns && m_map.scale.least_radius < m_map.scale.most_radius && m_all > 0) {
             SunCandidate best;
             for (const V3d& seed : seeds()) {
                 const SunCandidate found = settled(seed);
                 if (found.gain > best.gain)
                     best = found;
             }
-            const double least = cuts.empty() ? kLeastShare * m_map.all
-                                              : std::max(kLeastFurtherShare * m_map.all, kLeastOfOthers * taken);
+            const double share = cuts.empty() || m_map.scale.is_wide ? kLeastShare : kLeastFurtherShare;
+            const double least = std::max(share * m_all, kLeastOfOthers * taken);
             // What is looked at closely gains more, but not that much.
             if (best.gain < 0.75 * least)
                 break;
-            best = settle(best.direction, kStill, true).found;
+            best = settle(best.direction, m_map.scale.still, true).found;
             if (best.gain < least)
                 break;
             taken += best.gain;
+            if (m_map.scale.is_wide)
+                best.cut.middle = best.direction;
             cut_out(best.cut);
             cuts.push_back(best.cut);
         }
-        return cuts;
     }
 
 private:
@@ -71,7 +82,7 @@ private:
     {
         constexpr int kEach = 4;
         std::vector<V3d> found;
-        for (const int rows : { 128, 64, 32 }) {
+        for (const int rows : m_map.scale.seed_rows) {
             const int high = std::min(rows, m_map.height), wide = std::min(2 * high, m_map.width);
             std::vector<double> sum(size_t(high) * size_t(wide)), weight(sum.size());
             std::vector<V3d> middle(sum.size(), V3d(0));
@@ -113,7 +124,7 @@ private:
         for (const Settled& known : m_settled)
             if (known.seed == seed)
                 return known.found;
-        m_settled.push_back(settle(seed, kNear, false));
+        m_settled.push_back(settle(seed, m_map.scale.near, false));
         return m_settled.back().found;
     }
 
@@ -128,14 +139,14 @@ private:
             const SunCap cap(m_map, centre);
             result.found = cap.grow(between_steps);
             result.reach = std::max(result.reach, angle_between(seed, centre) + double(cap.texels().back().angle));
-            if (result.found.gain < kHopeless * kLeastShare * m_map.all
+            if (result.found.gain < kHopeless * kLeastShare * m_all
                 || angle_between(result.found.direction, centre) < still)
                 break;
             centre = result.found.direction;
             if (between_steps)
                 continue;
             for (const Settled& known : m_settled)
-                if (angle_between(known.found.direction, centre) < kNear) {
+                if (angle_between(known.found.direction, centre) < m_map.scale.near) {
                     result.found = known.found;
                     result.reach = std::max(result.reach, angle_between(seed, known.seed) + known.reach);
                     return result;
@@ -169,6 +180,7 @@ private:
     }
 
     SunMap m_map;
+    double m_all;
     std::vector<Settled> m_settled;
 };
 
@@ -176,7 +188,19 @@ private:
 
 std::vector<SunSplit::Cut> search_suns(const OIIO::ImageBuf& map)
 {
-    return Search(map).run();
+    std::vector<SunSplit::Cut> cuts;
+    double taken = 0;
+    const SunMap whole(map, kNarrow);
+    Search narrow(whole, whole.all);
+    narrow.run(cuts, taken);
+    if (cuts.empty())
+        return cuts;
+    // Wide lights need no small texels.
+    int factor = 4;
+    while (whole.width % factor != 0 || whole.height % factor != 0)
+        factor /= 2;
+    Search(narrow.map().reduced(factor, kWide), whole.all).run(cuts, taken);
+    return cuts;
 }
 
 } // namespace vmlight

@@ -10,8 +10,8 @@
 
 namespace vmlight {
 
-/// The cuts that take the suns out of `map`, a lat-long map of R, G, B floats in memory, the strongest first; each is
-/// found in what those before it leave. See SunSplit::find().
+/// The cuts that take the suns out of `map`, a lat-long map of R, G, B floats in memory, the strongest first, and
+/// of wide lights after them; each is found in what those before it leave. See SunSplit::find().
 std::vector<SunSplit::Cut> search_suns(const OIIO::ImageBuf& map);
 
 } // namespace vmlight

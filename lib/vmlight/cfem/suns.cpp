@@ -79,7 +79,7 @@ void cut_row(float* rgb, const EnvironmentGrid& grid, int row, const std::vector
             const V3d direction(std::sin(middle) * sine, cosine, -std::cos(middle) * sine);
             const auto excess = cut.apply(pixel, direction, bottom - top);
             if (excess[0] + excess[1] + excess[2] > 0)
-                take(k, i, excess);
+                take(k, i, direction, excess);
         }
     }
 }
@@ -105,6 +105,16 @@ double SunSplit::Cut::share_at(double angle, double height) const
 {
     const double edge = std::max(kSoftEdge, 0.5 * height);
     return std::clamp((radius + edge - angle) / (2 * edge), 0.0, 1.0);
+}
+
+int SunSplit::Cut::part_of(const V3d& direction) const
+{
+    if (middle == V3d(0))
+        return 0;
+    const V3d up(0, 1, 0), side = up.cross(middle);
+    // Straight above and below, any two sides will do.
+    const V3d right = side.length() > 1e-6 ? side.normalized() : V3d(1, 0, 0);
+    return (direction.dot(right) > 0 ? 1 : 0) + (direction.dot(middle.cross(right)) > 0 ? 2 : 0);
 }
 
 std::array<double, 3> SunSplit::Cut::apply(float* rgb, const V3d& direction, double height) const
@@ -192,7 +202,7 @@ bool SunSplit::measure(const Environment& env, std::vector<Cut>& cuts, std::stri
         std::array<double, 3> energy {};
         V3d moment { 0 };
     };
-    std::vector<Sums> sums(cuts.size());
+    std::vector<std::array<Sums, Cut::kParts>> sums(cuts.size());
     EnvironmentRows rows(env, m_sanitize);
     bool good = rows.open();
     const EnvironmentGrid grid = rows.grid();
@@ -201,27 +211,33 @@ bool SunSplit::measure(const Environment& env, std::vector<Cut>& cuts, std::stri
         good = rows.read(j, rgb.data()) && (!progress || progress(double(j) / grid.height));
         if (!good)
             break;
-        cut_row(rgb.data(), grid, j, cuts, [&](size_t k, int i, const std::array<double, 3>& excess) {
+        const auto add = [&](size_t k, int i, const V3d& direction, const std::array<double, 3>& excess) {
             const Cell cell = cell_of(grid, i, j);
+            Sums& part = sums[k][size_t(cuts[k].part_of(direction))];
             for (size_t c = 0; c < 3; ++c)
-                sums[k].energy[c] += excess[c] * cell.solid_angle;
-            sums[k].moment += cell.moment * ((excess[0] + excess[1] + excess[2]) / 3);
-        });
+                part.energy[c] += excess[c] * cell.solid_angle;
+            part.moment += cell.moment * ((excess[0] + excess[1] + excess[2]) / 3);
+        };
+        cut_row(rgb.data(), grid, j, cuts, add);
     }
     if (!good) {
         error = rows.error().empty() ? "interrupted" : rows.error();
         return false;
     }
     for (size_t k = 0; k < cuts.size(); ++k) {
-        const double energy = (sums[k].energy[0] + sums[k].energy[1] + sums[k].energy[2]) / 3;
-        if (!(energy > 0) || !std::isfinite(energy))
-            continue;
-        Sun sun;
-        sun.disc = { sums[k].moment.normalized(), disc_half_angle(sums[k].moment.length() / energy) };
-        for (size_t c = 0; c < 3; ++c)
-            sun.color[c] = sums[k].energy[c] / pi;
-        m_suns.push_back(sun);
-        m_cuts.push_back(cuts[k]);
+        const size_t before = m_suns.size();
+        for (const Sums& part : sums[k]) {
+            const double energy = (part.energy[0] + part.energy[1] + part.energy[2]) / 3;
+            if (!(energy > 0) || !std::isfinite(energy))
+                continue;
+            Sun sun;
+            sun.disc = { part.moment.normalized(), disc_half_angle(part.moment.length() / energy) };
+            for (size_t c = 0; c < 3; ++c)
+                sun.color[c] = part.energy[c] / pi;
+            m_suns.push_back(sun);
+        }
+        if (m_suns.size() > before)
+            m_cuts.push_back(cuts[k]);
     }
     return true;
 }
@@ -236,24 +252,24 @@ Environment SunSplit::rest(const Environment& env) const
     spec.extra_attribs = all.extra_attribs;
     const auto state = std::make_shared<std::unique_ptr<EnvironmentRows>>();
     const auto next = std::make_shared<int>(0);
-    return Environment(spec,
-                       [env, state, next, cuts = m_cuts, sanitize = m_sanitize](int y, float* rgb, std::string& error) {
-                           if (!*state || y < *next) { // a new pass
-                               *state = std::make_unique<EnvironmentRows>(env, sanitize);
-                               *next = 0;
-                               if (!(*state)->open()) {
-                                   error = (*state)->error();
-                                   return false;
-                               }
-                           }
-                           for (; *next <= y; ++*next)
-                               if (!(*state)->read(*next, rgb)) {
-                                   error = (*state)->error();
-                                   return false;
-                               }
-                           cut_row(rgb, (*state)->grid(), y, cuts, [](size_t, int, const std::array<double, 3>&) {});
-                           return true;
-                       });
+    return Environment(
+        spec, [env, state, next, cuts = m_cuts, sanitize = m_sanitize](int y, float* rgb, std::string& error) {
+            if (!*state || y < *next) { // a new pass
+                *state = std::make_unique<EnvironmentRows>(env, sanitize);
+                *next = 0;
+                if (!(*state)->open()) {
+                    error = (*state)->error();
+                    return false;
+                }
+            }
+            for (; *next <= y; ++*next)
+                if (!(*state)->read(*next, rgb)) {
+                    error = (*state)->error();
+                    return false;
+                }
+            cut_row(rgb, (*state)->grid(), y, cuts, [](size_t, int, const V3d&, const std::array<double, 3>&) {});
+            return true;
+        });
 }
 
 } // namespace vmlight

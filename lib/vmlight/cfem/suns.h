@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Suns: lights so small and strong that their shadows have edges. An environment is split into its suns, each a
-/// uniform disc whose visibility can be traced, and a smooth rest, which shading models are good at.
+/// Suns: lights so small and strong that their shadows have edges, and the wide lights beside them. An environment is
+/// split into these, as uniform discs whose visibility can be traced, and a smooth rest, which shading models are good
+/// at.
 #pragma once
 
 #include <vmlight/base/progress.h>
@@ -43,9 +44,17 @@ public:
     /// of 10 degrees counts nothing, of 5 degrees half) and carries, so weighted, at least a thirty-second of all
     /// light: less than the models' own error on what remains. Where there is one, as in a room with lamps, further
     /// lights are too, down to a 128th of all light and a sixteenth of what was split off before: beside a strong sun a
-    /// weaker light's shadows hardly count. At most kMostSuns, the strongest first. Each is cut out
+    /// weaker light's shadows hardly count. The strongest comes first. Each is cut out
     /// by a cap of 1.5 to 12 degrees: what is brighter than the median around the cap, channel by channel, is the
-    /// sun's. A disc has the energy and the first moment (by the mean of R, G and B) of what was cut out.
+    /// sun's.
+    ///
+    /// Where there is a sun, wide lights of what remains are split off as well, such as its glow or a window: cut out
+    /// by caps of 12 to 30 degrees, likewise, if they carry at least a thirty-second of all light and a sixteenth of
+    /// what was split off before; here, a disc of 60 degrees counts nothing. A wide light is parted at its middle,
+    /// above and below, left and right, in up to Cut::kParts discs, which follow the suns.
+    ///
+    /// At most kMostSuns lights in all. A disc has the energy and the first moment (by the mean of R, G and B) of what
+    /// was cut out for it.
     ///
     /// @param env      read twice; must outlive this and rest(), as for make_cfem()
     /// @param sanitize repair bad pixels instead of refusing the image
@@ -54,7 +63,7 @@ public:
     /// of one environment give one result: directions within .1 degrees, light within 1 %.
     bool find(const Environment& env, bool sanitize, std::string& error, const Progress& progress = {});
 
-    static constexpr size_t kMostSuns = 8;
+    static constexpr size_t kMostSuns = 8; ///< a wide light counts once
 
     const std::vector<Sun>& suns() const { return m_suns; }
     /// The suns' share of all light, 0 to 1.
@@ -72,6 +81,12 @@ public:
         Imath::V3d centre { 0, 1, 0 };
         double radius = 0; ///< radians
         std::array<float, 3> background {};
+        /// Where a wide light is parted in four, above and below, left and right; zero for a sun, which is one disc.
+        Imath::V3d middle { 0 };
+
+        static constexpr int kParts = 4;
+        /// The part that a direction belongs to, 0 to kParts - 1.
+        int part_of(const Imath::V3d& direction) const;
 
         /// How much of a pixel, `height` radians high, whose middle is at `angle` radians from the centre is the cap's.
         double share_at(double angle, double height) const;

@@ -22,8 +22,8 @@
 
 namespace vmlight {
 
-/// Rays for a texel in the penumbra of a disc: 16, or 32 if its half angle is above 2 degrees. A power of 2. Half as
-/// many find out before whether it is there.
+/// Rays for a texel in the penumbra of a disc: 16, or 32 if its half angle is between 2 and 6 degrees. A power of 2.
+/// Half as many find out before whether it is there.
 int disc_rays(double half_angle);
 
 /// The discs of VismapParams::sun_directions. Returns false, with the reason in `error`, if the text is not valid.
