@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/mesh/import/polygons.h>
 #include <vmlight/mesh/import/side_files.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -16,6 +17,7 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -80,6 +82,41 @@ private:
     const std::string m_name;
     Assimp::DefaultIOSystem m_files;
 };
+
+// Assimp's own cut of a quad depends on how much it bends, which differs from pose to pose.
+void cut_quads(aiMesh& part)
+{
+    unsigned quads = 0;
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+        quads += part.mFaces[f].mNumIndices == 4;
+    if (quads == 0)
+        return;
+    auto faces = std::make_unique<aiFace[]>(part.mNumFaces + quads);
+    aiFace* next = faces.get();
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+        aiFace& face = part.mFaces[f];
+        if (face.mNumIndices != 4) {
+            std::swap(next->mNumIndices, face.mNumIndices);
+            std::swap(next->mIndices, face.mIndices);
+            ++next;
+            continue;
+        }
+        std::array<Imath::V3d, 4> corners;
+        for (unsigned k = 0; k < 4; ++k) {
+            const aiVector3D& p = part.mVertices[face.mIndices[k]];
+            corners[k] = { p.x, p.y, p.z };
+        }
+        const auto first = unsigned(quad_diagonal(corners));
+        for (unsigned k = 1; k < 3; ++k, ++next) {
+            next->mNumIndices = 3;
+            next->mIndices = new unsigned[3] { face.mIndices[first], face.mIndices[first + k],
+                                               face.mIndices[(first + k + 1) % 4] };
+        }
+    }
+    delete[] part.mFaces;
+    part.mFaces = faces.release();
+    part.mNumFaces += quads;
+}
 
 // Set what kinds of faces each part says it has to what it has. assimp 5.2 takes a face without corners for a polygon,
 // and aborts when it finds no polygon to triangulate.
@@ -160,6 +197,8 @@ bool read_with_assimp(MeshBuilder& dst, const ImportRequest& request, std::strin
     aiScene& imported = const_cast<aiScene&>(*importer.GetScene());
     if (const std::string reason = face_error(imported); !reason.empty())
         return fail(reason);
+    for (unsigned m = 0; m < imported.mNumMeshes; ++m)
+        cut_quads(*imported.mMeshes[m]);
     correct_primitive_types(imported);
     if (!triangulate(importer, imported))
         return fail_with_assimps_error();

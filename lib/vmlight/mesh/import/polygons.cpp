@@ -178,6 +178,23 @@ bool Triangulator::cut(const std::vector<Polygon>& polygons, std::vector<Cut>& c
 
 } // namespace
 
+int quad_diagonal(const std::array<V3d, 4>& corners)
+{
+    std::array<V3d, 3> edges; // from the first corner
+    double reach = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        edges[i] = corners[i + 1] - corners[0];
+        for (int k = 0; k < 3; ++k)
+            reach = std::max(reach, std::abs(edges[i][k]));
+    }
+    if (reach > 0) // products of four lengths would not be finite
+        for (V3d& edge : edges)
+            for (int k = 0; k < 3; ++k)
+                edge[k] = std::ldexp(edge[k], -std::ilogb(reach));
+    const V3d first = edges[0].cross(edges[1]), second = edges[1].cross(edges[2]), whole = first + second;
+    return first.dot(whole) < 0 || second.dot(whole) < 0 ? 1 : 0;
+}
+
 bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(uint32_t corner)>& position,
                      bool is_far, const TriangleVisitor& visit, std::string& error)
 {
@@ -190,10 +207,15 @@ bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(
         return Polygon { uint32_t(number), number == 0 ? 0 : ends[number - 1], ends[number] };
     };
     const auto must_be_cut = [&](const Polygon& polygon) {
-        bool is_good = polygon.end - polygon.begin > 3;
+        bool is_good = polygon.end - polygon.begin > 4;
         for (uint32_t corner = polygon.begin; is_good && corner < polygon.end; ++corner)
             is_good = is_finite(position(corner)); // others are refused later: assimp need not see them
         return is_good;
+    };
+    const auto first_of_fan = [&](const Polygon& polygon) {
+        const uint32_t a = polygon.begin;
+        return polygon.end - a != 4 ? 0
+                                    : quad_diagonal({ position(a), position(a + 1), position(a + 2), position(a + 3) });
     };
     const auto visit_until = [&](size_t end) {
         if (!polygons.empty() && !triangulator)
@@ -208,8 +230,10 @@ bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(
                 continue;
             }
             const Polygon fan = polygon_of(next);
-            for (uint32_t corner = fan.begin + 2; corner < fan.end; ++corner)
-                visit(next, { fan.begin, corner - 1, corner });
+            const auto first = uint32_t(first_of_fan(fan));
+            const uint32_t corners = fan.end - fan.begin;
+            for (uint32_t k = 2; k < corners; ++k)
+                visit(next, { fan.begin + first, fan.begin + k - 1 + first, fan.begin + (k + first) % corners });
         }
         polygons.clear();
         cuts.clear();

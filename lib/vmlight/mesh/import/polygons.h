@@ -15,8 +15,14 @@ namespace vmlight {
 /// Called with the index of a polygon and those of three of its corners.
 using TriangleVisitor = std::function<void(size_t polygon, const std::array<uint32_t, 3>& corners)>;
 
+/// The corner, 0 or 1, that both triangles of a quad share with the one opposite: 0, unless one of them would face away
+/// from the quad as a whole. How much a quad bends makes no difference, so that the poses of a mesh are cut alike.
+/// Of corners that are not finite, it is either.
+int quad_diagonal(const std::array<Imath::V3d, 4>& corners);
+
 /// Visit the triangles of all polygons, in their order. Polygons may be concave, and need not be plane. Those of fewer
-/// than three corners have none; assimp, which does the cutting, may give up on one that crosses itself.
+/// than three corners have none; quads are cut at quad_diagonal(); assimp, which cuts the others, may give up on one
+/// that crosses itself.
 ///
 /// @param ends         for each polygon, the index of the corner behind its last; its first is the end of the last one
 /// @param position     of a corner; need not be finite
