@@ -43,7 +43,7 @@ protected:
 
 TEST_F(Suns, AShadowHasItsEdgeWhereTheSunPutsIt)
 {
-    EXPECT_THAT(done("makelightmap hero.vismap sunny.exr --suns auto -o lit.exr"), HasSubstr("suns: 1 with"));
+    EXPECT_THAT(done("makelightmap hero.vismap sunny.exr --suns auto -o lit.exr"), HasSubstr("suns: 1 sun with"));
     done("makelightmap hero.vismap sunny.exr -o soft.exr");
     // The wall is 1 high and the sun at 45 degrees: the shadow ends in the middle.
     const double flux = 2e4 * 4 * std::pow(M_PI / 256, 2) * std::sin(M_PI / 4) / M_PI, lit = flux * std::sin(M_PI / 4);
@@ -132,7 +132,7 @@ TEST_F(Suns, FramesHaveThem)
     const std::string size = " --size 32 --spp 4 --resolution 64 --samples 16 --cfem-resolution 32";
     const std::string line = "vmframes floor.obj sunny.exr --object wall.obj --white --bounce auto" + size;
     const std::string text = done(line + " --suns on --explain --keep kept -o a.exr");
-    EXPECT_THAT(text, HasSubstr("suns: 1 with"));
+    EXPECT_THAT(text, HasSubstr("suns: 1 sun with"));
     EXPECT_THAT(text, HasSubstr("effects: floor.obj:"));
     EXPECT_THAT(text, HasSubstr("1 sun with"));
     write("frame.vismap", "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 16\n");

@@ -226,6 +226,10 @@ TEST(EffectsDecide, WhatCannotChangeThePictureIsOff)
     };
     EffectFacts facts = everything();
     EXPECT_EQ(state("lightmap", facts, "visibility"), "on: V is below 1 in 60 of 100 texels");
+    EXPECT_THAT(state("lightmap", facts, "suns"), testing::StartsWith("on: 2 suns with 50 % of the light"));
+    facts.light.suns = 1;
+    facts.light.wide_discs = 4;
+    EXPECT_THAT(state("lightmap", facts, "suns"), testing::StartsWith("on: 1 sun and 4 wide discs with 50 % of"));
     facts.light.is_one_color = true;
     facts.light.shadowed = 0;
     EXPECT_EQ(state("lightmap", facts, "filter"), "off: the environment is of one colour, which no filter changes");

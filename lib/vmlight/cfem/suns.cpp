@@ -130,6 +130,12 @@ std::array<double, 3> SunSplit::Cut::apply(float* rgb, const V3d& direction, dou
     return taken;
 }
 
+bool is_wide(const Sun& sun)
+{
+    constexpr double kWide = 5 * pi / 180; // where a light counts half, see SunSplit::find()
+    return sun.disc.half_angle > kWide;
+}
+
 std::string suns_text(const std::vector<Sun>& suns)
 {
     std::string text;

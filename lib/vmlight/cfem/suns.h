@@ -31,6 +31,9 @@ struct Sun
     std::array<double, 3> color {};
 };
 
+/// Whether it is a part of a wide light, and no sun: a half angle above 5 degrees.
+bool is_wide(const Sun& sun);
+
 /// "x y z half_angle_in_degrees r g b; ..."
 std::string suns_text(const std::vector<Sun>& suns);
 /// The suns that suns_text() wrote. Returns false, with the reason in `error`, if the text is something else.

@@ -69,11 +69,15 @@ struct LightFacts
     double traced_points = 0; ///< off the map, each with rays of its own
     bool wants_suns = false; ///< asked for
     std::string no_suns {}; ///< why they cannot be traced, or ""
-    int suns = 0; ///< that the light has, if they are asked for and can be traced
+    int suns = 0; ///< that the light has, if they are asked for and can be traced, without
+    int wide_discs = 0; ///< of the wide lights beside them
     double sun_share = 0; ///< of all light
     bool has_stored_suns = false; ///< the map stores what texels see of them, as they are turned
     std::string no_bounce {}; ///< why it cannot be traced, or ""
 };
+
+/// "1 sun", "2 suns and 4 wide discs": of LightFacts.
+std::string suns_count_text(int suns, int wide_discs);
 
 struct EffectFacts
 {

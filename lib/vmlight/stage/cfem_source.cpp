@@ -10,6 +10,7 @@
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/cfem/suns.h>
+#include <vmlight/effects/facts.h>
 #include <vmlight/image/color.h>
 #include <vmlight/stage/environment_file.h>
 #include <vmlight/stage/open_source.h>
@@ -196,10 +197,11 @@ private:
         if (suns.empty())
             return "suns: none, the light has no small strong source";
         const Sun& first = suns[0];
+        const int wide_discs = int(std::count_if(suns.begin(), suns.end(), is_wide));
         return format("suns: {} with {:.0f} % of the light, {} at {:.3f} {:.3f} {:.3f}, {:.2f} degrees wide",
-                      suns.size(), 100 * m_split.share(), suns.size() > 1 ? "the strongest" : "it is",
-                      first.disc.direction.x, first.disc.direction.y, first.disc.direction.z,
-                      first.disc.half_angle * 360 / latlong::pi);
+                      suns_count_text(int(suns.size()) - wide_discs, wide_discs), 100 * m_split.share(),
+                      suns.size() > 1 ? "the strongest" : "it is", first.disc.direction.x, first.disc.direction.y,
+                      first.disc.direction.z, first.disc.half_angle * 360 / latlong::pi);
     }
 
     bool open(std::optional<Environment>& dst, OIIO::ImageBuf& held, const MakeOptions& options, bool under_lock,

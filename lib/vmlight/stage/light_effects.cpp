@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/one_color.h>
+#include <vmlight/cfem/suns.h>
 #include <vmlight/effects/effect.h>
 #include <vmlight/lightmap/input.h>
 #include <vmlight/lightmap/model.h>
@@ -15,6 +16,7 @@
 #include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_shading.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vmlight {
@@ -51,7 +53,8 @@ bool find_sun_facts(LightFacts& dst, const LightmapInputs& inputs, const Lightma
         if (dst.no_suns.empty() && !suns_of_light(suns, recipe, error, options.chain))
             return false;
     }
-    dst.suns = int(suns.size());
+    dst.wide_discs = int(std::count_if(suns.begin(), suns.end(), is_wide));
+    dst.suns = int(suns.size()) - dst.wide_discs;
     dst.has_stored_suns = !stored_suns(inputs.vismap.spec()).channels_of(discs_in_object_space(suns, rotation)).empty();
     dst.is_rest = inputs.suns && !suns.empty();
     dst.sun_share = inputs.cfem.empty() ? 0 : sun_share(suns, inputs.cfem[0], inputs.suns != nullptr);
