@@ -20,7 +20,7 @@ std::vector<OIIO::ImageBuf> stack(const OIIO::ImageBuf& env, int width = 32, int
     return levels;
 }
 
-Map pixels(const OIIO::ImageBuf& image)
+Map image_map(const OIIO::ImageBuf& image)
 {
     Map map(image.spec().width, image.spec().height);
     EXPECT_TRUE(image.get_pixels(image.roi(), OIIO::TypeFloat, map.rgb.data()));
@@ -88,7 +88,7 @@ TEST(CfemStack, TheFirstLevelIsTheCfemToTheLastBit)
 {
     const OIIO::ImageBuf env = image(sampled(64, 32, soft_light));
     const std::vector<OIIO::ImageBuf> levels = stack(env);
-    const Map plain = filtered(env, exact(32, 16)), first = pixels(levels[0]);
+    const Map plain = filtered(env, exact(32, 16)), first = image_map(levels[0]);
     EXPECT_EQ(std::memcmp(plain.rgb.data(), first.rgb.data(), 4 * plain.rgb.size()), 0);
     for (int level = 0; level < kStackLevels; ++level) {
         const OIIO::ImageSpec& spec = levels[size_t(level)].spec();
@@ -103,7 +103,7 @@ TEST(CfemStack, TheFirstLevelIsTheCfemToTheLastBit)
 TEST(CfemStack, AConstantEnvironmentIsItselfInEachLevel)
 {
     for (const OIIO::ImageBuf& level : stack(image(almost(Map(40, 17, 0.7f)))))
-        EXPECT_LT(largest_error(pixels(level), [](const V3d&) { return V3d(0.7f); }), 0.7e-6);
+        EXPECT_LT(largest_error(image_map(level), [](const V3d&) { return V3d(0.7f); }), 0.7e-6);
 }
 
 TEST(CfemStack, EachLevelScalesTheFirstMomentByItsR)
@@ -113,7 +113,7 @@ TEST(CfemStack, EachLevelScalesTheFirstMomentByItsR)
     const std::vector<OIIO::ImageBuf> levels
         = stack(image(sampled(512, 256, [&](const V3d& w) { return a + V3d(b.dot(w)); })));
     for (int level = 0; level < kStackLevels; ++level)
-        EXPECT_LT(largest_error(pixels(levels[size_t(level)]),
+        EXPECT_LT(largest_error(image_map(levels[size_t(level)]),
                                 [&](const V3d& n) { return a + V3d(stack_lobe(level) * b.dot(n)); }),
                   4e-5)
             << level;
@@ -129,7 +129,7 @@ TEST(CfemStack, LevelsAreWhatQuadratureSays)
         const V3d mean = brute::mean(env);
         const std::vector<OIIO::ImageBuf> levels = stack(image(env), 64);
         for (int level = 1; level < kStackLevels; ++level) {
-            const Map map = pixels(levels[size_t(level)]);
+            const Map map = image_map(levels[size_t(level)]);
             const double s = power_lobe_exponent(stack_lobe(level));
             double worst = 0;
             for (int y = 1; y < 32; y += 5)
@@ -149,7 +149,7 @@ TEST(CfemStack, NothingIsBelowZeroUnderASun)
     Map sun(64, 32);
     std::fill_n(sun.at(10, 10), 3, 1e5f);
     for (const OIIO::ImageBuf& level : stack(image(sun), 64)) {
-        const Map map = pixels(level);
+        const Map map = image_map(level);
         EXPECT_GE(*std::min_element(map.rgb.begin(), map.rgb.end()), 0);
         // What is cut off below 0 is light that is added.
         EXPECT_NEAR(brute::mean(map)[0] / brute::mean(sun)[0], 1, 0.02);

@@ -18,13 +18,13 @@ using namespace scene;
 
 namespace {
 
-constexpr int kSide = 40, kEnvironmentWidth = 128;
+constexpr int kTruthSide = 40, kEnvironmentWidth = 128;
 
 // Of each texel of the mesh: (1/pi) Int L vis max(0, n.w) dw, one ray to each pixel of the environment.
-class Truth
+class TracedTruth
 {
 public:
-    Truth(const Mesh& mesh, const Mesh& ground)
+    TracedTruth(const Mesh& mesh, const Mesh& ground)
         : m_frame(SceneFrame::around(mesh))
         , m_surface(mesh, m_frame)
         , m_cover(std::make_unique<TileCover>())
@@ -32,7 +32,7 @@ public:
     {
         std::string error;
         EXPECT_TRUE(m_occluder.build({ &mesh, &ground }, m_frame, 1, error)) << error;
-        UvRaster(mesh, kSide, kSide).cover(0, *m_cover);
+        UvRaster(mesh, kTruthSide, kTruthSide).cover(0, *m_cover);
     }
     bool covers(int x, int y) const { return triangle(x, y) != TileCover::kNone; }
     double light(int x, int y, const ImageBuf& environment)
@@ -79,7 +79,7 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
         low = std::min(low, p.y);
     const Mesh ground = scenes::quad({ -9, low, 9 }, { 9, low, 9 }, { 9, low, -9 }, { -9, low, -9 });
     VismapParams bake;
-    bake.resolution = { kSide, kSide };
+    bake.resolution = { kTruthSide, kTruthSide };
     bake.samples = 1024;
     bake.margin = 0;
     bake.channels = { "normal" };
@@ -91,7 +91,7 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
         ASSERT_TRUE(make_vismap(vm[m], mesh, { ground }, bake)) << vm[m].geterror();
     }
 
-    Truth truth(mesh, ground);
+    TracedTruth truth(mesh, ground);
     double error_of[kModels] = {};
     for (const std::string name : { "studio_small_03.hdr", "kloppenheim_05.hdr" }) {
         const ImageBuf whole(std::string(VMLIGHT_TEST_DATA "/") + name);
@@ -103,8 +103,8 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
             image[m] = lit(vm[m], stack, model(models[m]));
         double mean = 0, square[kModels] = {};
         int count = 0;
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
+        for (int y = 0; y < kTruthSide; ++y)
+            for (int x = 0; x < kTruthSide; ++x) {
                 if (!truth.covers(x, y))
                     continue;
                 const double light = truth.light(x, y, sky);
