@@ -93,6 +93,27 @@ V3d Filter::operator()(const V3d& n) const
     return sum;
 }
 
+V3d lobe_filtered(const Map& map, const V3d& d, double s, int parts)
+{
+    V3d sum(0);
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const float* light = map.at(x, y);
+            if (light[0] + light[1] + light[2] == 0)
+                continue;
+            double kernel = 0, all = 0;
+            for (int j = 0; j < parts; ++j)
+                for (int i = 0; i < parts; ++i) {
+                    const double t = (y + (j + 0.5) / parts) / map.height, weight = std::sin(pi * t);
+                    const double up = d.dot(vmlight::latlong::direction((x + (i + 0.5) / parts) / map.width, t));
+                    kernel += up <= 0 ? 0 : weight * (s + 1) / (2 * pi) * std::pow(up, s);
+                    all += weight;
+                }
+            sum += V3d(light[0], light[1], light[2]) * (kernel / all * solid_angle(y, map.width, map.height));
+        }
+    return sum;
+}
+
 V3d mean(const Map& map)
 {
     V3d sum(0);

@@ -56,6 +56,9 @@ private:
     std::vector<double> m_sine; // of the pixels' radius, by row
 };
 
+/// Int L K dw, where K is the lobe of power s around d, by parts x parts points within each pixel that holds light.
+V3d lobe_filtered(const Map& map, const V3d& d, double s, int parts);
+
 /// Mean over the sphere.
 V3d mean(const Map& map);
 

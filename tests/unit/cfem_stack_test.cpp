@@ -27,28 +27,6 @@ Map image_map(const OIIO::ImageBuf& image)
     return map;
 }
 
-// Int L K dw by a sum over points within each pixel that holds light.
-V3d filtered_by_sum(const Map& env, const V3d& d, double s, int parts)
-{
-    V3d sum(0);
-    for (int y = 0; y < env.height; ++y)
-        for (int x = 0; x < env.width; ++x) {
-            const float* light = env.at(x, y);
-            if (light[0] + light[1] + light[2] == 0)
-                continue;
-            double kernel = 0, all = 0;
-            for (int j = 0; j < parts; ++j)
-                for (int i = 0; i < parts; ++i) {
-                    const double t = (y + (j + 0.5) / parts) / env.height, weight = std::sin(pi * t);
-                    const double up = d.dot(latlong::direction((x + (i + 0.5) / parts) / env.width, t));
-                    kernel += up <= 0 ? 0 : weight * (s + 1) / (2 * pi) * std::pow(up, s);
-                    all += weight;
-                }
-            sum += V3d(light[0], light[1], light[2]) * (kernel / all * brute::solid_angle(y, env.width, env.height));
-        }
-    return sum;
-}
-
 } // namespace
 
 TEST(CfemStack, LevelsStandWhereTheirSpacingSays)
@@ -134,7 +112,7 @@ TEST(CfemStack, LevelsAreWhatQuadratureSays)
             double worst = 0;
             for (int y = 1; y < 32; y += 5)
                 for (int x = y % 7; x < 64; x += 7) {
-                    const V3d truth = filtered_by_sum(env, center(x, y, 64, 32), s, hard ? 48 : 6);
+                    const V3d truth = brute::lobe_filtered(env, center(x, y, 64, 32), s, hard ? 48 : 6);
                     worst = std::max(worst, std::abs(map.at(x, y)[1] - truth[1]) / mean[1]);
                 }
             // What the harmonics leave out, and at level 1 the steps of the sum, which are 1/48 of a sun.

@@ -69,7 +69,7 @@ TEST(Ground, ALeaningPlaneSeesItsPartOfTheSkyExactly)
         const V3d n(std::sin(t), std::cos(t), 0);
         V3d moment(0);
         double all = 0;
-        const int steps = 1200;
+        const int steps = 600;
         for (int k = 0; k < 2 * steps; ++k) {
             const double phi = (k + 0.5) * M_PI / steps, x = std::cos(phi), z = std::sin(phi);
             for (int i = 0; i < steps; ++i) {
