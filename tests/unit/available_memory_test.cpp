@@ -12,7 +12,7 @@ namespace {
 
 constexpr int64_t kMebi = 1 << 20;
 
-void write(const TemporaryFolder& root, const std::string& name, const std::string& text)
+void write_system_file(const TemporaryFolder& root, const std::string& name, const std::string& text)
 {
     std::filesystem::create_directories(std::filesystem::path(root / name).parent_path());
     root.write(name, text);
@@ -31,41 +31,41 @@ TEST(MemoryNeed, IsUnlimitedWhereNothingTells)
 TEST(MemoryNeed, IsWhatTheMachineHasFreeWithItsSwap)
 {
     const TemporaryFolder root;
-    write(root, "proc/meminfo", kMachine);
+    write_system_file(root, "proc/meminfo", kMachine);
     EXPECT_EQ(available_memory(root / ""), 5 * kMebi);
 }
 
 TEST(MemoryNeed, IsWhatTheLeastOfTheGroupsAroundItLeaves)
 {
     const TemporaryFolder root;
-    write(root, "proc/meminfo", kMachine);
-    write(root, "proc/self/cgroup", "0::/farm/job\n");
-    write(root, "sys/fs/cgroup/farm/job/memory.max", "max\n");
+    write_system_file(root, "proc/meminfo", kMachine);
+    write_system_file(root, "proc/self/cgroup", "0::/farm/job\n");
+    write_system_file(root, "sys/fs/cgroup/farm/job/memory.max", "max\n");
     EXPECT_EQ(available_memory(root / ""), 5 * kMebi);
-    write(root, "sys/fs/cgroup/farm/memory.max", "3145728\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.max", "3145728\n");
     EXPECT_EQ(available_memory(root / ""), 4 * kMebi);
-    write(root, "sys/fs/cgroup/farm/memory.current", "2097152\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.current", "2097152\n");
     EXPECT_EQ(available_memory(root / ""), 2 * kMebi);
-    write(root, "sys/fs/cgroup/farm/memory.stat", "anon 7\nfile_mapped 9\nfile 1048576\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.stat", "anon 7\nfile_mapped 9\nfile 1048576\n");
     EXPECT_EQ(available_memory(root / ""), 3 * kMebi);
-    write(root, "sys/fs/cgroup/farm/memory.stat", "anon 7\nfile_mapped 9\nfile 1048576\nshmem 524288\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.stat", "anon 7\nfile_mapped 9\nfile 1048576\nshmem 524288\n");
     EXPECT_EQ(available_memory(root / ""), 5 * kMebi / 2) << "files of a tmpfs stay";
-    write(root, "sys/fs/cgroup/farm/memory.swap.max", "0\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.swap.max", "0\n");
     EXPECT_EQ(available_memory(root / ""), 3 * kMebi / 2) << "the machine's swap is not for this group";
-    write(root, "sys/fs/cgroup/farm/memory.swap.max", "max\n");
-    write(root, "sys/fs/cgroup/farm/memory.current", "99999999\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.swap.max", "max\n");
+    write_system_file(root, "sys/fs/cgroup/farm/memory.current", "99999999\n");
     EXPECT_EQ(available_memory(root / ""), kMebi) << "more than the limit";
 }
 
 TEST(MemoryNeed, KnowsTheFirstVersionOfGroups)
 {
     const TemporaryFolder root;
-    write(root, "proc/meminfo", kMachine);
-    write(root, "proc/self/cgroup", "5:cpu,cpuacct:/x\n4:memory:/job\n0::/\n");
-    write(root, "sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
-    write(root, "sys/fs/cgroup/memory/job/memory.limit_in_bytes", "3145728\n");
-    write(root, "sys/fs/cgroup/memory/job/memory.usage_in_bytes", "2097152\n");
-    write(root, "sys/fs/cgroup/memory/job/memory.stat", "cache 1\ntotal_cache 1048576\n");
+    write_system_file(root, "proc/meminfo", kMachine);
+    write_system_file(root, "proc/self/cgroup", "5:cpu,cpuacct:/x\n4:memory:/job\n0::/\n");
+    write_system_file(root, "sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+    write_system_file(root, "sys/fs/cgroup/memory/job/memory.limit_in_bytes", "3145728\n");
+    write_system_file(root, "sys/fs/cgroup/memory/job/memory.usage_in_bytes", "2097152\n");
+    write_system_file(root, "sys/fs/cgroup/memory/job/memory.stat", "cache 1\ntotal_cache 1048576\n");
     EXPECT_EQ(available_memory(root / ""), 3 * kMebi);
 }
 

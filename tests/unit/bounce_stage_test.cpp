@@ -22,7 +22,7 @@ public:
         OIIO::ImageBuf albedo(OIIO::ImageSpec(64, 48, 3, OIIO::TypeFloat));
         OIIO::ImageBufAlgo::noise(albedo, "uniform", 0.0f, 1.0f, false, 3);
         EXPECT_TRUE(albedo.write(*this / "paint.exr")) << albedo.geterror();
-        write("ground.vismap", "mesh = \"spot.obj\"\nresolution = [200, 150]\nsamples = 16\nground = true\n");
+        write("ground.vismap", "mesh = \"spot.obj\"\nresolution = [100, 75]\nsamples = 16\nground = true\n");
         write("plain.lightmap", "vismap = \"ground.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"paint.exr\"\n");
         write("bounced.lightmap",
               "vismap = \"ground.vismap\"\ncfem = \"studio.cfem\"\nalbedo = \"paint.exr\"\nbounce = \"auto\"\n"

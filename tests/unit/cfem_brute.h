@@ -7,8 +7,6 @@
 
 #include <Imath/ImathVec.h>
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace brute {
@@ -31,95 +29,25 @@ struct Map
     const float* at(int x, int y) const { return &rgb[3 * (size_t(y) * width + x)]; }
 };
 
-inline V3d center(int x, int y, int width, int height)
-{
-    return vmlight::latlong::direction((x + 0.5) / width, (y + 0.5) / height);
-}
-
+/// The direction of a pixel's centre.
+V3d center(int x, int y, int width, int height);
 /// Int w dw over a pixel, in closed form.
-inline V3d moment(int x, int y, int width, int height)
-{
-    const double t0 = pi * y / height, t1 = pi * (y + 1) / height;
-    const double p0 = 2 * pi * (double(x) / width - 0.5), p1 = 2 * pi * (double(x + 1) / width - 0.5);
-    // 2 Int sin^2 = (t1 - t0) - sin(t1 - t0) cos(t1 + t0), 2 Int sin cos = sin(t1 - t0) sin(t1 + t0)
-    const double across = 0.5 * ((t1 - t0) - std::sin(t1 - t0) * std::cos(t1 + t0));
-    const double up = 0.5 * std::sin(t1 - t0) * std::sin(t1 + t0);
-    return { across * (std::cos(p1) - std::cos(p0)), up * (p1 - p0), across * (std::sin(p1) - std::sin(p0)) };
-}
-
-inline double solid_angle(int y, int width, int height)
-{
-    return vmlight::latlong::row_solid_angle(y, height) / width;
-}
-
+V3d moment(int x, int y, int width, int height);
+/// Of a pixel of row y.
+double solid_angle(int y, int width, int height);
 /// No point of a pixel is farther from its centre than this angle.
-inline double pixel_radius(int y, int width, int height)
-{
-    const double theta = pi * (y + 0.5) / height, reach = pi / (2 * height);
-    const bool equator = theta - reach < pi / 2 && theta + reach > pi / 2;
-    const double widest = equator ? 1 : std::max(std::sin(theta - reach), std::sin(theta + reach));
-    return reach + std::min(pi, pi / width * std::max(0.0, widest));
-}
-
-/// (1/pi) Int max(0, n.w) dw over a pixel that the horizon of n may cut, by `parts` x `parts` points.
-inline double cut_response(const V3d& n, int x, int y, int width, int height, int parts)
-{
-    double sum = 0, weight = 0;
-    for (int j = 0; j < parts; ++j) {
-        const double t = (y + (j + 0.5) / parts) / height, w = std::sin(pi * t);
-        for (int i = 0; i < parts; ++i) {
-            const V3d d = vmlight::latlong::direction((x + (i + 0.5) / parts) / width, t);
-            sum += w * std::max(0.0, n.dot(d));
-            weight += w;
-        }
-    }
-    return sum / weight * solid_angle(y, width, height) / pi;
-}
-
-/// (1/pi) Int max(0, n.w) dw over a pixel: in closed form if the pixel is wholly in front of n or behind it.
-inline double pixel_response(const V3d& n, int x, int y, int width, int height, int parts)
-{
-    const double up = n.dot(center(x, y, width, height)), radius = pixel_radius(y, width, height);
-    if (radius < pi / 2 && up > std::sin(radius))
-        return n.dot(moment(x, y, width, height)) / pi;
-    if (radius < pi / 2 && up < -std::sin(radius))
-        return 0;
-    return cut_response(n, x, y, width, height, parts);
-}
+double pixel_radius(int y, int width, int height);
+/// (1/pi) Int max(0, n.w) dw over a pixel: in closed form if it is wholly in front of n or behind it, else by `parts` x
+/// `parts` points.
+double pixel_response(const V3d& n, int x, int y, int width, int height, int parts);
 
 /// C(n) of a map, for many n.
 class Filter
 {
 public:
     /// `map` must outlive this.
-    Filter(const Map& map, int parts)
-        : m_map(map)
-        , m_parts(parts)
-    {
-        for (int y = 0; y < map.height; ++y) {
-            const double radius = pixel_radius(y, map.width, map.height);
-            m_sine.push_back(radius < pi / 2 ? std::sin(radius) : 2);
-            for (int x = 0; x < map.width; ++x) {
-                m_center.push_back(center(x, y, map.width, map.height));
-                m_moment.push_back(moment(x, y, map.width, map.height));
-            }
-        }
-    }
-    V3d operator()(const V3d& n) const
-    {
-        V3d sum(0);
-        size_t i = 0;
-        for (int y = 0; y < m_map.height; ++y)
-            for (int x = 0; x < m_map.width; ++x, ++i) {
-                const double up = n.dot(m_center[i]);
-                if (up < -m_sine[y])
-                    continue;
-                const double response = up > m_sine[y] ? n.dot(m_moment[i]) / pi
-                                                       : cut_response(n, x, y, m_map.width, m_map.height, m_parts);
-                sum += V3d(m_map.rgb[3 * i], m_map.rgb[3 * i + 1], m_map.rgb[3 * i + 2]) * response;
-            }
-        return sum;
-    }
+    Filter(const Map& map, int parts);
+    V3d operator()(const V3d& n) const;
 
 private:
     const Map& m_map;
@@ -128,14 +56,10 @@ private:
     std::vector<double> m_sine; // of the pixels' radius, by row
 };
 
+/// Int L K dw, where K is the lobe of power s around d, by parts x parts points within each pixel that holds light.
+V3d lobe_filtered(const Map& map, const V3d& d, double s, int parts);
+
 /// Mean over the sphere.
-inline V3d mean(const Map& map)
-{
-    V3d sum(0);
-    for (int y = 0; y < map.height; ++y)
-        for (int x = 0; x < map.width; ++x)
-            sum += V3d(map.at(x, y)[0], map.at(x, y)[1], map.at(x, y)[2]) * solid_angle(y, map.width, map.height);
-    return sum / (4 * pi);
-}
+V3d mean(const Map& map);
 
 } // namespace brute

@@ -20,33 +20,11 @@ std::vector<OIIO::ImageBuf> stack(const OIIO::ImageBuf& env, int width = 32, int
     return levels;
 }
 
-Map pixels(const OIIO::ImageBuf& image)
+Map image_map(const OIIO::ImageBuf& image)
 {
     Map map(image.spec().width, image.spec().height);
     EXPECT_TRUE(image.get_pixels(image.roi(), OIIO::TypeFloat, map.rgb.data()));
     return map;
-}
-
-// Int L K dw by a sum over points within each pixel that holds light.
-V3d filtered_by_sum(const Map& env, const V3d& d, double s, int parts)
-{
-    V3d sum(0);
-    for (int y = 0; y < env.height; ++y)
-        for (int x = 0; x < env.width; ++x) {
-            const float* light = env.at(x, y);
-            if (light[0] + light[1] + light[2] == 0)
-                continue;
-            double kernel = 0, all = 0;
-            for (int j = 0; j < parts; ++j)
-                for (int i = 0; i < parts; ++i) {
-                    const double t = (y + (j + 0.5) / parts) / env.height, weight = std::sin(pi * t);
-                    const double up = d.dot(latlong::direction((x + (i + 0.5) / parts) / env.width, t));
-                    kernel += up <= 0 ? 0 : weight * (s + 1) / (2 * pi) * std::pow(up, s);
-                    all += weight;
-                }
-            sum += V3d(light[0], light[1], light[2]) * (kernel / all * brute::solid_angle(y, env.width, env.height));
-        }
-    return sum;
 }
 
 } // namespace
@@ -88,7 +66,7 @@ TEST(CfemStack, TheFirstLevelIsTheCfemToTheLastBit)
 {
     const OIIO::ImageBuf env = image(sampled(64, 32, soft_light));
     const std::vector<OIIO::ImageBuf> levels = stack(env);
-    const Map plain = filtered(env, exact(32, 16)), first = pixels(levels[0]);
+    const Map plain = filtered(env, exact(32, 16)), first = image_map(levels[0]);
     EXPECT_EQ(std::memcmp(plain.rgb.data(), first.rgb.data(), 4 * plain.rgb.size()), 0);
     for (int level = 0; level < kStackLevels; ++level) {
         const OIIO::ImageSpec& spec = levels[size_t(level)].spec();
@@ -103,7 +81,7 @@ TEST(CfemStack, TheFirstLevelIsTheCfemToTheLastBit)
 TEST(CfemStack, AConstantEnvironmentIsItselfInEachLevel)
 {
     for (const OIIO::ImageBuf& level : stack(image(almost(Map(40, 17, 0.7f)))))
-        EXPECT_LT(largest_error(pixels(level), [](const V3d&) { return V3d(0.7f); }), 0.7e-6);
+        EXPECT_LT(largest_error(image_map(level), [](const V3d&) { return V3d(0.7f); }), 0.7e-6);
 }
 
 TEST(CfemStack, EachLevelScalesTheFirstMomentByItsR)
@@ -113,7 +91,7 @@ TEST(CfemStack, EachLevelScalesTheFirstMomentByItsR)
     const std::vector<OIIO::ImageBuf> levels
         = stack(image(sampled(512, 256, [&](const V3d& w) { return a + V3d(b.dot(w)); })));
     for (int level = 0; level < kStackLevels; ++level)
-        EXPECT_LT(largest_error(pixels(levels[size_t(level)]),
+        EXPECT_LT(largest_error(image_map(levels[size_t(level)]),
                                 [&](const V3d& n) { return a + V3d(stack_lobe(level) * b.dot(n)); }),
                   4e-5)
             << level;
@@ -129,12 +107,12 @@ TEST(CfemStack, LevelsAreWhatQuadratureSays)
         const V3d mean = brute::mean(env);
         const std::vector<OIIO::ImageBuf> levels = stack(image(env), 64);
         for (int level = 1; level < kStackLevels; ++level) {
-            const Map map = pixels(levels[size_t(level)]);
+            const Map map = image_map(levels[size_t(level)]);
             const double s = power_lobe_exponent(stack_lobe(level));
             double worst = 0;
             for (int y = 1; y < 32; y += 5)
                 for (int x = y % 7; x < 64; x += 7) {
-                    const V3d truth = filtered_by_sum(env, center(x, y, 64, 32), s, hard ? 48 : 6);
+                    const V3d truth = brute::lobe_filtered(env, center(x, y, 64, 32), s, hard ? 48 : 6);
                     worst = std::max(worst, std::abs(map.at(x, y)[1] - truth[1]) / mean[1]);
                 }
             // What the harmonics leave out, and at level 1 the steps of the sum, which are 1/48 of a sun.
@@ -149,7 +127,7 @@ TEST(CfemStack, NothingIsBelowZeroUnderASun)
     Map sun(64, 32);
     std::fill_n(sun.at(10, 10), 3, 1e5f);
     for (const OIIO::ImageBuf& level : stack(image(sun), 64)) {
-        const Map map = pixels(level);
+        const Map map = image_map(level);
         EXPECT_GE(*std::min_element(map.rgb.begin(), map.rgb.end()), 0);
         // What is cut off below 0 is light that is added.
         EXPECT_NEAR(brute::mean(map)[0] / brute::mean(sun)[0], 1, 0.02);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The journal of vmcost: rows that were measured before.
+#include "cases.h"
 #include "temporary_folder.h"
 
 #include <vmcost/journal.h>
@@ -57,7 +58,8 @@ TEST_F(CostJournal, ARowWithAnyWrongBitIsMeasuredAgain)
     ASSERT_TRUE(writer.open(path, error) && writer.add("a", row, error) && writer.add("b", row, error)) << error;
     const std::string good = folder.bytes("journal.jsonl");
     const size_t line = good.find('\n') + 1;
-    for (size_t byte = 0; byte + 1 < line; ++byte)
+    const size_t stride = line / size_t(cases(int(line), 64)); // of all bytes
+    for (size_t byte = 0; byte + 1 < line; byte += stride)
         for (const int bit : { 0, 2, 6 }) {
             std::string damaged = good;
             damaged[byte] = char(damaged[byte] ^ (1 << bit));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The statistics of vmcost against closed forms and against chance.
+#include "cases.h"
+
 #include <vmcost/statistics.h>
 
 #include <gtest/gtest.h>
@@ -63,16 +65,17 @@ TEST(CostStatistics, AnErrorBelowTheNoiseIsZeroOrMoreAndItsIntervalHoldsZero)
 
 TEST(CostStatistics, IntervalsHoldTheTruthAsOftenAsTheySay)
 {
-    // Of 1000 intervals of 95 %, 950 hold it; six standard deviations of that count are 41.
-    constexpr int kRuns = 1000;
+    // Of 1000 intervals of 95 %, 950 hold it, give or take six standard deviations, which are 41.
+    constexpr int kRuns = cases(1000, 50);
     int rmse = 0, bias = 0;
     for (unsigned run = 0; run < kRuns; ++run) {
         const Errors errors = errors_of(synthetic(3200, 0.1, 0.4, 0.5, 1000 + run));
         rmse += holds(errors.rmse, std::sqrt(0.17) / 2);
         bias += holds(errors.bias, 0.05);
     }
-    EXPECT_NEAR(rmse, 950, 41);
-    EXPECT_NEAR(bias, 950, 41);
+    const double deviation = std::sqrt(kRuns * 0.95 * 0.05);
+    EXPECT_NEAR(rmse, 0.95 * kRuns, 6 * deviation);
+    EXPECT_NEAR(bias, 0.95 * kRuns, 6 * deviation);
 }
 
 TEST(CostStatistics, EmptyBatchesDoNotCount)

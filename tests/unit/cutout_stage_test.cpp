@@ -26,10 +26,10 @@ namespace {
 
 // A floor at z = 0 in material Floor, and above it a roof in material Roof, whose texture is over it once; both over
 // all of the UVs.
-const char* const kFloor = "mtllib room.mtl\n"
-                           "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -9 -9 1\nv 9 -9 1\nv 9 9 1\nv -9 9 1\n"
-                           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
-                           "usemtl Floor\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+const char* const kFloorText = "mtllib room.mtl\n"
+                               "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -9 -9 1\nv 9 -9 1\nv 9 9 1\nv -9 9 1\n"
+                               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                               "usemtl Floor\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
 const char* const kRoof = "usemtl Roof\nf 5/1/1 6/2/1 7/3/1 8/4/1\n";
 
 class CutoutStage : public testing::Test
@@ -53,7 +53,7 @@ protected:
     {
         folder.write("room.mtl", "newmtl Floor\nKd 1 1 1\nnewmtl Roof\nKd 1 1 1\n" + roof);
         VismapRecipe recipe;
-        recipe.mesh = folder.write("room.obj", std::string(kFloor) + kRoof);
+        recipe.mesh = folder.write("room.obj", std::string(kFloorText) + kRoof);
         recipe.selection.material = { "Floor" };
         recipe.vismap_params.resolution = { 8, 8 };
         recipe.vismap_params.samples = 256;
@@ -279,12 +279,12 @@ TEST_F(CutoutStage, TheTracedReferenceAndFramesSeeThemToo)
         object.map = recipe;
         object.map.selection = {};
         object.map.cutout_params.cutouts = is_on ? "auto" : "off";
-        object.map.mesh = folder.write("floor.obj", kFloor);
+        object.map.mesh = folder.write("floor.obj", kFloorText);
         LitObject floor, roof;
         std::string error;
         ASSERT_TRUE(floor.open(object, {}, error)) << error;
-        object.map.mesh
-            = folder.write("roof.obj", std::string(kFloor).substr(0, std::string(kFloor).find("usemtl")) + kRoof);
+        object.map.mesh = folder.write(
+            "roof.obj", std::string(kFloorText).substr(0, std::string(kFloorText).find("usemtl")) + kRoof);
         ASSERT_TRUE(roof.open(object, {}, error)) << error;
         floor.set_occluders({ roof.surface() });
         ASSERT_TRUE(floor.light(light, paper, {}, {}, error)) << error;

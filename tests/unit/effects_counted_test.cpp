@@ -103,7 +103,7 @@ OIIO::ImageBuf one_normal(float x, float y, float z)
     return image;
 }
 
-Mesh cut(const Mesh& mesh, float alpha)
+Mesh with_alpha(const Mesh& mesh, float alpha)
 {
     return cutout_scene::with_material(
         mesh, cutout_scene::material(AlphaMode::mask, cutout_scene::texture(4, 4, [&](int, int) { return alpha; })));
@@ -138,7 +138,7 @@ std::vector<IdleCase> idle_cases()
               in.occluders = { placed(ball(), 40, V3d(0, 0, 50)) };
           },
           &CountedBake::casters },
-        { "cut-outs", [](auto& in) { in.mesh = cut(in.mesh, 1); },
+        { "cut-outs", [](auto& in) { in.mesh = with_alpha(in.mesh, 1); },
           [](auto& in) {
               in.mesh = cutout_scene::with_material(in.mesh,
                                                     cutout_scene::material(AlphaMode::mask, cutout_scene::checker(4)));
@@ -230,7 +230,7 @@ TEST(EffectsCounted, DecidingIsUnderAHundredthOfTheBakeOrATenthOfWhatItSaves)
 TEST(EffectsCounted, TransparentEverywhereIsNotThere)
 {
     BakeInputs inputs = plain();
-    inputs.occluders = { cut(placed(ball(), 1, V3d(0.5, 0, 2)), 0) };
+    inputs.occluders = { with_alpha(placed(ball(), 1, V3d(0.5, 0, 2)), 0) };
     OIIO::ImageBuf map, plain_map;
     const CountedBake with = work_of(inputs, map), without = work_of(plain(), plain_map);
     EXPECT_EQ(with.hits, 0);

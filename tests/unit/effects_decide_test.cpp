@@ -102,7 +102,7 @@ EffectDecision named(const char* name, const EffectFacts& facts, const char* tex
     return {};
 }
 
-std::string refusal(const EffectFacts& facts, const char* text, const char* stage = "vismap")
+std::string switch_refusal(const EffectFacts& facts, const char* text, const char* stage = "vismap")
 {
     std::string error;
     decide(stage, facts, text, error);
@@ -341,7 +341,7 @@ TEST(EffectsDecide, CutOutsThatAreNotAskedForAreNotSaidToBeMissing)
     EffectFacts facts = nothing();
     facts.bake.no_cutouts = true;
     EXPECT_EQ(named("cut-outs", facts).reason, "cutouts is off: every material is opaque");
-    EXPECT_EQ(refusal(facts, "+cut-outs"),
+    EXPECT_EQ(switch_refusal(facts, "+cut-outs"),
               "effects: +cut-outs is impossible: cutouts is off: every material is opaque");
 }
 
@@ -354,23 +354,23 @@ TEST(EffectsDecide, WhatIsLeftOutThoughCalledForIsNamed)
 
 TEST(EffectsDecide, TheImpossibleIsRefused)
 {
-    EXPECT_EQ(refusal(nothing(), "+ground"), "effects: +ground is impossible: no --ground is given");
-    EXPECT_EQ(refusal(nothing(), "+poses"),
+    EXPECT_EQ(switch_refusal(nothing(), "+ground"), "effects: +ground is impossible: no --ground is given");
+    EXPECT_EQ(switch_refusal(nothing(), "+poses"),
               "effects: +poses is impossible: one pose is given: give --frames or --pose");
-    EXPECT_EQ(refusal(everything(), "-udim"), "effects: -udim: cannot be left out: tile 1002 of UV space");
-    EXPECT_EQ(refusal(everything(), "-filter", "lightmap"),
+    EXPECT_EQ(switch_refusal(everything(), "-udim"), "effects: -udim: cannot be left out: tile 1002 of UV space");
+    EXPECT_EQ(switch_refusal(everything(), "-filter", "lightmap"),
               "effects: -filter: cannot be left out: an environment is given");
     for (const Effect& effect : all_effects())
-        EXPECT_EQ(refusal(nothing(), (std::string("-") + effect.name).c_str(), effect.stage), "") << effect.name;
+        EXPECT_EQ(switch_refusal(nothing(), (std::string("-") + effect.name).c_str(), effect.stage), "") << effect.name;
     EXPECT_EQ(
-        refusal(everything(), "+gruond"),
+        switch_refusal(everything(), "+gruond"),
         "\"gruond\" is not an effect: did you mean \"ground\"? The effects are self-occlusion, occluders, ground, "
         "cut-outs, normal-map, max-distance, poses, udim, margin, half");
-    EXPECT_EQ(refusal(everything(), "ground"),
+    EXPECT_EQ(switch_refusal(everything(), "ground"),
               "\"ground\" is not a switch: auto, all, or + or - before the name of an effect: self-occlusion, "
               "occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half");
-    EXPECT_EQ(refusal(everything(), "+ground,-ground"), "\"ground\" is named twice");
-    EXPECT_EQ(refusal(everything(), "+ground,all"), "\"all\" must be the first word");
+    EXPECT_EQ(switch_refusal(everything(), "+ground,-ground"), "\"ground\" is named twice");
+    EXPECT_EQ(switch_refusal(everything(), "+ground,all"), "\"all\" must be the first word");
 }
 
 TEST(EffectsDecide, ATableHasALineForEach)

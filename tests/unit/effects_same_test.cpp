@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What cannot change a picture is left out, and the bytes stay: `auto` against `all`.
 #include "baked_map.h"
+#include "cases.h"
 #include "drawn_failure.h"
 
 #include <vmlight/stage/light_forecast.h>
@@ -24,9 +25,10 @@ VismapParams proving(int side, int samples)
 
 TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
 {
+    constexpr int kScenes = cases(200, 40);
     int64_t open = 0, covered = 0, culled = 0, fewer = 0, grounds = 0, mixed = 0, transparent = 0, bumpy = 0, suns = 0,
             bounces = 0, poses = 0, one_color = 0, ones = 0, lookups = 0, all_lookups = 0;
-    for (uint32_t seed = 0; seed < 200; ++seed) {
+    for (uint32_t seed = 0; seed < kScenes; ++seed) {
         const Drawn drawn(seed);
         const LightWork start = LightWork::so_far();
         const DrawnPicture a(drawn, "auto");
@@ -60,18 +62,19 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
     // The scenes are of all kinds.
     EXPECT_GT(open, covered / 20);
     EXPECT_LT(open, covered / 2);
-    EXPECT_GT(culled, 10);
-    EXPECT_GT(fewer, 40);
-    EXPECT_GT(grounds, 40);
-    EXPECT_GT(mixed, 30);
+    const auto share_of = [](int count) { return count * kScenes / 200; };
+    EXPECT_GT(culled, share_of(10));
+    EXPECT_GT(fewer, share_of(40));
+    EXPECT_GT(grounds, share_of(40));
+    EXPECT_GT(mixed, share_of(30));
     EXPECT_LT(2 * lookups, all_lookups); // micromaps know most
-    EXPECT_GT(transparent, 30);
-    EXPECT_GT(bumpy, 40);
-    EXPECT_GT(suns, 5);
-    EXPECT_GT(bounces, 30);
-    EXPECT_GT(poses, 15);
-    EXPECT_GT(one_color, 40);
-    EXPECT_GT(ones, 20);
+    EXPECT_GT(transparent, share_of(30));
+    EXPECT_GT(bumpy, share_of(40));
+    EXPECT_GT(suns, share_of(5));
+    EXPECT_GT(bounces, share_of(30));
+    EXPECT_GT(poses, share_of(15));
+    EXPECT_GT(one_color, share_of(40));
+    EXPECT_GT(ones, share_of(20));
 }
 
 TEST(EffectsSame, AFailingSceneIsShrunk)

@@ -35,7 +35,7 @@ void write_constant(const std::string& path, const OIIO::ImageSpec& spec)
     ASSERT_TRUE(out->close());
 }
 
-std::string number(uint32_t value)
+std::string number_bytes(uint32_t value)
 {
     std::string bytes;
     for (int shift = 0; shift < 32; shift += 8)
@@ -45,31 +45,32 @@ std::string number(uint32_t value)
 
 std::string attribute(const std::string& name, const std::string& type, const std::string& value)
 {
-    return name + '\0' + type + '\0' + number(uint32_t(value.size())) + value;
+    return name + '\0' + type + '\0' + number_bytes(uint32_t(value.size())) + value;
 }
 
-std::string box(uint32_t width, uint32_t height)
+std::string box_bytes(uint32_t width, uint32_t height)
 {
-    return number(0) + number(0) + number(width - 1) + number(height - 1);
+    return number_bytes(0) + number_bytes(0) + number_bytes(width - 1) + number_bytes(height - 1);
 }
 
 // One half channel, nothing compressed, 4x3: 3 offsets, and 3 rows of 8 bytes behind 8 others.
 struct Header
 {
     uint32_t version = 2;
-    std::string channels = std::string("Y\0", 2) + number(1) + number(0) + number(1) + number(1) + '\0';
-    std::string compression = std::string(1, '\0'), window = box(4, 3), more;
+    std::string channels
+        = std::string("Y\0", 2) + number_bytes(1) + number_bytes(0) + number_bytes(1) + number_bytes(1) + '\0';
+    std::string compression = std::string(1, '\0'), window = box_bytes(4, 3), more;
     size_t rest = 3 * 8 + 3 * (8 + 8);
 
     std::string bytes() const
     {
-        return "\x76\x2f\x31\x01" + number(version) + attribute("channels", "chlist", channels)
+        return "\x76\x2f\x31\x01" + number_bytes(version) + attribute("channels", "chlist", channels)
             + attribute("compression", "compression", compression) + attribute("dataWindow", "box2i", window) + more
             + '\0' + std::string(rest, 'x');
     }
 };
 
-std::string fault_of(const std::string& bytes)
+std::string claims_fault(const std::string& bytes)
 {
     const TemporaryFolder folder;
     return claims_fault(folder.write("a.exr", bytes));
@@ -140,29 +141,29 @@ TEST(FileClaims, LevelsPartsAndDeepPixelsAreWhatTheySay)
 TEST(FileClaims, AFileMayBeExactlyAsLongAsItsHeaderSays)
 {
     Header header;
-    header.window = box(4096, 2049); // of half floats
+    header.window = box_bytes(4096, 2049); // of half floats
     header.rest = 2049 * (8 + 8 + 8192);
-    EXPECT_EQ(fault_of(header.bytes()), "");
+    EXPECT_EQ(claims_fault(header.bytes()), "");
     --header.rest;
-    EXPECT_EQ(fault_of(header.bytes()),
+    EXPECT_EQ(claims_fault(header.bytes()),
               "its header says 4096x2049 pixels, which take 16818192 bytes or more; the file has 16818191");
     header.compression = std::string(1, 1); // runs of 128 bytes in 2
     header.rest = 2049 * (8 + 8 + 128);
-    EXPECT_EQ(fault_of(header.bytes()), "");
+    EXPECT_EQ(claims_fault(header.bytes()), "");
     --header.rest;
-    EXPECT_THAT(fault_of(header.bytes()), HasSubstr("which take 295056 bytes or more; the file has 295055"));
+    EXPECT_THAT(claims_fault(header.bytes()), HasSubstr("which take 295056 bytes or more; the file has 295055"));
     header.compression = std::string(1, 100); // of a future version
     header.rest = 0;
-    EXPECT_EQ(fault_of(header.bytes()), "");
+    EXPECT_EQ(claims_fault(header.bytes()), "");
 }
 
 TEST(FileClaims, ASmallFileThatWasCutIsLeftToItsReaderButForItsTable)
 {
     Header header;
     header.rest = 3 * 8;
-    EXPECT_EQ(fault_of(header.bytes()), "");
+    EXPECT_EQ(claims_fault(header.bytes()), "");
     --header.rest;
-    EXPECT_EQ(fault_of(header.bytes()), "its header says 4x3 pixels, which take 72 bytes or more; the file has 23");
+    EXPECT_EQ(claims_fault(header.bytes()), "its header says 4x3 pixels, which take 72 bytes or more; the file has 23");
 }
 
 TEST(FileClaims, AnySizeBeyondTheFileIsRefused)
@@ -172,43 +173,43 @@ TEST(FileClaims, AnySizeBeyondTheFileIsRefused)
         const size_t at = bytes.find('\0', bytes.find('\0', bytes.find(name)) + 1) + 1;
         for (const uint32_t size : { uint32_t(bytes.size() - at - 4 + 1), 1u << 29, 0x7fffffffu, 0xffffffffu }) {
             std::string damaged = bytes;
-            damaged.replace(at, 4, number(size));
-            EXPECT_EQ(fault_of(damaged),
+            damaged.replace(at, 4, number_bytes(size));
+            EXPECT_EQ(claims_fault(damaged),
                       "its header says that \"" + std::string(name) + "\" has " + std::to_string(size)
                           + " bytes; the file has " + std::to_string(bytes.size() - at - 4) + " more");
         }
     }
     Header header;
-    header.more = attribute("views", "stringvector", number(4) + "left" + number(1 << 30) + "right");
-    EXPECT_THAT(fault_of(header.bytes()), HasSubstr("a string in \"views\" has 1073741824 bytes, of 5"));
-    header.more = attribute("views", "stringvector", number(4) + "left" + number(5) + "right");
-    EXPECT_EQ(fault_of(header.bytes()), "");
-    header.more = attribute("preview", "preview", number(2) + number(1 << 30) + std::string(8, 'p'));
-    EXPECT_THAT(fault_of(header.bytes()), HasSubstr("the preview has 2x1073741824 pixels, in 16 bytes"));
-    header.more = attribute("preview", "preview", number(2) + number(1) + std::string(8, 'p'));
-    EXPECT_EQ(fault_of(header.bytes()), "");
+    header.more = attribute("views", "stringvector", number_bytes(4) + "left" + number_bytes(1 << 30) + "right");
+    EXPECT_THAT(claims_fault(header.bytes()), HasSubstr("a string in \"views\" has 1073741824 bytes, of 5"));
+    header.more = attribute("views", "stringvector", number_bytes(4) + "left" + number_bytes(5) + "right");
+    EXPECT_EQ(claims_fault(header.bytes()), "");
+    header.more = attribute("preview", "preview", number_bytes(2) + number_bytes(1 << 30) + std::string(8, 'p'));
+    EXPECT_THAT(claims_fault(header.bytes()), HasSubstr("the preview has 2x1073741824 pixels, in 16 bytes"));
+    header.more = attribute("preview", "preview", number_bytes(2) + number_bytes(1) + std::string(8, 'p'));
+    EXPECT_EQ(claims_fault(header.bytes()), "");
 }
 
 TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
 {
     Header wide;
-    wide.window = box(1 << 20, 30);
-    EXPECT_THAT(fault_of(wide.bytes()), HasSubstr("its header says 1048576x30 pixels, which take "));
+    wide.window = box_bytes(1 << 20, 30);
+    EXPECT_THAT(claims_fault(wide.bytes()), HasSubstr("its header says 1048576x30 pixels, which take "));
     wide.compression = std::string(1, 3); // ZIP
-    EXPECT_THAT(fault_of(wide.bytes()), HasSubstr("its header says 1048576x30 pixels"));
+    EXPECT_THAT(claims_fault(wide.bytes()), HasSubstr("its header says 1048576x30 pixels"));
     Header high; // of which the table of offsets alone is too long
-    high.window = box(1, 0x7fffffff);
+    high.window = box_bytes(1, 0x7fffffff);
     high.compression = std::string(1, 9);
-    EXPECT_THAT(fault_of(high.bytes()), HasSubstr("its header says 1x2147483647 pixels"));
+    EXPECT_THAT(claims_fault(high.bytes()), HasSubstr("its header says 1x2147483647 pixels"));
 
     Header tiled;
     tiled.version = 2 | 0x200;
-    tiled.window = box(64, 64);
+    tiled.window = box_bytes(64, 64);
     tiled.compression = std::string(1, 3);
     tiled.rest = 16 * 8;
     const auto tiles = [&](uint32_t width, uint32_t height, int mode) {
-        tiled.more = attribute("tiles", "tiledesc", number(width) + number(height) + char(mode));
-        return fault_of(tiled.bytes());
+        tiled.more = attribute("tiles", "tiledesc", number_bytes(width) + number_bytes(height) + char(mode));
+        return claims_fault(tiled.bytes());
     };
     EXPECT_EQ(tiles(16, 16, 0), "");
     EXPECT_THAT(tiles(1, 16, 0), HasSubstr("its header says 64x64 pixels, which take "));
@@ -221,24 +222,24 @@ TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
     Header deep;
     deep.version = 2 | 0x800;
     deep.rest = 3 * 8;
-    EXPECT_EQ(fault_of(deep.bytes()), "");
+    EXPECT_EQ(claims_fault(deep.bytes()), "");
     --deep.rest;
-    EXPECT_THAT(fault_of(deep.bytes()), HasSubstr("its header says 4x3 pixels"));
+    EXPECT_THAT(claims_fault(deep.bytes()), HasSubstr("its header says 4x3 pixels"));
 }
 
 TEST(FileClaims, AHeaderThatEndsAnywhereIsNoCrash)
 {
     Header header;
-    header.more = attribute("views", "stringvector", number(4) + "left")
-        + attribute("tiles", "tiledesc", number(16) + number(16) + '\1')
-        + attribute("preview", "preview", number(1) + number(1) + "rgba");
+    header.more = attribute("views", "stringvector", number_bytes(4) + "left")
+        + attribute("tiles", "tiledesc", number_bytes(16) + number_bytes(16) + '\1')
+        + attribute("preview", "preview", number_bytes(1) + number_bytes(1) + "rgba");
     for (const uint32_t version : { 2u, 2u | 0x200, 2u | 0x1000 }) {
         header.version = version;
         const std::string bytes = header.bytes();
         for (size_t size = 0; size < bytes.size(); ++size)
-            fault_of(bytes.substr(0, size));
+            claims_fault(bytes.substr(0, size));
     }
-    EXPECT_EQ(fault_of(""), "");
+    EXPECT_EQ(claims_fault(""), "");
     EXPECT_EQ(claims_fault("no such file"), "");
     EXPECT_EQ(claims_fault("/"), "");
 }
@@ -252,7 +253,7 @@ TEST(FileClaims, RadianceScanlinesAreHeldAgainstTheFile)
             const int pixels = std::stoi(size.substr(size.rfind(' ') + 1));
             scanlines.replace(0, 4, { 2, 2, char(pixels >> 8), char(pixels) });
         }
-        return fault_of(head + size + "\n" + scanlines);
+        return claims_fault(head + size + "\n" + scanlines);
     };
     EXPECT_EQ(fault("-Y 999999 +X 7", 999999 * 7 * 4), ""); // too short for runs
     EXPECT_EQ(fault("-Y 999999 +X 7", 999999 * 7 * 4 - 1),
@@ -277,7 +278,7 @@ TEST(FileClaims, WhoeverOpensAnImageRefusesThem)
 {
     const TemporaryFolder folder;
     Header header;
-    header.more = attribute("views", "stringvector", number(1 << 30));
+    header.more = attribute("views", "stringvector", number_bytes(1 << 30));
     const std::string path = folder.write("a.exr", header.bytes());
     std::string error;
     EXPECT_EQ(open_image(path, error), nullptr);

@@ -47,7 +47,7 @@ double reach(const Camera& camera, const Mesh& mesh)
     return farthest;
 }
 
-void expect_near(const V3d& a, const V3d& b, double tolerance = 1e-12)
+void expect_vector(const V3d& a, const V3d& b, double tolerance = 1e-12)
 {
     EXPECT_LE((a - b).length(), tolerance) << a << " " << b;
 }
@@ -64,16 +64,16 @@ TEST(Camera, AzimuthGoesFromTheFrontToTheRight)
                                          std::pair(180.0, V3d(0, 0, -1)), std::pair(-90.0, V3d(-1, 0, 0)) }) {
         params.azimuth = azimuth;
         const Camera camera = place_camera(params, subject_of(cube()), 1, false);
-        expect_near(camera.position.normalized(), from);
-        expect_near(camera.forward, -from);
-        expect_near(camera.up, V3d(0, 1, 0));
-        expect_near(camera.right, camera.forward.cross(camera.up));
+        expect_vector(camera.position.normalized(), from);
+        expect_vector(camera.forward, -from);
+        expect_vector(camera.up, V3d(0, 1, 0));
+        expect_vector(camera.right, camera.forward.cross(camera.up));
     }
     params.azimuth = 0;
     params.elevation = 90;
     const Camera above = place_camera(params, subject_of(cube()), 1, false);
-    expect_near(above.forward, V3d(0, -1, 0));
-    expect_near(above.up, V3d(0, 0, -1));
+    expect_vector(above.forward, V3d(0, -1, 0));
+    expect_vector(above.up, V3d(0, 0, -1));
 }
 
 TEST(Camera, TheObjectFillsThePictureAndNoMore)
@@ -100,7 +100,7 @@ TEST(Camera, TheDistanceOfACubeIsTheClosedForm)
     params.elevation = 0;
     params.fov = 90;
     params.fill = 1;
-    expect_near(place_camera(params, subject_of(cube()), 1, false).position, V3d(0, 0, 2), 1e-9);
+    expect_vector(place_camera(params, subject_of(cube()), 1, false).position, V3d(0, 0, 2), 1e-9);
 }
 
 TEST(Camera, WhatTurnsFitsInEveryPosition)
@@ -122,7 +122,7 @@ TEST(Camera, TurningTheObjectTurnsTheCameraTheOtherWay)
     const Subject subject = subject_of(cube());
     const Camera front = turned(place_camera(params, subject, 1, true), 30, subject.centre());
     params.azimuth = -30;
-    expect_near(front.position, place_camera(params, subject, 1, true).position, 1e-9);
+    expect_vector(front.position, place_camera(params, subject, 1, true).position, 1e-9);
     // The corner that was seen to the front left comes nearer to the right: counter-clockwise from above.
     const V2d before = shown(place_camera({}, subject, 1, false), V3d(0, 0, 1)), after = shown(front, V3d(0, 0, 1));
     EXPECT_GT(after.x, before.x);
@@ -163,16 +163,16 @@ TEST(Camera, RaysGoThroughThePicture)
     camera.half_width = 2;
     camera.half_height = 1;
     const CameraRay middle = camera.ray(20, 10, 40, 20), corner = camera.ray(0, 0, 40, 20);
-    expect_near(middle.direction, V3d(0, 0, -1));
-    expect_near(corner.direction, V3d(-2, 1, -1));
-    expect_near(camera.ray(21, 10, 40, 20).direction - middle.direction, middle.direction_dx);
-    expect_near(camera.ray(20, 11, 40, 20).direction - middle.direction, middle.direction_dy);
+    expect_vector(middle.direction, V3d(0, 0, -1));
+    expect_vector(corner.direction, V3d(-2, 1, -1));
+    expect_vector(camera.ray(21, 10, 40, 20).direction - middle.direction, middle.direction_dx);
+    expect_vector(camera.ray(20, 11, 40, 20).direction - middle.direction, middle.direction_dy);
     camera.is_orthographic = true;
     const CameraRay flat = camera.ray(0, 0, 40, 20);
-    expect_near(flat.direction, V3d(0, 0, -1));
-    expect_near(flat.origin, V3d(-2, 1, 1));
-    expect_near(flat.origin_dx, V3d(0.1, 0, 0));
-    expect_near(flat.origin_dy, V3d(0, -0.1, 0));
+    expect_vector(flat.direction, V3d(0, 0, -1));
+    expect_vector(flat.origin, V3d(-2, 1, 1));
+    expect_vector(flat.origin_dx, V3d(0.1, 0, 0));
+    expect_vector(flat.origin_dy, V3d(0, -0.1, 0));
 }
 
 TEST_F(Cameras, OfAGltfStandWhereItsNodesPutThem)
@@ -191,9 +191,9 @@ TEST_F(Cameras, OfAGltfStandWhereItsNodesPutThem)
     ASSERT_EQ(mesh.cameras.size(), 2u) << testing::PrintToString(mesh.warnings);
     const MeshCamera &front = mesh.cameras[0], &plan = mesh.cameras[1];
     EXPECT_EQ(front.name, "front"); // of its node: it has none
-    expect_near(front.position, V3d(1, 2, 3), 1e-6);
-    expect_near(front.forward, V3d(-1, 0, 0), 1e-6); // -z turned by 90 degrees about y
-    expect_near(front.up, V3d(0, 1, 0), 1e-6);
+    expect_vector(front.position, V3d(1, 2, 3), 1e-6);
+    expect_vector(front.forward, V3d(-1, 0, 0), 1e-6); // -z turned by 90 degrees about y
+    expect_vector(front.up, V3d(0, 1, 0), 1e-6);
     EXPECT_NEAR(front.half_height, 1, 1e-6);
     EXPECT_EQ(front.aspect, 2);
     EXPECT_EQ(plan.name, "plan");

@@ -39,7 +39,7 @@ SceneLight constant_light(const std::vector<float>& color)
     return light;
 }
 
-VismapParams map_params(int side, int samples = 64)
+VismapParams object_map_params(int side, int samples = 64)
 {
     VismapParams params;
     params.resolution = { side, side };
@@ -47,7 +47,7 @@ VismapParams map_params(int side, int samples = 64)
     return params;
 }
 
-LightmapParams model(const std::string& name)
+LightmapParams with_model(const std::string& name)
 {
     LightmapParams params;
     params.model = name;
@@ -107,7 +107,7 @@ TEST(TexelWeights, CoverIsOneAndTheMarginAlmostNothing)
     Mesh mesh;
     scenes::add_quad(mesh, V3d(-1, -1, 0), V3d(1, -1, 0), V3d(1, 1, 0), V3d(-1, 1, 0), V2f(0.25f, 0.25f),
                      V2f(0.75f, 0.75f));
-    VismapParams params = map_params(32, 4);
+    VismapParams params = object_map_params(32, 4);
     params.margin = 4;
     ImageBuf map;
     ASSERT_TRUE(make_vismap(map, mesh, {}, params));
@@ -125,16 +125,16 @@ TEST(LitObject, OccludersAreInItsWay)
 {
     LitObject open, covered;
     const auto floor = held(scenes::floor_facing_z(1));
-    open.open(floor, map_params(16));
-    covered.open(floor, map_params(16));
+    open.open(floor, object_map_params(16));
+    covered.open(floor, object_map_params(16));
     FrameSurface roof;
     roof.mesh = held(scenes::floor_facing_z(1e5, V3d(0, 0, 0.01)));
     covered.set_occluders({ roof });
     std::string error, used;
     const SceneLight light = constant_light({ 1, 2, 3 });
-    ASSERT_TRUE(open.light(light, model("paper"), {}, {}, error, &used)) << error;
+    ASSERT_TRUE(open.light(light, with_model("paper"), {}, {}, error, &used)) << error;
     EXPECT_EQ(used, "paper");
-    ASSERT_TRUE(covered.light(light, model("paper"), {}, {}, error)) << error;
+    ASSERT_TRUE(covered.light(light, with_model("paper"), {}, {}, error)) << error;
     float seen[3], hidden[3];
     ASSERT_TRUE(open.surface().light->lookup({ Imath::V2d(0.5, 0.5) }, seen, error));
     ASSERT_TRUE(covered.surface().light->lookup({ Imath::V2d(0.5, 0.5) }, hidden, error));
@@ -146,17 +146,17 @@ TEST(LitObject, OccludersAreInItsWay)
 TEST(LitObject, MapsAreBakedForTheirModels)
 {
     LitObject object;
-    object.open(held(scenes::sphere(V3d(0), 1, 8)), map_params(16, 4));
+    object.open(held(scenes::sphere(V3d(0), 1, 8)), object_map_params(16, 4));
     int bakes = 0;
     MakeOptions options;
     options.say = [&](const std::string& line) { bakes += line.compare(0, 5, "bake:") == 0; };
     std::string error, used;
     const SceneLight light = constant_light({ 1, 1, 1 });
     for (const char* name : { "paper", "ao", "paper", "lobe" })
-        object.light(light, model(name), {}, options, error); // `lobe` lacks a stack, but not a map
+        object.light(light, with_model(name), {}, options, error); // `lobe` lacks a stack, but not a map
     EXPECT_EQ(bakes, 1);
     error.clear();
-    EXPECT_FALSE(object.light(light, model("sh"), {}, options, error));
+    EXPECT_FALSE(object.light(light, with_model("sh"), {}, options, error));
     EXPECT_EQ(bakes, 2);
     EXPECT_EQ(object.maps().at(1001).spec().get_string_attribute("vmlight:basis"), "sh");
 }
@@ -180,7 +180,7 @@ TEST(LitObject, MeshesWithoutUsableUvsAreUnwrapped)
         LitObject object;
         ObjectRecipe recipe;
         recipe.map.mesh = path;
-        recipe.map.vismap_params = map_params(64);
+        recipe.map.vismap_params = object_map_params(64);
         ASSERT_TRUE(object.open(recipe, options, error)) << error;
         EXPECT_EQ(object.is_unwrapped(), *reason != 0) << path;
         EXPECT_THAT(said, HasSubstr(reason));

@@ -5,7 +5,7 @@ using namespace mesh_files;
 
 namespace {
 
-json texture(int index, const json& transform = {})
+json texture_json(int index, const json& transform = {})
 {
     json info = { { "index", index } };
     if (!transform.is_null())
@@ -22,12 +22,16 @@ TEST_F(MeshFiles, MaterialsOfAGltf)
     file.root["images"] = { { { "uri", "leaf%20color.png" } }, { { "uri", "data:image/png;base64,QUJD" } } };
     file.root["samplers"] = { { { "wrapS", 33071 }, { "wrapT", 33648 }, { "magFilter", 9728 } } };
     file.root["textures"] = { { { "source", 0 }, { "sampler", 0 } }, { { "source", 1 } } };
-    json material = { { "name", "leaf" },      { "alphaMode", "MASK" },         { "alphaCutoff", 0.25 },
-                      { "doubleSided", true }, { "normalTexture", texture(1) }, { "occlusionTexture", texture(1) } };
+    json material = { { "name", "leaf" },
+                      { "alphaMode", "MASK" },
+                      { "alphaCutoff", 0.25 },
+                      { "doubleSided", true },
+                      { "normalTexture", texture_json(1) },
+                      { "occlusionTexture", texture_json(1) } };
     material["pbrMetallicRoughness"]
         = { { "baseColorFactor", { 0.5, 0.25, 1, 0.75 } },
             { "baseColorTexture",
-              texture(0, { { "offset", { 0.25, 0 } }, { "scale", { 0.5, 0.5 } }, { "texCoord", 1 } }) } };
+              texture_json(0, { { "offset", { 0.25, 0 } }, { "scale", { 0.5, 0.5 } }, { "texCoord", 1 } }) } };
     material["normalTexture"]["scale"] = 2;
     material["occlusionTexture"]["strength"] = 0.5;
     file.root["materials"] = { material, { { "alphaMode", "BLEND" } } };
@@ -64,8 +68,8 @@ TEST_F(MeshFiles, TexturesThatAreMissingAreWarnedOf)
     GltfFile file = triangle_file();
     file.root["images"] = { { { "uri", "none.png" } } };
     file.root["textures"] = { { { "source", 0 } }, { { "source", 5 } } };
-    file.root["materials"] = { { { "normalTexture", texture(0) }, { "occlusionTexture", texture(1) } },
-                               { { "normalTexture", texture(2) } } };
+    file.root["materials"] = { { { "normalTexture", texture_json(0) }, { "occlusionTexture", texture_json(1) } },
+                               { { "normalTexture", texture_json(2) } } };
     const Mesh mesh = read("a.gltf", file.text());
     EXPECT_EQ(mesh.warnings,
               (std::vector<std::string> { "image 0: \"" + folder / "none.png" + "\" does not exist",
@@ -91,7 +95,7 @@ TEST_F(MeshFiles, ImagesOfAGlbAreRangesOfTheFile)
     const size_t view = file.add_view("an image file");
     file.root["images"] = { { { "bufferView", view }, { "mimeType", "image/png" } } };
     file.root["textures"] = { { { "source", 0 } } };
-    file.root["materials"] = { { { "normalTexture", texture(0) } } };
+    file.root["materials"] = { { { "normalTexture", texture_json(0) } } };
     const std::string path = folder.write("a.glb", file.glb());
     const MaterialTexture image = read(path).materials[0].normal_texture;
     EXPECT_EQ(image.path, path);

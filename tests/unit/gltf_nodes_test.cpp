@@ -9,7 +9,7 @@ using namespace mesh_files;
 
 namespace {
 
-std::vector<V3d> moved(const std::vector<V3d>& points, const V3d& by)
+std::vector<V3d> translated(const std::vector<V3d>& points, const V3d& by)
 {
     std::vector<V3d> result;
     for (const V3d& point : points)
@@ -17,7 +17,7 @@ std::vector<V3d> moved(const std::vector<V3d>& points, const V3d& by)
     return result;
 }
 
-void expect_near(const std::vector<V3d>& points, const std::vector<V3d>& expected)
+void expect_points(const std::vector<V3d>& points, const std::vector<V3d>& expected)
 {
     ASSERT_EQ(points.size(), expected.size());
     for (size_t i = 0; i < points.size(); ++i)
@@ -42,7 +42,7 @@ TEST_F(MeshFiles, JointsMoveASkinAndItsNodeDoesNot)
                            { { "translation", { 1, 0, 0 } } },
                            { { "translation", { 0, 0, 4 } } } };
     const Mesh mesh = read("a.gltf", file.text());
-    expect_near(mesh.positions, { V3d(1, 0, -5), V3d(3, 0, -5), V3d(0.5, 3, -0.5) });
+    expect_points(mesh.positions, { V3d(1, 0, -5), V3d(3, 0, -5), V3d(0.5, 3, -0.5) });
 }
 
 TEST_F(MeshFiles, NormalsTurnWithTheirJoints)
@@ -55,7 +55,7 @@ TEST_F(MeshFiles, NormalsTurnWithTheirJoints)
     const double half = std::sqrt(0.5);
     file.root["nodes"] = { { { "mesh", 0 }, { "skin", 0 } }, { { "rotation", { 0, half, 0, half } } } }; // z to x
     Mesh mesh = read("a.gltf", file.text());
-    expect_near(mesh.positions, { V3d(0, 0, 0), V3d(0, 0, -2), V3d(0, 3, 0) });
+    expect_points(mesh.positions, { V3d(0, 0, 0), V3d(0, 0, -2), V3d(0, 3, 0) });
     EXPECT_LT((mesh.normals[0] - V3f(1, 0, 0)).length(), 1e-6f);
     // A mirroring joint turns triangles round, as a mirroring node does.
     file.root["nodes"][1] = { { "scale", { -1, 1, 1 } } };
@@ -93,7 +93,7 @@ TEST_F(MeshFiles, MorphTargetsHaveTheirDefaultWeights)
     EXPECT_EQ(mesh.positions, (std::vector<V3d> { V3d(0, 0, 0.5), V3d(4, 0, 0.5), V3d(0, 3, 0.5) }));
     EXPECT_EQ(mesh.uvs[0], V2f(0.25f, 1));
     file.root["nodes"][0]["weights"] = { 2, 0 }; // the node's count
-    EXPECT_EQ(read("a.gltf", file.text()).positions, moved(kTriangleCorners, V3d(0, 0, 2)));
+    EXPECT_EQ(read("a.gltf", file.text()).positions, translated(kTriangleCorners, V3d(0, 0, 2)));
 }
 
 TEST_F(MeshFiles, InstancesAreAllBaked)
@@ -109,9 +109,9 @@ TEST_F(MeshFiles, InstancesAreAllBaked)
     attributes = { { "TRANSLATION", translation }, { "ROTATION", rotation }, { "SCALE", scale } };
     const Mesh mesh = read("a.gltf", file.text());
     ASSERT_EQ(mesh.triangles.size(), 2u);
-    expect_near(mesh.positions,
-                { V3d(10, 0, 7), V3d(12, 0, 7), V3d(10, 3, 7), //
-                  V3d(0, 20, 7), V3d(0, 24, 7), V3d(-6, 20, 7) });
+    expect_points(mesh.positions,
+                  { V3d(10, 0, 7), V3d(12, 0, 7), V3d(10, 3, 7), //
+                    V3d(0, 20, 7), V3d(0, 24, 7), V3d(-6, 20, 7) });
     attributes["SCALE"] = file.add_accessor<float>({ 1, 1, 1 }, "VEC3");
     EXPECT_EQ(refusal(folder.write("a.gltf", file.text())), "SCALE of the instances of node \"\" has 1 element, not 2");
 }
@@ -160,7 +160,7 @@ TEST_F(MeshFiles, TheDefaultSceneIsShown)
     file.root["nodes"] = { { { "mesh", 0 } }, { { "mesh", 0 }, { "translation", { 0, 0, 1 } } } };
     file.root["scenes"] = { { { "nodes", { 0 } } }, { { "nodes", { 1 } } } };
     file.root["scene"] = 1;
-    EXPECT_EQ(read("a.gltf", file.text()).positions, moved(kTriangleCorners, V3d(0, 0, 1)));
+    EXPECT_EQ(read("a.gltf", file.text()).positions, translated(kTriangleCorners, V3d(0, 0, 1)));
     file.root.erase("scene");
     EXPECT_EQ(read("a.gltf", file.text()).positions, kTriangleCorners) << "the first";
     file.root.erase("scenes");
@@ -223,7 +223,7 @@ TEST_F(MeshFiles, GltfAnimationsAreNotPlayedAndAWarningSaysSo)
     const auto array = [](const nlohmann::json& one) { return nlohmann::json::array({ one }); };
     file.root["animations"] = array({ { "channels", array(channel) }, { "samplers", array(sampler) } });
     const Mesh mesh = read("b.gltf", file.text());
-    expect_near(mesh.positions, still);
+    expect_points(mesh.positions, still);
     EXPECT_THAT(mesh.warnings,
                 testing::ElementsAre("1 animation is not played: nodes stay as they are; bake other poses from a file "
                                      "each, or from Alembic"));

@@ -47,7 +47,7 @@ ImageBuf random_texels(const char* basis)
     return vm;
 }
 
-ImageBuf environment(const std::function<V3f(V3d direction)>& light, int width = 64)
+ImageBuf painted_by(const std::function<V3f(V3d direction)>& light, int width = 64)
 {
     return cfem(width, width / 2, light);
 }
@@ -62,7 +62,7 @@ float visibility(const ImageBuf& vm, int i)
 TEST(LightmapBasis, AConstantEnvironmentIsVisibilityTimesItsLight)
 {
     const V3f light(0.25f, 1, 1000);
-    const std::vector<ImageBuf> stack = filtered_stack(almost(environment([&](V3d) { return light; })));
+    const std::vector<ImageBuf> stack = filtered_stack(almost(painted_by([&](V3d) { return light; })));
     for (const char* name : kModels)
         for (const ImageBuf& vm : { baked(name, 64), random_texels(name) }) {
             if (name == std::string("sh") && vm.spec().width == 16)
@@ -83,7 +83,7 @@ TEST(LightmapBasis, AConstantEnvironmentIsVisibilityTimesItsLight)
 
 TEST(LightmapBasis, AnOpenTexelIsTheFilteredEnvironment)
 {
-    const std::vector<ImageBuf> stack = filtered_stack(environment(
+    const std::vector<ImageBuf> stack = filtered_stack(painted_by(
                                                            [](V3d w) {
                                                                return V3f(float(1 + 0.5 * w.x + 0.3 * w.y * w.z),
                                                                           float(1 + w.x * w.z), float(1 - 0.7 * w.z));
@@ -109,7 +109,7 @@ TEST(LightmapBasis, AnOpenTexelIsTheFilteredEnvironment)
 
 TEST(LightmapBasis, LightOfASunIsNeverNegativeAndTurnsWithoutAJump)
 {
-    ImageBuf sun = environment([](V3d) { return V3f(0.1f); });
+    ImageBuf sun = painted_by([](V3d) { return V3f(0.1f); });
     const float bright[3] { 1e4f, 1e4f, 1e4f };
     sun.setpixel(20, 9, bright, 3);
     const std::vector<ImageBuf> stack = filtered_stack(sun);
@@ -140,7 +140,7 @@ TEST(LightmapBasis, LightOfASunIsNeverNegativeAndTurnsWithoutAJump)
 
 TEST(LightmapBasis, TheObjectTurnsAgainstTheEnvironment)
 {
-    const ImageBuf env = environment([](V3d w) { return V3f(float(std::exp(3 * w.x)), float(std::exp(2 * w.z)), 1); });
+    const ImageBuf env = painted_by([](V3d w) { return V3f(float(std::exp(3 * w.x)), float(std::exp(2 * w.z)), 1); });
     ImageBuf rolled(env.spec()); // by a quarter
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -165,7 +165,7 @@ TEST(LightmapBasis, TheObjectTurnsAgainstTheEnvironment)
 
 TEST(LightmapBasis, HarmonicsAreLinearInTheMap)
 {
-    const std::vector<ImageBuf> stack = filtered_stack(environment([](V3d w) { return V3f(float(2 + w.x * w.y)); }));
+    const std::vector<ImageBuf> stack = filtered_stack(painted_by([](V3d w) { return V3f(float(2 + w.x * w.y)); }));
     const ImageBuf vm = baked("sh"), image = lit(vm, stack);
     ImageBuf mean(vm.spec());
     const int row = 24 * vm.nchannels();
@@ -240,7 +240,7 @@ TEST(LightmapBasis, NoTexelIsLitBeyondWhatThereIs)
     // under which a lamp shines.
     const Mesh floor = scenes::sphere(V3d(0), 1, 12);
     const Mesh plate = scenes::quad({ -3, 1.05, -3 }, { -3, 1.05, 3 }, { 3, 1.05, 3 }, { 3, 1.05, -3 });
-    ImageBuf lamp = environment([](V3d) { return V3f(1); }, 128);
+    ImageBuf lamp = painted_by([](V3d) { return V3f(1); }, 128);
     const float bright[3] { 1e4f, 1e4f, 1e4f };
     for (const int row : { 30, 32, 34 })
         lamp.setpixel(10 * row - 280, row, bright, 3);
@@ -268,7 +268,7 @@ TEST(LightmapBasis, NoTexelIsLitBeyondWhatThereIs)
 
 TEST(LightmapBasis, LightOutOfFloatsRangeIsRefusedNotBlack)
 {
-    const ImageBuf env = environment([](V3d w) { return V3f(w.y > 0.5 ? 0.0f : 3e38f); });
+    const ImageBuf env = painted_by([](V3d w) { return V3f(w.y > 0.5 ? 0.0f : 3e38f); });
     std::vector<ImageBuf> light(1);
     std::string error;
     ASSERT_TRUE(make_radiance(light[0], env, {}, error)) << error;
@@ -281,7 +281,7 @@ TEST(LightmapBasis, LightOutOfFloatsRangeIsRefusedNotBlack)
 
 TEST(LightmapBasis, TheShapeOfTheEnvironmentsPixelsMattersLittle)
 {
-    const ImageBuf env = environment([](V3d w) { return V3f(float(std::exp(2 * w.x) + w.y * w.y)); }, 256);
+    const ImageBuf env = painted_by([](V3d w) { return V3f(float(std::exp(2 * w.x) + w.y * w.y)); }, 256);
     for (const char* name : { "mask", "cells" }) {
         const ImageBuf vm = baked(name, 512);
         const auto at_size = [&](int width, int height) {

@@ -10,7 +10,7 @@ using namespace scene;
 
 namespace {
 
-ImageBuf environment(int width, const std::function<V3f(V3d direction)>& light)
+ImageBuf painted_sky(int width, const std::function<V3f(V3d direction)>& light)
 {
     return cfem(width, width / 2, light); // any image of a function of direction
 }
@@ -44,7 +44,7 @@ struct ModelErrors
 {
     double paper, lobe;
 };
-template <class Open> ModelErrors errors_of(Open&& open)
+template <class Open> ModelErrors model_errors(Open&& open)
 {
     double paper = 0, lobe = 0, mean = 0;
     const int count = 24;
@@ -53,7 +53,7 @@ template <class Open> ModelErrors errors_of(Open&& open)
         const V3d toward(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);
         const auto light = [&](V3d w) { return std::exp(3 * w.dot(toward)); };
         const LitPoint truth = integrate(open, light, 150);
-        const auto stack = filtered_stack(environment(128, [&](V3d w) { return V3f(float(light(w))); }), 128);
+        const auto stack = filtered_stack(painted_sky(128, [&](V3d w) { return V3f(float(light(w))); }), 128);
         for (const auto& [name, sum] : { std::pair { "paper", &paper }, { "lobe", &lobe } }) {
             const double got = color(lit(one_texel(float(truth.v), V3f(truth.b)), stack, model(name))).x;
             *sum += (got - truth.light) * (got - truth.light);
@@ -96,7 +96,7 @@ TEST(LightmapModel, AConstantEnvironmentIsVisibilityTimesItsLight)
 {
     const ImageBuf vm = random_vismap(64, 48);
     const V3f light(0.25f, 1, 1000);
-    const ImageBuf image = lit(vm, filtered_stack(almost(environment(64, [&](V3d) { return light; }))), model("lobe"));
+    const ImageBuf image = lit(vm, filtered_stack(almost(painted_sky(64, [&](V3d) { return light; }))), model("lobe"));
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x)
             for (int c = 0; c < 3; ++c) {
@@ -107,7 +107,7 @@ TEST(LightmapModel, AConstantEnvironmentIsVisibilityTimesItsLight)
 
 TEST(LightmapModel, LightOfASunIsNeverNegativeAndTurnsWithoutASeam)
 {
-    ImageBuf sun = environment(64, [](V3d) { return V3f(0); });
+    ImageBuf sun = painted_sky(64, [](V3d) { return V3f(0); });
     const float bright[3] { 1e5f, 1e5f, 1e5f };
     sun.setpixel(20, 9, bright, 3);
     const std::vector<ImageBuf> stack = filtered_stack(sun);
@@ -141,7 +141,7 @@ TEST(LightmapModel, ALobeFollowsAWallAndAWellMoreCloselyThanTheCosine)
     EXPECT_LT((half.b - V3d(2 / (3 * latlong::pi), 0, 1.0 / 3)).length(), 1e-4);
     for (const auto& [name, cosine] : { std::pair { "wall", -1.0 }, { "wide well", 0.5 }, { "narrow well", 0.8 } }) {
         const auto open = [&, least = cosine](V3d w) { return least < 0 ? wall(w) : w.z > least; };
-        const auto [paper, lobe] = errors_of(open);
+        const auto [paper, lobe] = model_errors(open);
         EXPECT_LT(lobe, 0.5 * paper) << name << ": paper " << paper << ", lobe " << lobe;
         RecordProperty(std::string(name) + "_paper", std::to_string(paper));
         RecordProperty(std::string(name) + "_lobe", std::to_string(lobe));

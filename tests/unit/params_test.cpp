@@ -9,7 +9,7 @@ using namespace vmlight;
 
 namespace {
 
-std::string refusal(const char* name, const char* text)
+std::string param_refusal(const char* name, const char* text)
 {
     CfemParams params;
     std::string error;
@@ -21,20 +21,20 @@ std::string refusal(const char* name, const char* text)
 
 TEST(Params, AWholeTextMustBeTheValue)
 {
-    EXPECT_EQ(refusal("order", "3x"), "order: \"3x\" is not a whole number");
-    EXPECT_EQ(refusal("order", ""), "order: \"\" is not a whole number");
-    EXPECT_EQ(refusal("order", "2.5"), "order: \"2.5\" is not a whole number");
-    EXPECT_EQ(refusal("order", "nan"), "order: \"nan\" is not a whole number");
-    EXPECT_EQ(refusal("order", "0x10"), "order: \"0x10\" is not a whole number");
-    EXPECT_EQ(refusal("order", "0"), "order: 0 is not in [1, 64]");
-    EXPECT_EQ(refusal("order", "1e30"), "order: 1e30 is not in [1, 64]");
-    EXPECT_EQ(refusal("filter", "Exact"), "filter: \"Exact\" is not one of exact, sh");
+    EXPECT_EQ(param_refusal("order", "3x"), "order: \"3x\" is not a whole number");
+    EXPECT_EQ(param_refusal("order", ""), "order: \"\" is not a whole number");
+    EXPECT_EQ(param_refusal("order", "2.5"), "order: \"2.5\" is not a whole number");
+    EXPECT_EQ(param_refusal("order", "nan"), "order: \"nan\" is not a whole number");
+    EXPECT_EQ(param_refusal("order", "0x10"), "order: \"0x10\" is not a whole number");
+    EXPECT_EQ(param_refusal("order", "0"), "order: 0 is not in [1, 64]");
+    EXPECT_EQ(param_refusal("order", "1e30"), "order: 1e30 is not in [1, 64]");
+    EXPECT_EQ(param_refusal("filter", "Exact"), "filter: \"Exact\" is not one of exact, sh");
 }
 
 TEST(Params, AnUnknownNameIsRefusedWithTheNearest)
 {
-    EXPECT_EQ(refusal("filtre", "sh"), "unknown parameter \"filtre\"; did you mean \"filter\"?");
-    EXPECT_EQ(refusal("quaternionic", "1"), "unknown parameter \"quaternionic\"");
+    EXPECT_EQ(param_refusal("filtre", "sh"), "unknown parameter \"filtre\"; did you mean \"filter\"?");
+    EXPECT_EQ(param_refusal("quaternionic", "1"), "unknown parameter \"quaternionic\"");
 }
 
 TEST(Params, ListsTakeTheirCountOrNothing)
@@ -64,7 +64,7 @@ TEST(Params, ASizeIsTwoNumbersOrTheWidthAlone)
     EXPECT_EQ(params.resolution.width, 7);
     EXPECT_EQ(params.resolution.height, 9);
     for (const char* text : { "", "x", "7x", "x9", "7x9x2", "-7x9", "7 by 9", "1e9x1" })
-        refusal("resolution", text);
+        param_refusal("resolution", text);
 }
 
 TEST(Params, MetadataReadsBackToTheSameParams)

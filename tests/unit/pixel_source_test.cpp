@@ -14,7 +14,7 @@ using namespace stage_scene;
 
 namespace {
 
-std::vector<OIIO::ImageBuf> made(PixelSource& source, ImageRange range = {})
+std::vector<OIIO::ImageBuf> all_made(PixelSource& source, ImageRange range = {})
 {
     std::vector<OIIO::ImageBuf> images;
     std::string error;
@@ -23,7 +23,7 @@ std::vector<OIIO::ImageBuf> made(PixelSource& source, ImageRange range = {})
     return images;
 }
 
-std::vector<float> read(PixelSource& source, int image = 0)
+std::vector<float> read_level(PixelSource& source, int image = 0)
 {
     const OIIO::ImageSpec& spec = source.spec_of(image);
     std::vector<float> pixels(size_t(spec.image_pixels()) * spec.nchannels, -1.0f);
@@ -32,7 +32,7 @@ std::vector<float> read(PixelSource& source, int image = 0)
     return pixels;
 }
 
-PixelSourcePointer opened(const std::string& name)
+PixelSourcePointer opened_source(const std::string& name)
 {
     std::string error;
     PixelSourcePointer source = open_source(name, error);
@@ -49,22 +49,22 @@ TEST(PixelSource, MadeWholeOrReadByTheTileItIsTheSame)
          { folder / "hero.vismap", folder / "hero.vismap?basis=cells&channels=coverage", folder / "studio.cfem",
            folder / "hero.lightmap", folder / "hero.lightmap?albedo=" + (folder / "studio.exr"),
            folder / "studio.exr" }) {
-        const PixelSourcePointer source = opened(name);
+        const PixelSourcePointer source = opened_source(name);
         ASSERT_TRUE(source);
-        EXPECT_EQ(all_pixels(made(*source)[0]), read(*source)) << name;
+        EXPECT_EQ(all_pixels(all_made(*source)[0]), read_level(*source)) << name;
     }
 }
 
 TEST(PixelSource, OfAStackItMakesTheImagesThatAreAskedFor)
 {
     const Folder folder;
-    const PixelSourcePointer stack = opened(folder / "studio.cfem?stack=true");
+    const PixelSourcePointer stack = opened_source(folder / "studio.cfem?stack=true");
     ASSERT_EQ(stack->subimages(), kStackImages);
     for (const ImageRange range :
          { ImageRange { 0, 1 }, { 0, kStackLevels }, { kStackLevels, 1 }, { 0, kStackImages } }) {
-        const std::vector<OIIO::ImageBuf> images = made(*stack, range);
+        const std::vector<OIIO::ImageBuf> images = all_made(*stack, range);
         for (int i = 0; i < range.count; ++i)
-            EXPECT_EQ(all_pixels(images[size_t(i)]), read(*stack, range.first + i)) << range.first << " " << i;
+            EXPECT_EQ(all_pixels(images[size_t(i)]), read_level(*stack, range.first + i)) << range.first << " " << i;
     }
 }
 
@@ -73,10 +73,10 @@ TEST(PixelSource, AFileThatWasOnlyTouchedIsMadeAndOneOfAnotherSizeRefused)
 {
     const Folder folder;
     const std::string path = folder / "studio.exr";
-    const PixelSourcePointer source = opened(path);
-    const std::vector<float> before = read(*source);
+    const PixelSourcePointer source = opened_source(path);
+    const std::vector<float> before = read_level(*source);
     std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(5));
-    EXPECT_EQ(all_pixels(made(*source)[0]), before);
+    EXPECT_EQ(all_pixels(all_made(*source)[0]), before);
     OIIO::ImageBuf unread;
     std::string error;
     EXPECT_FALSE(read_all(unread, *source, error)) << "readers promise the file as it was";

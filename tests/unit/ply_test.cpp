@@ -76,7 +76,7 @@ std::string wedges(const std::string& format_name, const std::string& face_prope
 
 const std::string kTexcoord = "property list uchar float texcoord\n";
 
-std::string quad(const std::string& names, const std::string& faces)
+std::string quad_text(const std::string& names, const std::string& faces)
 {
     return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" + names
         + faces;
@@ -160,21 +160,23 @@ TEST_F(PlyFiles, TextureCoordinatesAreForAllCornersOfAFace)
 TEST_F(PlyFiles, TextureCoordinatesOfVerticesHaveManyNames)
 {
     const std::string hash
-        = mesh_hash(read("a.ply", quad("property float s\nproperty float t\n", kFace + kRows + "4 0 1 2 3\n")));
+        = mesh_hash(read("a.ply", quad_text("property float s\nproperty float t\n", kFace + kRows + "4 0 1 2 3\n")));
     for (const auto& [u, v] :
          { std::pair("u", "v"), { "texture_u", "texture_v" }, { "tx", "ty" }, { "texture_s", "texture_t" } }) {
         const std::string names = format("property float {}\nproperty float {}\n", u, v);
-        EXPECT_EQ(mesh_hash(read("b.ply", quad(names, kFace + kRows + "4 0 1 2 3\n"))), hash) << u;
+        EXPECT_EQ(mesh_hash(read("b.ply", quad_text(names, kFace + kRows + "4 0 1 2 3\n"))), hash) << u;
     }
-    const Mesh swapped = read("b.ply", quad("property float t\nproperty float s\n", kFace + kRows + "4 0 1 2 3\n"));
+    const Mesh swapped
+        = read("b.ply", quad_text("property float t\nproperty float s\n", kFace + kRows + "4 0 1 2 3\n"));
     EXPECT_EQ(swapped.uvs[1], V2f(0, 1)) << "by name, not by place";
-    EXPECT_TRUE(read("b.ply", quad("property float a\nproperty float b\n", kFace + kRows + "4 0 1 2 3\n")).uvs.empty());
+    EXPECT_TRUE(
+        read("b.ply", quad_text("property float a\nproperty float b\n", kFace + kRows + "4 0 1 2 3\n")).uvs.empty());
     // Those of corners go before those of vertices; a face without any has the vertices'.
     const std::string both = replace(kFace, "end_header", kTexcoord + "end_header");
     const Mesh mesh
         = read("b.ply",
-               quad("property float s\nproperty float t\n",
-                    replace(both, "face 1", "face 2") + kRows + "3 0 1 2 6 .5 .5 .25 .5 .5 .75\n3 0 2 3 0\n"));
+               quad_text("property float s\nproperty float t\n",
+                         replace(both, "face 1", "face 2") + kRows + "3 0 1 2 6 .5 .5 .25 .5 .5 .75\n3 0 2 3 0\n"));
     EXPECT_EQ(mesh.uvs[mesh.triangles[0][1]], V2f(0.25f, 0.5f));
     EXPECT_EQ(mesh.uvs[mesh.triangles[1][1]], V2f(1, 1));
 }
@@ -183,7 +185,7 @@ TEST_F(PlyFiles, NormalsOfVerticesAreKept)
 {
     const std::string names = "property float nx\nproperty float ny\nproperty float nz\n";
     const Mesh mesh
-        = read("a.ply", quad(names, kFace + "0 0 0 2 0 0\n1 0 0 0 .5 0\n1 1 0 0 0 0\n0 1 0 nan 0 1\n4 0 1 2 3\n"));
+        = read("a.ply", quad_text(names, kFace + "0 0 0 2 0 0\n1 0 0 0 .5 0\n1 1 0 0 0 0\n0 1 0 nan 0 1\n4 0 1 2 3\n"));
     EXPECT_EQ(mesh.normals[0], V3f(1, 0, 0));
     EXPECT_EQ(mesh.normals[1], V3f(0, 1, 0));
     EXPECT_EQ(mesh.normals[2], V3f(0, 0, 1)) << "made";
@@ -222,7 +224,7 @@ TEST_F(PlyFiles, PolygonsAreCut)
 
 TEST_F(PlyFiles, WhatCannotBeReadIsTold)
 {
-    const std::string text = quad("property float s\nproperty float t\n", kFace + kRows + "4 0 1 2 3\n");
+    const std::string text = quad_text("property float s\nproperty float t\n", kFace + kRows + "4 0 1 2 3\n");
     const auto said = [&](const char* what, const char* instead) {
         return refusal(folder.write("a.ply", replace(text, what, instead)));
     };

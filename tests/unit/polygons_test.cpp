@@ -17,7 +17,7 @@ struct Triangles
     double area = 0;
 };
 
-Triangles cut(const std::vector<std::vector<V3d>>& polygons, bool is_far = false)
+Triangles triangulated(const std::vector<std::vector<V3d>>& polygons, bool is_far = false)
 {
     std::vector<V3d> corners;
     std::vector<uint32_t> ends;
@@ -50,25 +50,26 @@ std::vector<V3d> l_shape(double size = 1, const V3d& at = V3d(0))
 }
 
 const std::vector<V3d> kSquare { V3d(0), V3d(1, 0, 0), V3d(1, 1, 0), V3d(0, 1, 0) };
-const std::vector<V3d> kTriangle { V3d(0), V3d(1, 0, 0), V3d(0, 1, 0) };
+const std::vector<V3d> kOneTriangle { V3d(0), V3d(1, 0, 0), V3d(0, 1, 0) };
 
 } // namespace
 
 TEST(Polygons, AreCutInTheirOrder)
 {
-    const Triangles mixed = cut({ kTriangle, kSquare, { V3d(0), V3d(1) }, kTriangle, l_shape(), {}, kTriangle });
+    const Triangles mixed
+        = triangulated({ kOneTriangle, kSquare, { V3d(0), V3d(1) }, kOneTriangle, l_shape(), {}, kOneTriangle });
     EXPECT_EQ(mixed.polygons, (std::vector<size_t> { 0, 1, 1, 3, 4, 4, 4, 4, 6 }));
     EXPECT_NEAR(mixed.area, 3 * 0.5 + 1 + 7, 1e-12);
-    EXPECT_TRUE(cut({}).polygons.empty());
-    EXPECT_TRUE(cut({ {}, { V3d(1) } }).polygons.empty());
+    EXPECT_TRUE(triangulated({}).polygons.empty());
+    EXPECT_TRUE(triangulated({ {}, { V3d(1) } }).polygons.empty());
 }
 
 TEST(Polygons, AreManyMoreThanOneBatch)
 {
     std::vector<std::vector<V3d>> polygons;
     for (int i = 0; i < 150000; ++i)
-        polygons.push_back(i % 3 == 0 ? kTriangle : kSquare);
-    const Triangles many = cut(polygons);
+        polygons.push_back(i % 3 == 0 ? kOneTriangle : kSquare);
+    const Triangles many = triangulated(polygons);
     EXPECT_EQ(many.polygons.size(), 50000u + 2 * 100000u);
     EXPECT_TRUE(std::is_sorted(many.polygons.begin(), many.polygons.end()));
     EXPECT_EQ(many.area, 50000 * 0.5 + 100000);
@@ -76,15 +77,15 @@ TEST(Polygons, AreManyMoreThanOneBatch)
 
 TEST(Polygons, KeepTheirShapeFarAwayAndBesideOthersOfAnySize)
 {
-    const Triangles far = cut({ l_shape(1, V3d(1e9, -1e9, 1e9)), kSquare }, true);
+    const Triangles far = triangulated({ l_shape(1, V3d(1e9, -1e9, 1e9)), kSquare }, true);
     EXPECT_EQ(far.polygons.size(), 6u);
     EXPECT_EQ(far.area, 8);
-    EXPECT_EQ(cut({ l_shape(1e-30), l_shape(1e30) }).polygons.size(), 8u);
+    EXPECT_EQ(triangulated({ l_shape(1e-30), l_shape(1e30) }).polygons.size(), 8u);
 }
 
 TEST(Polygons, ThatAreNotFiniteAreTheBuildersToRefuse)
 {
     std::vector<V3d> bad = l_shape();
     bad[3].x = NAN;
-    EXPECT_EQ(cut({ bad, kTriangle }).polygons, (std::vector<size_t> { 0, 0, 0, 0, 1 }));
+    EXPECT_EQ(triangulated({ bad, kOneTriangle }).polygons, (std::vector<size_t> { 0, 0, 0, 0, 1 }));
 }

@@ -10,7 +10,7 @@ using namespace vmlight::scenes;
 
 namespace {
 
-constexpr double kError = 0.01;
+constexpr double kGroundError = 0.01;
 
 } // namespace
 
@@ -55,12 +55,12 @@ TEST(PoseSequence, AFaceOnTheGroundThatSinksByLessThanRaysResolveIsUnderIt)
     params.ground_height = 0;
     const Mesh sunk = moved(door(0), Rotation(), V3d(0, -std::ldexp(1.0, -16), 0));
     const auto whole = bake_alone(scene_of(sunk), params);
-    for (const double error : { 0.0, kError }) {
+    for (const double error : { 0.0, kGroundError }) {
         PoseSequence sequence(error);
         const auto base = bake_pose(sequence, scene_of(door(0)), params, "a");
         const auto kept = bake_pose(sequence, scene_of(sunk), params, "b");
         EXPECT_GT(share_beyond(*base, *whole, 0.5), 0.5);
-        EXPECT_EQ(share_beyond(*kept, *whole, kError), 0) << error;
+        EXPECT_EQ(share_beyond(*kept, *whole, kGroundError), 0) << error;
     }
 }
 
@@ -83,11 +83,11 @@ TEST(PoseSequence, AFewTrianglesThatLeanOverTheGroundAreBakedAgain)
     };
     const BakeScenePointer upright = scene_of(shingled(0)), leaning = scene_of(shingled(0.05));
     const auto whole = bake_alone(leaning, params);
-    PoseSequence sequence(kError);
+    PoseSequence sequence(kGroundError);
     bake_pose(sequence, upright, params, "a");
     const auto kept = bake_pose(sequence, leaning, params, "b");
     const PoseMotion motion(*upright, *leaning);
-    const PoseGround ground(motion, params, kError);
+    const PoseGround ground(motion, params, kGroundError);
     const auto cover = std::make_unique<TileCover>();
     const UvRaster raster(leaning->mesh(), 256, 256);
     int leans = 0;

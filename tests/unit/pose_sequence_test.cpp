@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses baked one after the other: what is kept is what it was, and the rest is traced.
+#include "cases.h"
 #include "drawn_scene.h"
 #include "pose_scenes.h"
 
@@ -8,7 +9,7 @@ using namespace vmlight::scenes;
 
 namespace {
 
-constexpr double kError = 0.01;
+constexpr double kSequenceError = 0.01;
 
 V3d direction_of(const float* texel)
 {
@@ -20,7 +21,7 @@ V3d direction_of(const float* texel)
 TEST(PoseSequence, ARigidMoveTracesNoRay)
 {
     const Mesh ball = placed(icosphere(1), 0.4, V3d(0.5, 1.6, 0.2));
-    for (const double error : { 0.0, kError }) {
+    for (const double error : { 0.0, kSequenceError }) {
         const Rotation turn = rotation_from_angles(20, 50, -110);
         const V3d shift(3, -2, 1);
         PoseSequence sequence(error);
@@ -64,14 +65,14 @@ TEST(PoseSequence, WhatStandsStillOnTheGroundIsNotWhatTurnsOnIt)
 TEST(PoseSequence, ADoorThatOpensTakesAFifthOfTheRays)
 {
     const VismapParams params = pose_params(256, 256);
-    PoseSequence sequence(kError);
+    PoseSequence sequence(kSequenceError);
     bake_pose(sequence, scene_of(door(0)), params, "a");
     for (const double degrees : { 10, 35, 80 }) {
         const auto kept = bake_pose(sequence, scene_of(door(degrees)), params, "b");
         const auto whole = bake_alone(scene_of(door(degrees)), params);
         EXPECT_LE(kept->report.rays * 5, whole->report.rays) << degrees;
         // The same rays, but where the door turns: there two bakes differ by their noise.
-        EXPECT_LE(share_beyond(*kept, *whole, kError), 0.01) << degrees;
+        EXPECT_LE(share_beyond(*kept, *whole, kSequenceError), 0.01) << degrees;
         EXPECT_EQ(kept->report.covered, whole->report.covered);
         EXPECT_GT(kept->pose.kept, kept->pose.covered / 2);
         EXPECT_EQ(kept->pose.base, "a");
@@ -113,7 +114,7 @@ TEST(PoseSequence, TheSameBytesForAnyThreads)
     std::unique_ptr<PoseMap> maps[3];
     const int threads[3] = { 1, 2, 5 };
     for (int i = 0; i < 3; ++i) {
-        PoseSequence sequence(kError);
+        PoseSequence sequence(kSequenceError);
         bake_pose(sequence, scene_of(flag(0)), params, "a", threads[i]);
         maps[i] = bake_pose(sequence, scene_of(flag(0.2)), params, "b", threads[i]);
         EXPECT_TRUE(maps[i]->has_bytes_of(*maps[0])) << threads[i];
@@ -140,7 +141,7 @@ TEST(PoseSequence, AnOccluderThatComesIntoReachIsTracedOnlyWhereItIsSeen)
     for (const bool leaves : { false, true }) {
         const BakeScenePointer before = leaves ? near : far, after = leaves ? far : near;
         const auto whole = bake_alone(after, params);
-        for (const double error : { 0.0, kError }) {
+        for (const double error : { 0.0, kSequenceError }) {
             PoseSequence sequence(error);
             bake_pose(sequence, before, params, "a");
             const auto pose = bake_pose(sequence, after, params, "b");
@@ -156,19 +157,19 @@ TEST(PoseSequence, ErrorsDoNotAddUp)
 {
     // Each pose is within the error of the one before; the last is far from the first.
     const VismapParams params = pose_params(192, 128);
-    PoseSequence sequence(kError);
+    PoseSequence sequence(kSequenceError);
     const auto wall = [](double x) { return placed(box(V3d(-0.1, 0, -2), V3d(0.1, 2, 2), false), 1, V3d(x, 0, 0)); };
     std::unique_ptr<PoseMap> last;
     for (int i = 0; i <= 24; ++i)
         last = bake_pose(sequence, scene_of(door(0), { wall(5.5 - 0.2 * i) }), params, std::to_string(i));
     const auto whole = bake_alone(scene_of(door(0), { wall(5.5 - 0.2 * 24) }), params);
-    EXPECT_LE(share_beyond(*last, *whole, kError), 0.01);
+    EXPECT_LE(share_beyond(*last, *whole, kSequenceError), 0.01);
 }
 
 TEST(PoseSequence, WhatMostlyChangesIsTheNextBase)
 {
     const VismapParams params = pose_params(96, 32);
-    PoseSequence sequence(kError);
+    PoseSequence sequence(kSequenceError);
     bake_pose(sequence, scene_of(skin(0)), params, "shallow");
     const auto deep = bake_pose(sequence, scene_of(skin(0.2)), params, "deep");
     EXPECT_EQ(deep->pose.base, "");
@@ -200,7 +201,7 @@ TEST(PoseSequence, OfTexelsThatStandStillOnlyRaysAreTracedThatMayMeetWhatMoves)
 TEST(PoseSequence, AnotherMeshIsBakedWholeAndSaysWhy)
 {
     const VismapParams params = pose_params(64, 16);
-    PoseSequence sequence(kError);
+    PoseSequence sequence(kSequenceError);
     bake_pose(sequence, scene_of(door(0)), params, "a");
     Mesh other = door(0);
     other.triangles.pop_back();
@@ -217,7 +218,7 @@ TEST(PoseSequence, AnotherMeshIsBakedWholeAndSaysWhy)
 
 TEST(PoseSequence, ConvexThingsNeedNoProbe)
 {
-    PoseSequence sequence(kError);
+    PoseSequence sequence(kSequenceError);
     const VismapParams params = pose_params(96, 64);
     bake_pose(sequence, scene_of(placed(icosphere(3), 1)), params, "a");
     Mesh egg = icosphere(3);
@@ -232,7 +233,7 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
 {
     double beyond = 0, covered = 0, kept = 0, more = 0, rays = 0, plain = 0;
     int proven = 0;
-    for (uint32_t seed = 0; seed < 24; ++seed) {
+    for (uint32_t seed = 0; seed < cases(24, 12); ++seed) {
         DrawnScene drawn(seed);
         VismapParams params = pose_params(72, 96);
         params.max_distance = drawn.params.max_distance;
@@ -260,11 +261,11 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
         const BakeScenePointer before = scene_of(drawn.mesh, drawn.occluders),
                                after = scene_of(other.mesh, other.occluders);
         const auto whole = bake_alone(after, params);
-        for (const double error : { 0.0, kError }) {
+        for (const double error : { 0.0, kSequenceError }) {
             PoseSequence sequence(error);
             bake_pose(sequence, before, params, "a");
             const auto pose = bake_pose(sequence, after, params, "b");
-            const double off = share_beyond(*pose, *whole, error == 0 ? 0 : kError + 1e-6);
+            const double off = share_beyond(*pose, *whole, error == 0 ? 0 : kSequenceError + 1e-6);
             if (error == 0) {
                 more += off * double(pose->pose.covered);
                 proven += pose->pose.kept > 0;

@@ -17,7 +17,7 @@ using namespace vmlight::scenes;
 
 namespace {
 
-constexpr int kSide = 96;
+constexpr int kSeamSide = 96;
 
 // A floor of 2 x 2 that faces +z, in halves that meet at x = 0: the left one upright in the map, the right one turned
 // by a quarter, elsewhere in the map. The right one rises from the seam by `slope`. Unless `meets`, they are not of one
@@ -45,7 +45,7 @@ Mesh halves(double slope = 0, bool meets = true, float right_tile = 0)
 
 VismapParams smooth_params(int samples)
 {
-    VismapParams params = error_params(kSide, samples);
+    VismapParams params = error_params(kSeamSide, samples);
     params.reconstruct = "auto";
     return params;
 }
@@ -61,25 +61,25 @@ bool have_same_bytes(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
 TEST(ReconstructSeams, ACellBeyondASeamIsWhereTheSurfaceGoesOn)
 {
     const Mesh mesh = halves();
-    const UvRaster raster(mesh, kSide, kSide);
-    const SeamLinks seams(mesh, raster, kSide, kSide, kFirstUdim);
+    const UvRaster raster(mesh, kSeamSide, kSeamSide);
+    const SeamLinks seams(mesh, raster, kSeamSide, kSeamSide, kFirstUdim);
     EXPECT_EQ(seams.links(), 2u);
     std::vector<SeamCell> cells;
     int found = 0;
     for (int tile = 0; tile < 4; ++tile) {
         const int x = tile % 2 * kTileSize, y = tile / 2 * kTileSize;
-        seams.find({ x, std::min(x + kTileSize, kSide), y, std::min(y + kTileSize, kSide) }, cells);
+        seams.find({ x, std::min(x + kTileSize, kSeamSide), y, std::min(y + kTileSize, kSeamSide) }, cells);
         for (const SeamCell& cell : cells) {
             if (cell.island != seams.island(0))
                 continue;
             // The halves' maps from texels to the floor; a texel of the right one is the nearest, half a texel away.
-            const double u = (cell.x + 0.5) / kSide, v = 1 - (cell.y + 0.5) / kSide;
+            const double u = (cell.x + 0.5) / kSeamSide, v = 1 - (cell.y + 0.5) / kSeamSide;
             const V3d there((u - 0.3) / 0.25, (v - 0.05) / 0.25 - 1, 0);
-            const double s = (cell.source_x + 0.5) / kSide, t = 1 - (cell.source_y + 0.5) / kSide;
+            const double s = (cell.source_x + 0.5) / kSeamSide, t = 1 - (cell.source_y + 0.5) / kSeamSide;
             const V3d source((t - 0.65) / 0.25, (0.95 - s) / 0.25 - 1, 0);
             EXPECT_GT(there.x, 0);
-            EXPECT_LE(std::abs(there.x - source.x), 0.51 / kSide / 0.25);
-            EXPECT_LE(std::abs(there.y - source.y), 0.51 / kSide / 0.25);
+            EXPECT_LE(std::abs(there.x - source.x), 0.51 / kSeamSide / 0.25);
+            EXPECT_LE(std::abs(there.y - source.y), 0.51 / kSeamSide / 0.25);
             ++found;
         }
     }
@@ -99,7 +99,7 @@ TEST(ReconstructSeams, TexelsBesideASeamGainAsMuchAsOthers)
         const auto error_beside = [&](const BakedMap& map) {
             double squares = 0;
             map.each([&](const Texel& t, int x, int y) {
-                if (const double u = (x + 0.5) / kSide; u > 0.3 - 3.0 / kSide && u < 0.3)
+                if (const double u = (x + 0.5) / kSeamSide; u > 0.3 - 3.0 / kSeamSide && u < 0.3)
                     squares += std::pow(double(t.visibility) - double(reference.at(x, y).visibility), 2);
             });
             return std::sqrt(squares);

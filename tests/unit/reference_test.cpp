@@ -17,8 +17,6 @@ using namespace vmlight::scenes;
 
 namespace {
 
-constexpr double kPi = latlong::pi;
-
 template <class Radiance> OIIO::ImageBuf sky(int width, int height, Radiance&& radiance)
 {
     OIIO::ImageBuf image(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat));
@@ -164,7 +162,7 @@ TEST(Reference, BesideAnEndlessWallALinearSkyGivesTheClosedForm)
     const Mesh wall = rectangle(V3d(-2e-4, -far, 0), V3d(0, 2 * far, 0), V3d(0, 0, far));
     const V3d a(0.5, 0.3, -0.4);
     const OIIO::ImageBuf env = sky(512, 256, [&](const V3d& d) { return V3d(1 + a.dot(d)); });
-    const double expected = 0.5 + 0.5 * (a.x * 4 / (3 * kPi) + a.z * 2 / 3);
+    const double expected = 0.5 + 0.5 * (a.x * 4 / (3 * latlong::pi) + a.z * 2 / 3);
     const Traced traced(floor, { wall }, env, 4, 4096);
     ASSERT_EQ(traced.error, "");
     double mean = 0, variance = 0;

@@ -36,7 +36,7 @@ public:
     }
 };
 
-ImageBuf made(const VismapRecipe& recipe, const MakeOptions& options = {})
+ImageBuf made_map(const VismapRecipe& recipe, const MakeOptions& options = {})
 {
     ImageBuf image;
     EXPECT_TRUE(make_image(image, recipe, options)) << image.geterror();
@@ -65,13 +65,13 @@ int expect_same_where_baked(const ImageBuf& part, const ImageBuf& whole)
 TEST(SelectionStage, APartHasTheBitsOfTheWhole)
 {
     const Room room;
-    const ImageBuf whole = made(room.recipe());
+    const ImageBuf whole = made_map(room.recipe());
     EXPECT_EQ(expect_same_where_baked(whole, whole), 3 * 256);
-    EXPECT_EQ(expect_same_where_baked(made(room.recipe({ { "Stone" }, {} })), whole), 2 * 256);
-    EXPECT_EQ(expect_same_where_baked(made(room.recipe({ {}, { "House" } })), whole), 2 * 256);
-    EXPECT_EQ(expect_same_where_baked(made(room.recipe({ { "Stone" }, { "House" } })), whole), 256);
+    EXPECT_EQ(expect_same_where_baked(made_map(room.recipe({ { "Stone" }, {} })), whole), 2 * 256);
+    EXPECT_EQ(expect_same_where_baked(made_map(room.recipe({ {}, { "House" } })), whole), 2 * 256);
+    EXPECT_EQ(expect_same_where_baked(made_map(room.recipe({ { "Stone" }, { "House" } })), whole), 256);
     // The wall occludes the floor.
-    const ImageBuf floor = made(room.recipe({ {}, { "Ground" } }));
+    const ImageBuf floor = made_map(room.recipe({ {}, { "Ground" } }));
     EXPECT_EQ(expect_same_where_baked(floor, whole), 256);
     EXPECT_LT(floor.getchannel(8, 24, 0, 0), 0.9f);
 }
@@ -82,7 +82,7 @@ TEST(SelectionStage, ReadersAndMetadataKnowThePart)
     room.write("part.vismap",
                "mesh = \"room.obj\"\nmaterial = [\"Stone\"]\nnode = \"House\"\nresolution = 32\n"
                "samples = 32\nmargin = 0\n");
-    const ImageBuf part = made(room.recipe({ { "Stone" }, { "House" } }));
+    const ImageBuf part = made_map(room.recipe({ { "Stone" }, { "House" } }));
     ImageBuf opened(room / "part.vismap");
     ASSERT_TRUE(opened.read(0, 0, true, OIIO::TypeFloat)) << opened.geterror();
     EXPECT_EQ(all_pixels(opened), all_pixels(part));
@@ -92,20 +92,21 @@ TEST(SelectionStage, ReadersAndMetadataKnowThePart)
     }
     ImageBuf other(room / "part.vismap?node=Ground&material=St*&material=Brick");
     ASSERT_TRUE(other.read(0, 0, true, OIIO::TypeFloat)) << other.geterror();
-    EXPECT_EQ(all_pixels(other), all_pixels(made(room.recipe({ {}, { "Ground" } }))));
+    EXPECT_EQ(all_pixels(other), all_pixels(made_map(room.recipe({ {}, { "Ground" } }))));
 
-    const ImageBuf whole = made(room.recipe());
+    const ImageBuf whole = made_map(room.recipe());
     EXPECT_EQ(whole.spec().find_attribute("vmlight:material"), nullptr);
     EXPECT_NE(attribute(part, "vmlight:meshHash"), attribute(whole, "vmlight:meshHash"));
     EXPECT_EQ(attribute(whole, "vmlight:occluderHash"), "");
     const std::string rest = attribute(part, "vmlight:occluderHash");
     EXPECT_EQ(rest.size(), 16u);
-    EXPECT_NE(rest, attribute(made(room.recipe({ { "Brick" }, {} })), "vmlight:occluderHash"));
+    EXPECT_NE(rest, attribute(made_map(room.recipe({ { "Brick" }, {} })), "vmlight:occluderHash"));
     VismapRecipe with_occluder = room.recipe({ { "Stone" }, { "House" } });
     with_occluder.occluder = { room.write("more.obj", room_obj()) };
-    EXPECT_EQ(attribute(made(with_occluder), "vmlight:occluderHash").substr(0, 17), rest + ",");
+    EXPECT_EQ(attribute(made_map(with_occluder), "vmlight:occluderHash").substr(0, 17), rest + ",");
     // All that there is: the map of the whole mesh.
-    EXPECT_EQ(attribute(made(room.recipe({ { "*" }, {} })), "vmlight:meshHash"), attribute(whole, "vmlight:meshHash"));
+    EXPECT_EQ(attribute(made_map(room.recipe({ { "*" }, {} })), "vmlight:meshHash"),
+              attribute(whole, "vmlight:meshHash"));
 }
 
 TEST(SelectionStage, PartsShareOneReadingAndOneScene)
@@ -121,7 +122,7 @@ TEST(SelectionStage, PartsShareOneReadingAndOneScene)
     EXPECT_EQ(materials, (std::vector<std::string> { "Stone", "Brick" }));
     options.scene = &scene;
     for (const char* material : { "Stone", "Brick", "*" })
-        made(room.recipe({ { material }, {} }), options);
+        made_map(room.recipe({ { material }, {} }), options);
     const Work work = Work() - before;
     EXPECT_EQ(work.meshes_read, 1);
     EXPECT_EQ(work.scenes_built, 1);
@@ -144,7 +145,7 @@ TEST(SelectionStage, ASmallPartOfALargeFileHasItsOwnPrecision)
     std::shared_ptr<const BakeScene> scene;
     MakeOptions options;
     options.scene = &scene;
-    const ImageBuf part = made(recipe, options);
+    const ImageBuf part = made_map(recipe, options);
     EXPECT_EQ(scene->frame().scale, 1);
     EXPECT_EQ(scene->frame().centre, Imath::V3d(8, 0, 0));
     EXPECT_EQ(scene->triangle_count(), 4);
@@ -153,7 +154,7 @@ TEST(SelectionStage, ASmallPartOfALargeFileHasItsOwnPrecision)
     recipe.selection = {};
     recipe.mesh = folder.write("hero.obj", head + quad(7, 1, 0, 1, "Hero"));
     recipe.occluder = { folder.write("ground.obj", head + quad(-1e4, 5004, .5, 1, "Roof")) };
-    const ImageBuf apart = made(recipe);
+    const ImageBuf apart = made_map(recipe);
     EXPECT_EQ(all_pixels(part), all_pixels(apart));
     for (const char* hash : { "vmlight:meshHash", "vmlight:occluderHash" })
         EXPECT_EQ(attribute(part, hash), attribute(apart, hash));

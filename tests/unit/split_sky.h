@@ -5,6 +5,7 @@
 #include "sun_sky.h"
 
 #include <vmlight/cfem/suns.h>
+#include <vmlight/math/latlong.h>
 
 #include <gtest/gtest.h>
 
@@ -31,20 +32,6 @@ inline std::vector<float> sky_pixels(const Environment& env)
             env.read(OIIO::ROI(0, spec.width, y, y + 1, 0, 1, 0, 3), &pixels[size_t(3) * spec.width * y], error))
             << error;
     return pixels;
-}
-
-// The integral of the direction over a pixel, by the midpoint rule.
-inline V3d pixel_moment(int x, int y, int width, int height)
-{
-    constexpr int n = 16;
-    V3d sum(0);
-    for (int j = 0; j < n; ++j) {
-        const double top = (y + double(j) / n) / height * M_PI, bottom = (y + (j + 1.0) / n) / height * M_PI;
-        for (int i = 0; i < n; ++i)
-            sum += latlong::direction((x + (i + 0.5) / n) / width, (y + (j + 0.5) / n) / height)
-                * ((std::cos(top) - std::cos(bottom)) * 2 * M_PI / width / n);
-    }
-    return sum;
 }
 
 inline Sky one_sun(const V3d& direction, double half_angle = 0.265, double glow = 0)

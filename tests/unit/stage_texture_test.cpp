@@ -16,7 +16,7 @@ using namespace stage_scene;
 
 namespace {
 
-using Color = std::array<float, 3>;
+using LookedUp = std::array<float, 3>;
 
 struct Lookup
 {
@@ -33,7 +33,7 @@ std::vector<Lookup> random_lookups(unsigned seed, int count)
     return lookups;
 }
 
-template <class System> bool look(System& system, const std::string& name, const Lookup& at, Color& color)
+template <class System> bool look(System& system, const std::string& name, const Lookup& at, LookedUp& color)
 {
     OIIO::TextureOpt options;
     return system->texture(OIIO::ustring(name), options, at.s, at.t, at.width, 0, 0, at.width, 3, color.data());
@@ -57,7 +57,7 @@ TEST(StageTexture, SixteenThreadsOfARendererSeeWhatAFileWouldShow)
     for (unsigned seed = 0; seed < 16; ++seed)
         threads.emplace_back([&, seed] {
             for (const Lookup& at : random_lookups(seed, 200)) {
-                Color a {}, b {};
+                LookedUp a {}, b {};
                 const bool good = look(system, live, at, a) && look(system, stored, at, b);
                 failed += !good;
                 wrong += a != b;
@@ -79,7 +79,7 @@ TEST(StageTexture, ABrokenRecipeIsAFailedLookupThatNamesIt)
     const Folder folder;
     folder.write("broken.lightmap", "vismap = \"gone.vismap\"\ncfem = \"studio.cfem\"\n");
     auto system = OIIO::TextureSystem::create(false);
-    Color color {};
+    LookedUp color {};
     EXPECT_FALSE(look(system, folder / "broken.lightmap", { 0.5f, 0.5f, 0.01f }, color));
     EXPECT_NE(system->geterror().find("broken.lightmap\" line 1: vismap: "), std::string::npos);
     OIIO::TextureSystem::destroy(system, true);

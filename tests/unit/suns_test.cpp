@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Environments are split into suns and a rest without loss, and into none where there is none.
+#include "cfem_brute.h"
 #include "split_sky.h"
 
 #include <vmlight/cfem/stack.h>
@@ -64,7 +65,7 @@ TEST(Suns, ADiscHasTheEnergyAndTheMomentOfWhatWasCutOut)
             }
             cut += excess.length() > 0;
             energy += excess * (latlong::row_solid_angle(y, height) / width);
-            moment += pixel_moment(x, y, width, height) * ((excess.x + excess.y + excess.z) / 3);
+            moment += brute::moment(x, y, width, height) * ((excess.x + excess.y + excess.z) / 3);
         }
     EXPECT_LT(cut, 100);
     const Sun& sun = split.suns()[0];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wide lights, such as the glow around a sun, are split off beside suns.
+#include "cfem_brute.h"
 #include "split_sky.h"
 
 #include <OpenImageIO/imagebuf.h>
@@ -114,7 +115,7 @@ TEST(WideSuns, DiscsHaveTheEnergyAndTheMomentOfWhatWasCutOut)
                     ASSERT_EQ(float(double(rest[i]) + excess[c]), all[i]);
                 }
                 cut.energy += excess * (latlong::row_solid_angle(y, height) / width);
-                cut.moment += pixel_moment(x, y, width, height) * ((excess.x + excess.y + excess.z) / 3);
+                cut.moment += brute::moment(x, y, width, height) * ((excess.x + excess.y + excess.z) / 3);
             }
         const Sums discs = sums_of(split.suns(), 0);
         for (int c = 0; c < 3; ++c)

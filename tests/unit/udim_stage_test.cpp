@@ -50,7 +50,7 @@ public:
     }
 };
 
-ImageBuf made(const VismapRecipe& recipe, const MakeOptions& options = {})
+ImageBuf made_tile(const VismapRecipe& recipe, const MakeOptions& options = {})
 {
     ImageBuf image;
     EXPECT_TRUE(make_image(image, recipe, options)) << image.geterror();
@@ -78,12 +78,12 @@ TEST(UdimStage, ATileIsTheMapOfTheMeshWithItsCoordinatesMovedThere)
         uv -= Imath::V2f(1, 1);
     ImageBuf expected;
     ASSERT_TRUE(make_vismap(expected, mesh, {}, moved.vismap_params)) << expected.geterror();
-    const ImageBuf tile = made(folder.recipe(1012));
+    const ImageBuf tile = made_tile(folder.recipe(1012));
     EXPECT_EQ(all_pixels(tile), all_pixels(expected));
-    EXPECT_NE(all_pixels(tile), all_pixels(made(folder.recipe(1001))));
+    EXPECT_NE(all_pixels(tile), all_pixels(made_tile(folder.recipe(1001))));
     EXPECT_EQ(tile.spec().get_string_attribute("vmlight:udim"), "1012");
     EXPECT_EQ(pixels_of(folder / "corner.vismap?udim=1012"), all_pixels(tile));
-    for (float value : all_pixels(made(folder.recipe(1044))))
+    for (float value : all_pixels(made_tile(folder.recipe(1044))))
         ASSERT_EQ(value, 0);
 }
 
@@ -96,7 +96,7 @@ TEST(UdimStage, TilesOfOneMeshShareItAndTheRayTracersScene)
         MakeOptions options;
         options.scene = &scene;
         for (int udim : { 1001, 1002, 1012 })
-            made(folder.recipe(udim), options);
+            made_tile(folder.recipe(udim), options);
         std::vector<int> udims;
         std::string error;
         ASSERT_TRUE(vismap_udims(udims, folder.recipe(1001), options, error)) << error;
@@ -156,7 +156,7 @@ TEST(UdimStage, AnEnvironmentIsFilteredOnceForAllTiles)
     for (int udim : { 1001, 1012 }) {
         recipe.udim = udim;
         ASSERT_TRUE(read_lightmap_inputs(inputs, recipe, options, error)) << error;
-        EXPECT_EQ(all_pixels(inputs.vismap), all_pixels(made(folder.recipe(udim))));
+        EXPECT_EQ(all_pixels(inputs.vismap), all_pixels(made_tile(folder.recipe(udim))));
     }
     EXPECT_EQ((Work() - before).cfems_made, 1);
     EXPECT_EQ((Work() - before).scenes_built, 1);

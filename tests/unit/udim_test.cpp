@@ -17,7 +17,7 @@ std::vector<int> udims(const std::string& text)
     return tiles;
 }
 
-std::string refusal(const std::string& text)
+std::string list_refusal(const std::string& text)
 {
     std::vector<int> tiles;
     std::string error;
@@ -49,11 +49,11 @@ TEST(Udim, TilesAreNumberedTenAcross)
 TEST(Udim, AListIsSortedAndEachTileComesOnce)
 {
     EXPECT_EQ(udims("1011,1001-1003,1002"), (std::vector<int> { 1001, 1002, 1003, 1011 }));
-    EXPECT_EQ(refusal("1001-"), "\"1001-\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
-    EXPECT_EQ(refusal("1001x"), "\"1001x\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
-    EXPECT_EQ(refusal("all"), "\"all\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
-    EXPECT_EQ(refusal(""), "\"\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
-    EXPECT_EQ(refusal("999-1001"), "999 is not a UDIM tile; expected 1001 to 9999");
+    EXPECT_EQ(list_refusal("1001-"), "\"1001-\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(list_refusal("1001x"), "\"1001x\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(list_refusal("all"), "\"all\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(list_refusal(""), "\"\" is not a list of UDIM tiles; expected something like 1001-1003,1011");
+    EXPECT_EQ(list_refusal("999-1001"), "999 is not a UDIM tile; expected 1001 to 9999");
 }
 
 TEST(Udim, AFilesNameSaysItsTileInItsLastPart)

@@ -8,7 +8,7 @@ using namespace vmlight::scenes;
 
 namespace {
 
-constexpr int kSide = 128;
+constexpr int kMipSide = 128;
 
 // The worst error, against an open floor, of the mips' texels at `level` that touch the island.
 double worst_error(int margin, int level)
@@ -16,15 +16,15 @@ double worst_error(int margin, int level)
     Mesh floor = floor_facing_z(1);
     for (V2f& uv : floor.uvs)
         uv = V2f(0.2f, 0.3f) + uv * 0.4f; // its border meets no border of a block
-    VismapParams params = map_params(kSide, kSide, 4, "fibonacci");
+    VismapParams params = map_params(kMipSide, kMipSide, 4, "fibonacci");
     params.margin = margin;
     params.channels = { "coverage" };
     OIIO::ImageBuf map;
     EXPECT_TRUE(make_vismap(map, floor, {}, params)) << map.geterror();
     const int block = 1 << level;
     double worst = 0;
-    for (int top = 0; top < kSide; top += block)
-        for (int left = 0; left < kSide; left += block) {
+    for (int top = 0; top < kMipSide; top += block)
+        for (int left = 0; left < kMipSide; left += block) {
             double sum[5] = {};
             for (int y = top; y < top + block; ++y)
                 for (int x = left; x < left + block; ++x) {

@@ -23,7 +23,7 @@ Mesh courtyard()
     return mesh;
 }
 
-std::string refusal(const Mesh& mesh, const VismapParams& params, const Progress& progress = {})
+std::string bake_refusal(const Mesh& mesh, const VismapParams& params, const Progress& progress = {})
 {
     OIIO::ImageBuf image(OIIO::ImageSpec(3, 3, 1, OIIO::TypeDesc::FLOAT));
     EXPECT_FALSE(make_vismap(image, mesh, {}, params, nullptr, 2, progress));
@@ -211,11 +211,11 @@ TEST(Vismap, RefusesWhatItCannotBake)
 {
     Mesh mesh = floor_facing_z(1);
     mesh.uvs.clear();
-    EXPECT_EQ(refusal(mesh, {}),
+    EXPECT_EQ(bake_refusal(mesh, {}),
               "\"floor\": no texture coordinates in this UV set: choose another uv_set, or unwrap the mesh with "
               "makevismap --unwrap");
     mesh.triangles.clear();
-    EXPECT_EQ(refusal(mesh, {}), "\"floor\": no triangles");
+    EXPECT_EQ(bake_refusal(mesh, {}), "\"floor\": no triangles");
 }
 
 TEST(Vismap, RefusesParametersOutOfRange)
@@ -223,42 +223,43 @@ TEST(Vismap, RefusesParametersOutOfRange)
     const Mesh mesh = floor_facing_z(1);
     VismapParams params;
     params.samples = 0;
-    EXPECT_EQ(refusal(mesh, params), "samples: 0 is not in [1, 1048576]");
+    EXPECT_EQ(bake_refusal(mesh, params), "samples: 0 is not in [1, 1048576]");
     params = {};
     params.sampler = "random";
-    EXPECT_EQ(refusal(mesh, params), "sampler: \"random\" is not one of fibonacci, sobol, halton");
+    EXPECT_EQ(bake_refusal(mesh, params), "sampler: \"random\" is not one of fibonacci, sobol, halton");
     params = {};
     params.measure = "";
-    EXPECT_EQ(refusal(mesh, params), "measure: \"\" is not one of cosine, uniform");
+    EXPECT_EQ(bake_refusal(mesh, params), "measure: \"\" is not one of cosine, uniform");
     params = {};
     params.seed = -1;
-    EXPECT_EQ(refusal(mesh, params), "seed: -1 is not in [0, 2147483647]");
+    EXPECT_EQ(bake_refusal(mesh, params), "seed: -1 is not in [0, 2147483647]");
     params = {};
     params.max_distance = -1;
-    EXPECT_EQ(refusal(mesh, params), "max_distance: -1 is not in [1e-30, 1e+30] or \"infinite\"");
+    EXPECT_EQ(bake_refusal(mesh, params), "max_distance: -1 is not in [1e-30, 1e+30] or \"infinite\"");
     params = {};
     params.max_distance = NAN;
-    EXPECT_EQ(refusal(mesh, params), "max_distance: \"nan\" is not a number or \"infinite\"");
+    EXPECT_EQ(bake_refusal(mesh, params), "max_distance: \"nan\" is not a number or \"infinite\"");
     params = {};
     params.margin = -2;
-    EXPECT_EQ(refusal(mesh, params), "margin: -2 is not in [0, 32768] or \"infinite\"");
+    EXPECT_EQ(bake_refusal(mesh, params), "margin: -2 is not in [0, 32768] or \"infinite\"");
     params = {};
     params.resolution = { 0, 5 };
-    EXPECT_EQ(refusal(mesh, params), "resolution: \"0x5\" is not WIDTHxHEIGHT from 1x1 to 32768x32768");
+    EXPECT_EQ(bake_refusal(mesh, params), "resolution: \"0x5\" is not WIDTHxHEIGHT from 1x1 to 32768x32768");
     params = {};
     params.width = 32769;
-    EXPECT_EQ(refusal(mesh, params), "width: 32769 is not in [0, 32768]");
+    EXPECT_EQ(bake_refusal(mesh, params), "width: 32769 is not in [0, 32768]");
     params = {};
     params.channels = { "normal", "coverage", "normal" };
-    EXPECT_EQ(refusal(mesh, params), "channels: \"normal\" is given twice");
+    EXPECT_EQ(bake_refusal(mesh, params), "channels: \"normal\" is given twice");
     params = {};
     params.height = -1;
-    EXPECT_EQ(refusal(mesh, params), "height: -1 is not in [0, 32768]");
+    EXPECT_EQ(bake_refusal(mesh, params), "height: -1 is not in [0, 32768]");
 }
 
 TEST(Vismap, AnInterruptedBakeLeavesNoPixels)
 {
     int calls = 0;
-    EXPECT_EQ(refusal(floor_facing_z(1), map_params(512, 512, 1), [&](double) { return ++calls < 3; }), "interrupted");
+    EXPECT_EQ(bake_refusal(floor_facing_z(1), map_params(512, 512, 1), [&](double) { return ++calls < 3; }),
+              "interrupted");
     EXPECT_EQ(calls, 3);
 }

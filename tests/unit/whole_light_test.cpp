@@ -51,7 +51,7 @@ public:
     }
 };
 
-std::vector<float> read(PixelSource& source)
+std::vector<float> read_light(PixelSource& source)
 {
     std::vector<float> pixels(size_t(source.spec().image_pixels()) * size_t(source.spec().nchannels), -1.0f);
     std::string error;
@@ -59,7 +59,7 @@ std::vector<float> read(PixelSource& source)
     return pixels;
 }
 
-OIIO::ImageBuf made(PixelSource& source)
+OIIO::ImageBuf made_light(PixelSource& source)
 {
     std::vector<OIIO::ImageBuf> images;
     std::string error;
@@ -75,7 +75,7 @@ TEST(WholeLight, ReadByTheTileOrMadeWholeItIsTheSame)
     for (const char* map : { "hero.vismap", "traced.vismap", "stored.vismap" }) {
         const PixelSourcePointer source = folder.lightmap(map, "auto");
         ASSERT_TRUE(source);
-        EXPECT_EQ(all_pixels(made(*source)), read(*source)) << map;
+        EXPECT_EQ(all_pixels(made_light(*source)), read_light(*source)) << map;
     }
 }
 
@@ -83,9 +83,9 @@ TEST(WholeLight, StoredSunsAreThoseThatAreTraced)
 {
     const SunnyFolder folder;
     const PixelSourcePointer traced = folder.lightmap("traced.vismap", "auto");
-    const std::vector<float> a = read(*traced);
+    const std::vector<float> a = read_light(*traced);
     const PixelSourcePointer stored = folder.lightmap("stored.vismap", "auto");
-    const std::vector<float> b = read(*stored);
+    const std::vector<float> b = read_light(*stored);
     ASSERT_EQ(a.size(), b.size());
     double squares = 0, sum = 0;
     for (size_t i = 0; i < a.size(); ++i) {
@@ -104,11 +104,11 @@ TEST(WholeLight, ItsMetadataSayWhySunsStayInTheEnvironment)
     const PixelSourcePointer without = folder.lightmap(folder / "map.exr", "auto");
     ASSERT_TRUE(without);
     EXPECT_EQ(without->spec().get_string_attribute("vmlight:no_suns"), reason);
-    EXPECT_EQ(made(*without).spec().get_string_attribute("vmlight:no_suns"), reason);
+    EXPECT_EQ(made_light(*without).spec().get_string_attribute("vmlight:no_suns"), reason);
     for (const auto& [map, suns] : { std::pair("hero.vismap", "auto"), std::pair("map.exr", "off") }) {
         const PixelSourcePointer source = folder.lightmap(map, suns);
         ASSERT_TRUE(source);
         EXPECT_FALSE(source->spec().find_attribute("vmlight:no_suns")) << map;
-        EXPECT_FALSE(made(*source).spec().find_attribute("vmlight:no_suns")) << map;
+        EXPECT_FALSE(made_light(*source).spec().find_attribute("vmlight:no_suns")) << map;
     }
 }

@@ -35,4 +35,13 @@ struct RayFan
     std::vector<uint8_t> lanes;
 };
 
+/// Of all lanes: those to trace, or those that were unoccluded.
+inline int64_t count_rays(const RayFan& fan)
+{
+    int64_t rays = 0;
+    for (const uint8_t lanes : fan.lanes)
+        rays += __builtin_popcount(lanes);
+    return rays;
+}
+
 } // namespace vmlight

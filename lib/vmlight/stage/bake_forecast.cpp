@@ -48,7 +48,7 @@ bool find_bake(Bake& dst, const VismapRecipe& recipe, const SceneOf& scene_of, c
 }
 
 // How far V of the texels is from that of another bake.
-bool compare(Difference& dst, const Bake& bake, const Bake& whole, const MakeOptions& options, std::string& error)
+bool compare_bakes(Difference& dst, const Bake& bake, const Bake& whole, const MakeOptions& options, std::string& error)
 {
     std::vector<double> seen[2];
     for (int k = 0; k < 2; ++k) {
@@ -110,7 +110,7 @@ bool warn_of_missing(const std::string& missing, const Bake& bake, const VismapR
     asked.effects = "auto";
     Bake whole;
     Difference off;
-    if (!find_bake(whole, asked, scene_of, options, error) || !compare(off, bake, whole, options, error))
+    if (!find_bake(whole, asked, scene_of, options, error) || !compare_bakes(off, bake, whole, options, error))
         return false;
     if (off.rms() > 0)
         options.report_warning(

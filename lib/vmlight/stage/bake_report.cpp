@@ -12,11 +12,6 @@
 namespace vmlight {
 namespace {
 
-double percent(int64_t part, int64_t whole)
-{
-    return whole ? 100.0 * double(part) / double(whole) : 0.0;
-}
-
 // Triangles in other tiles are news only to those who asked for no tile; those across a border, or in no tile, to
 // everyone.
 void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
@@ -71,7 +66,7 @@ void report_overlap(const MakeOptions& options, const VismapReport& report, cons
         = has_heavy_overlap(report) && !options.repeated_inputs ? overlap_hint(report, mesh, recipe) : "";
     options.warn(format(
         "{} ({:.2f} % of the covered ones) {} to more than one triangle: the first triangle in the file wins{}{}",
-        count_text(report.overlapping, "texel", "texels"), percent(report.overlapping, report.covered),
+        count_text(report.overlapping, "texel", "texels"), percent_of(report.overlapping, report.covered),
         plural(report.overlapping, "belongs", "belong"), hint.empty() ? "" : ". ", hint));
 }
 
@@ -113,7 +108,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         "uv: {} {} {:.1f} % of {}x{} texels; {} {}; triangles: {} reach outside {}, {} in other tiles, {} mirrored, "
         "{} without area in UV, {} in space, {} without UVs",
         uv.triangles, plural(uv.triangles, "triangle covers", "triangles cover"),
-        percent(report.covered, report.texels), spec.width, spec.height, report.overlapping,
+        percent_of(report.covered, report.texels), spec.width, spec.height, report.overlapping,
         plural(report.overlapping, "texel is shared", "texels are shared"), uv.outside - uv.fully_outside, tile,
         uv.fully_outside, uv.mirrored, uv.degenerate_uv, uv.degenerate_3d, uv.without_uv));
     say(format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s, margin {:.2f} s",
@@ -139,7 +134,7 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
         warn("no texel centre is covered: the map is empty");
     else if (report.dark > report.covered / 2)
         warn(format("{:.0f} % of the covered texels see no light: do the normals point inwards?",
-                    percent(report.dark, report.covered)));
+                    percent_of(report.dark, report.covered)));
 }
 
 } // namespace vmlight

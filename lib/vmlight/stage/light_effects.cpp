@@ -90,8 +90,8 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
 }
 
 // How far the light is from what it would be without the switches.
-bool compare(Difference& dst, const LightmapInputs& inputs, const SwitchedLight& light, const MakeOptions& options,
-             std::string& error)
+bool compare_lights(Difference& dst, const LightmapInputs& inputs, const SwitchedLight& light,
+                    const MakeOptions& options, std::string& error)
 {
     MakeOptions quiet;
     quiet.chain = options.chain;
@@ -184,7 +184,7 @@ bool explain_light(const LightmapInputs& inputs, const SwitchedLight& given, con
     if (missing.empty() || options.repeated_inputs)
         return true;
     Difference off;
-    if (!compare(off, inputs, light, options, error))
+    if (!compare_lights(off, inputs, light, options, error))
         return false;
     if (off.rms() == 0) // such as an albedo of 1, which is not read where it is switched off
         return true;

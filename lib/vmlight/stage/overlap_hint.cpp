@@ -20,11 +20,6 @@ constexpr double kHeavy = 5;
 constexpr int kMostTexels = 1024;
 constexpr size_t kMostMaterials = 64, kMostNamed = 4;
 
-double percent(int64_t part, int64_t whole)
-{
-    return whole ? 100.0 * double(part) / double(whole) : 0.0;
-}
-
 // Triangles that no map of the tile shows.
 int64_t lost_triangles(const UvReport& uv)
 {
@@ -46,7 +41,7 @@ double measure_overlap(const Mesh& mesh, const VismapParams& params, int64_t mos
         covered += cover->covered;
         overlapping += cover->overlapping;
     }
-    return covered ? percent(overlapping, covered) : -1;
+    return covered ? percent_of(overlapping, covered) : -1;
 }
 
 std::string percent_text(double percent)
@@ -70,7 +65,7 @@ std::string better_uv_set(const VismapReport& report, const VismapRecipe& recipe
     return best < 0
         ? ""
         : format("UV set {} overlaps {}, set {} {}: try --uv-set {}", best, percent_text(least),
-                 recipe.mesh_params.uv_set, percent_text(percent(report.overlapping, report.covered)), best);
+                 recipe.mesh_params.uv_set, percent_text(percent_of(report.overlapping, report.covered)), best);
 }
 
 std::string better_by_material(const Mesh& mesh, const VismapRecipe& recipe)
@@ -101,7 +96,7 @@ std::string better_by_material(const Mesh& mesh, const VismapRecipe& recipe)
 
 bool has_heavy_overlap(const VismapReport& report)
 {
-    return percent(report.overlapping, report.covered) >= kHeavy;
+    return percent_of(report.overlapping, report.covered) >= kHeavy;
 }
 
 std::string overlap_hint(const VismapReport& report, const Mesh& mesh, const VismapRecipe& recipe)

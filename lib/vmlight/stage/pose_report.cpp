@@ -17,11 +17,6 @@
 namespace vmlight {
 namespace {
 
-double percent_of(int64_t part, int64_t whole)
-{
-    return 100 * double(part) / double(std::max<int64_t>(1, whole));
-}
-
 std::string change_text(const PoseChange& change, double allowed)
 {
     if (change.probes == 0)

@@ -68,7 +68,7 @@ void project(UnwrapChart& chart, const UnwrapSurface& surface, const V3d& axis)
     }
 }
 
-double doubled_area(const UnwrapChart& chart, const std::array<uint32_t, 3>& c)
+double doubled_uv_area(const UnwrapChart& chart, const std::array<uint32_t, 3>& c)
 {
     return (chart.uvs[c[1]] - chart.uvs[c[0]]).cross(chart.uvs[c[2]] - chart.uvs[c[0]]);
 }
@@ -78,7 +78,7 @@ bool scale_to_surface(UnwrapChart& chart, const UnwrapSurface& surface)
 {
     double area = 0;
     for (const auto& corners : chart.corners)
-        area += doubled_area(chart, corners) / 2;
+        area += doubled_uv_area(chart, corners) / 2;
     if (!(area > 0) || !std::isfinite(area))
         return false;
     const double scale = std::sqrt(chart.area / area);

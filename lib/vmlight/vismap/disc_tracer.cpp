@@ -69,7 +69,7 @@ constexpr double kWidest = 12;
 // The first ones: if they all agree, the texel is not in the penumbra. Of a narrow disc six at the rim, where straight
 // edges come in, and two inside: an edge that none of them sees cuts off less than 8 % of the disc.
 constexpr int kProbes = 16, kFewProbes = 8;
-constexpr int kFew[kFewProbes] = { 1, 3, 5, 7, 9, 11, 0, 8 };
+constexpr int kFewOrder[kFewProbes] = { 1, 3, 5, 7, 9, 11, 0, 8 };
 
 } // namespace
 
@@ -126,7 +126,7 @@ void DiscTracer::start(const Texel& texel, int rays)
     m_texels.back().rays_left = rays;
     for (int ray = 0; ray < rays; ++ray) {
         Texel& own = m_texels.back();
-        const V3f& direction = own.is_probe ? m_samples.probe(own.hash, rays == kFewProbes ? kFew[ray] : ray)
+        const V3f& direction = own.is_probe ? m_samples.probe(own.hash, rays == kFewProbes ? kFewOrder[ray] : ray)
                                             : m_samples.at(own.hash, ray, rays);
         const double cosine = double(direction.dot(own.point.normal));
         if (!(cosine > 0 && direction.dot(own.point.geometric_normal) > 0 && direction.y >= own.lowest)) {

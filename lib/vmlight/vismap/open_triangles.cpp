@@ -21,7 +21,7 @@ namespace {
 // 16000 triangles, where the tree has to be searched for all; .08 us a ray on two.
 constexpr double kRaysPerTriangle = 150;
 // So few are searched for next to nothing.
-constexpr double kFew = 1000;
+constexpr double kFewTriangles = 1000;
 // Looked at before anything else: a mesh whose triangles all have something above them costs no more than this.
 constexpr size_t kTriangles = 64, kVertices = 256;
 constexpr size_t kKnown = 8;
@@ -99,7 +99,7 @@ void OpenTriangles::find(const BakeScene& scene, double reach, double rays)
     m_report = {};
     const double share = promise(scene, traced, all, reach, m_report.tests);
     const double triangles = double(all + mesh.triangles.size());
-    m_report.searched = share > 0 && (triangles <= kFew || share * rays >= kRaysPerTriangle * triangles);
+    m_report.searched = share > 0 && (triangles <= kFewTriangles || share * rays >= kRaysPerTriangle * triangles);
     if (m_report.searched) {
         const TriangleTree tree(traced);
         m_open.assign(mesh.triangles.size(), 0);

@@ -11,18 +11,6 @@ namespace vmlight {
 using Imath::V3d;
 using Imath::V3f;
 
-namespace {
-
-int64_t count_rays(const RayFan& fan)
-{
-    int64_t rays = 0;
-    for (int packet = 0; packet < fan.packets; ++packet)
-        rays += int64_t(std::bitset<8>(fan.lanes[size_t(packet)]).count());
-    return rays;
-}
-
-} // namespace
-
 PoseProbe::Side::Side(const PosedMap& the_map, const VismapParams& params, const SamplePattern& pattern)
     : map(the_map)
     , ground(ground_of(*the_map.scene, params))

@@ -20,14 +20,6 @@ namespace {
 // Of the length of a float normal.
 constexpr double kRounding = 1e-6;
 
-int64_t count_rays(const RayFan& fan)
-{
-    int64_t rays = 0;
-    for (const uint8_t lanes : fan.lanes)
-        rays += __builtin_popcount(lanes);
-    return rays;
-}
-
 // Rays in each lane, over all packets.
 using LaneCounts = std::array<int, kPacketSize>;
 

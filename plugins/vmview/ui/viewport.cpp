@@ -19,7 +19,7 @@ namespace {
 
 // A drag stays smooth up to this.
 constexpr double kSlowFrame = 33;
-std::string key_of(const Camera& c)
+std::string camera_key(const Camera& c)
 {
     std::string key;
     for (const Imath::V3d& v : { c.position, c.right, c.up, c.forward })
@@ -215,7 +215,7 @@ void Viewport::update(const ViewState& state, int width, int height, bool is_dra
     const int spp = is_dragging ? 1 : m_spp;
     const std::string key = format("{}|{}|{}|{}x{}|{}|{}|{}|{}|", m_generation, m_slots[0].key, m_slots[1].key, across,
                                    down, spp, params.has_background, int(params.show), params.wipe)
-        + key_of(m_camera) + key_of(light);
+        + camera_key(m_camera) + key_of(light);
     if (changed || key != m_picture_key) {
         m_picture_key = key;
         m_sum.start(across, down, spp, m_filter);

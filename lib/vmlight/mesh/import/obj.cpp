@@ -39,7 +39,7 @@ std::vector<Material> read_libraries(MeshBuilder& dst, const obj::File& file, co
 }
 
 // A function of its own, so that the text is freed before the mesh is built.
-bool parse_file(obj::File& dst, const ImportRequest& request, std::string& error)
+bool parse_obj(obj::File& dst, const ImportRequest& request, std::string& error)
 {
     if (request.before_open)
         request.before_open(request.path);
@@ -64,7 +64,7 @@ bool is_obj(const FileHead& head)
 bool read_obj(MeshBuilder& dst, const ImportRequest& request, std::string& error)
 {
     obj::File file;
-    return parse_file(file, request, error) && append_obj(dst, file, read_libraries(dst, file, request), error);
+    return parse_obj(file, request, error) && append_obj(dst, file, read_libraries(dst, file, request), error);
 }
 
 } // namespace vmlight

@@ -46,10 +46,10 @@ uint32_t index_of(std::vector<Material>& materials, const std::string& name)
     return uint32_t(index);
 }
 
-class Appender
+class ObjAppender
 {
 public:
-    Appender(MeshBuilder& dst, const obj::File& file, std::vector<Material> materials)
+    ObjAppender(MeshBuilder& dst, const obj::File& file, std::vector<Material> materials)
         : m_dst(dst)
         , m_file(file)
         , m_is_far(is_far(file))
@@ -155,7 +155,7 @@ bool append_obj(MeshBuilder& dst, const obj::File& file, std::vector<Material> m
 {
     if (!file.ignored.empty())
         dst.warn(format("not read: statements \"{}\"; only polygons are", OIIO::Strutil::join(file.ignored, "\", \"")));
-    return Appender(dst, file, std::move(materials)).append(error);
+    return ObjAppender(dst, file, std::move(materials)).append(error);
 }
 
 } // namespace vmlight

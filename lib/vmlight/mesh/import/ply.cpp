@@ -17,7 +17,7 @@ using Imath::V2f;
 using Imath::V3d;
 
 // A function of its own, so that the bytes are freed before the mesh is built.
-bool parse_file(ply::File& dst, const ImportRequest& request, std::string& error)
+bool parse_ply(ply::File& dst, const ImportRequest& request, std::string& error)
 {
     if (request.before_open)
         request.before_open(request.path);
@@ -36,10 +36,10 @@ void add_materials(MeshBuilder& dst, const ply::File& file, const std::string& f
     }
 }
 
-class Appender
+class PlyAppender
 {
 public:
-    Appender(MeshBuilder& dst, const ply::File& file)
+    PlyAppender(MeshBuilder& dst, const ply::File& file)
         : m_dst(dst)
         , m_file(file)
         , m_is_far(file.has_doubles && is_far_from_origin(file.positions))
@@ -119,7 +119,7 @@ bool append_ply(MeshBuilder& dst, const ply::File& file, const std::string& fold
     if (!file.corner_uvs.empty())
         dst.set_seam_angle(kSeamAngle);
     add_materials(dst, file, folder);
-    Appender appender(dst, file);
+    PlyAppender appender(dst, file);
     return visit_triangles(
         file.ends, [&](uint32_t corner) { return appender.position(file.corners[corner]); }, appender.is_far(),
         [&](size_t face, const std::array<uint32_t, 3>& corners) { appender.add_triangle(face, corners); }, error);
@@ -128,8 +128,7 @@ bool append_ply(MeshBuilder& dst, const ply::File& file, const std::string& fold
 bool read_ply(MeshBuilder& dst, const ImportRequest& request, std::string& error)
 {
     ply::File file;
-    return parse_file(file, request, error)
-        && append_ply(dst, file, OIIO::Filesystem::parent_path(request.path), error);
+    return parse_ply(file, request, error) && append_ply(dst, file, OIIO::Filesystem::parent_path(request.path), error);
 }
 
 } // namespace vmlight

@@ -32,7 +32,7 @@ struct Polygon
 };
 
 // Offsets between such are finite too.
-bool is_finite(const V3d& p)
+bool has_finite_offsets(const V3d& p)
 {
     constexpr double kFarthest = 1e300;
     return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
@@ -209,7 +209,7 @@ bool visit_triangles(const std::vector<uint32_t>& ends, const std::function<V3d(
     const auto must_be_cut = [&](const Polygon& polygon) {
         bool is_good = polygon.end - polygon.begin > 4;
         for (uint32_t corner = polygon.begin; is_good && corner < polygon.end; ++corner)
-            is_good = is_finite(position(corner)); // others are refused later: assimp need not see them
+            is_good = has_finite_offsets(position(corner)); // others are refused later: assimp need not see them
         return is_good;
     };
     const auto first_of_fan = [&](const Polygon& polygon) {
