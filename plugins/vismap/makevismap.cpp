@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/output_file.h>
 #include <vmlight/cli/main.h>
+#include <vmlight/cli/part_run.h>
 #include <vmlight/cli/pose_list.h>
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/mesh/export/write_mesh.h>
@@ -29,10 +30,13 @@ int main(int argc, const char** argv)
                     "  makevismap scan.ply --unwrap --write-mesh scan_uv.glb -o scan_vismap.exr\n"
                     "  makevismap 'walk.####.obj' --frames 1-24 -o 'walk_vismap.####.exr'\n"
                     "  makevismap hero.obj --pose hero_bent.obj -o hero_vismap.exr\n"
+                    "  makevismap hero.obj --part 3/16 -o hero_vismap.exr\n"
+                    "  makevismap --join hero_vismap.part*of16.exr -o hero_vismap.exr\n"
                     "  makevismap hero.glb --samples 256 --print-recipe > hero.vismap\n"
                     "  makevismap hero.vismap -o hero_vismap.exr");
     PoseList poses(stage, recipe);
     UdimRun tiles(stage, recipe);
+    PartRun parts(stage, recipe, poses);
     stage.group("Effects:");
     bool explain = false;
     stage.option("explain", "",
@@ -70,6 +74,7 @@ int main(int argc, const char** argv)
             : stage.is_dry_run()         ? "--dry-run cannot be saved in a recipe"
             : explain                    ? "--explain cannot be saved in a recipe"
             : !poses.unsavable().empty() ? poses.unsavable()
+            : !parts.unsavable().empty() ? parts.unsavable()
                                          : tiles.unsavable();
     };
     stage.recipe(
@@ -80,6 +85,11 @@ int main(int argc, const char** argv)
         return stage.pixel_format() == "half" && find_basis(basis).whole_numbers
             ? "--format half: the basis " + basis + " stores integers that half cannot represent; use float"
             : std::string();
+    });
+
+    stage.check([&] {
+        return explain && parts.is_given() ? "--explain counts what a whole bake takes: not with --part or --resume"
+                                           : "";
     });
 
     stage.check([&] { return write_path.empty() ? "" : mesh_name_fault(write_path); });
@@ -134,7 +144,9 @@ int main(int argc, const char** argv)
                     listener(line);
             };
         };
-        for (size_t i = 0; i < poses.count(); ++i) {
+        if (parts.is_given() && !parts.make(poses.at(tile, 0), poses.path(output, 0), options, error))
+            return false;
+        for (size_t i = 0; i < poses.count() && !parts.is_given(); ++i) {
             MakeOptions own = options;
             if (poses.is_sequence()) {
                 own.pose = poses.name(i);
@@ -159,7 +171,11 @@ int main(int argc, const char** argv)
         return write_mesh((*options.scene)->mesh(), path, error);
     };
     return stage.run(argc, argv, [&](std::string& error) {
+        if (stage.is_form())
+            return parts.join(error);
         const bool made = tiles.make_tiles(make, error);
+        if (made)
+            parts.remove_kept();
         if (const std::string all = forecasts.text(); made && !all.empty())
             stage.answer(all);
         return made;

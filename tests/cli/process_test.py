@@ -92,6 +92,40 @@ class Signals(Case):
         self.assertNotIn("\r", lines)
 
 
+class KilledBakes(Case):
+    WORDS = ["makevismap", SPOT, "--resolution", "320", "--samples", "192", "--threads", "1", "--quiet"]
+
+    def killed(self, number, kept, *words):
+        """Ends a bake once `kept` parts are there, more than before."""
+        process = subprocess.Popen([os.path.join(BIN, self.WORDS[0]), *self.WORDS[1:], *words], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        until = time.monotonic() + 300
+        while len(os.listdir(self.folder)) < kept and process.poll() is None:
+            self.assertLess(time.monotonic(), until)
+            time.sleep(0.001)
+        process.send_signal(number)
+        _, error = process.communicate(timeout=300)
+        return process.returncode, error
+
+    def test_parts_that_are_whole_are_kept_and_nothing_else(self):
+        self.done(*self.WORDS, "-o", "whole.exr")
+        whole = self.read("whole.exr")
+        os.remove(self.path("whole.exr"))
+        for kept in 1, 5, 14:
+            self.assertEqual(self.killed(signal.SIGKILL, kept, "-o", "vm.exr", "--resume"), (-signal.SIGKILL, ""))
+            names = sorted(os.listdir(self.folder))
+            self.assertGreaterEqual(len(names), kept)
+            self.assertEqual(names, [f"vm.resume{index + 1:02}of25.exr" for index in range(len(names))])
+        old = {name: os.stat(self.path(name)).st_mtime_ns for name in names}
+        self.assertEqual(self.killed(signal.SIGTERM, len(old) + 2, "-o", "vm.exr", "--resume"),
+                         (1, "makevismap ERROR: interrupted\n"))
+        for name, written in old.items():
+            self.assertEqual(os.stat(self.path(name)).st_mtime_ns, written, name)
+        self.done(*self.WORDS, "-o", "vm.exr", "--resume")
+        self.assertEqual(os.listdir(self.folder), ["vm.exr"])
+        self.assertEqual(self.read("vm.exr"), whole)
+
+
 class CostCutShort(Case):
     WORDS = ["vmcost", SPOT, SKY, "-o", "report", "--quick", "--resolution", "64", "--reference-samples", "16",
              "--no-plots"]

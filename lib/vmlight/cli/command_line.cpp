@@ -97,7 +97,21 @@ std::string flag_of(const std::string& name)
 
 bool CommandLine::given_recipe() const
 {
-    return !stage.empty() && !operands.empty() && recipe_stage(operands[0]) == stage;
+    return !stage.empty() && !operands.empty() && !given_form() && recipe_stage(operands[0]) == stage;
+}
+
+bool CommandLine::given_form() const
+{
+    return std::any_of(given.begin(), given.end(),
+                       [&](const auto& flag) { return !form.name.empty() && flag.first->name == form.name; });
+}
+
+std::string CommandLine::form_fault() const
+{
+    for (const auto& [option, text] : given)
+        if (option->name != form.name && (option->heading != kOutputHeading || option->name == "print_recipe"))
+            return format("{}: {}", option->flag(), form.reason);
+    return "";
 }
 
 std::vector<std::string> CommandLine::synopses() const
@@ -107,6 +121,8 @@ std::vector<std::string> CommandLine::synopses() const
                                             output) };
     if (!stage.empty())
         lines.push_back(format("{} RECIPE.{} -o {} [options]", name, stage, output_metavar));
+    if (!form.name.empty())
+        lines.push_back(format("{} {} {}... -o {}", name, flag_of(form.name), form.operand, output_metavar));
     return lines;
 }
 
@@ -163,6 +179,10 @@ bool CommandLine::parse_flag(const char**& argument, const char** end, std::stri
 
 bool CommandLine::check_operands(std::string& error) const
 {
+    if (given_form()) {
+        error = operands.empty() ? form.operand + " is missing" : "";
+        return error.empty();
+    }
     const bool takes_more = OIIO::Strutil::ends_with(operand_names.back(), "...");
     const size_t most = given_recipe() ? 1 : operand_names.size();
     size_t least = 0;

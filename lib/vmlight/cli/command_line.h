@@ -13,6 +13,9 @@
 
 namespace vmlight {
 
+/// The heading of the flags that every executable has for what it writes.
+constexpr const char* kOutputHeading = "Output:";
+
 /// "-o" for "o", "--max-distance" for "max_distance".
 std::string flag_of(const std::string& name);
 
@@ -49,6 +52,13 @@ struct CommandLine
     bool needs_output = true;
     /// The stage whose recipe may replace the operands, or "".
     std::string stage;
+    /// Another way to call it: with the flag `name` ("": there is none) the operands are `operand`, one or more, and of
+    /// the other flags only those of the output are taken; the others would change nothing, for the `reason`.
+    struct Form
+    {
+        std::string name, operand, reason;
+    };
+    Form form {};
     /// The last may end in "...": one or more. Those from the first in brackets on, "[ENVIRONMENT]", may be left out.
     std::vector<std::string> operand_names;
     std::vector<Option> options;
@@ -68,6 +78,10 @@ struct CommandLine
 
     /// Whether the first operand is a recipe of `stage`.
     bool given_recipe() const;
+    /// Whether the flag of `form` is given.
+    bool given_form() const;
+    /// What is wrong with the other flags then, or "".
+    std::string form_fault() const;
 
     /// How to call it, one form per line.
     std::vector<std::string> synopses() const;

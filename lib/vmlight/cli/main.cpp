@@ -51,11 +51,11 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
     line.output_metavar = outputs.at(output).metavar;
     line.needs_output = output != OutputKind::OptionalPicture;
     m_command.output_kind = output;
-    group("Output:");
+    group(kOutputHeading);
     option("o", line.output_metavar, outputs.at(output).help, m_command.output);
     if (output != OutputKind::Folder)
-        params("Output:", m_command.file);
-    params("Output:", m_command.common);
+        params(kOutputHeading, m_command.file);
+    params(kOutputHeading, m_command.common);
 }
 
 bool StageMain::has_option(const std::string& name) const
@@ -86,9 +86,9 @@ void StageMain::accept_recipe(const char* stage, RecipeAccess access)
     m_command.line.options[0].help
         = format("EXR image to write; or a .{}, to save this command line as a recipe and make no image", stage);
     const auto take = [this](OIIO::string_view, std::string&) { return m_command.prints_recipe = true; };
-    m_command.line.options.insert(
-        m_command.line.options.begin() + 1,
-        { "Output:", "print_recipe", "", "Print this command line as a recipe on stdout, and make no image", take });
+    m_command.line.options.insert(m_command.line.options.begin() + 1,
+                                  { kOutputHeading, "print_recipe", "",
+                                    "Print this command line as a recipe on stdout, and make no image", take });
 }
 
 void StageMain::group(const std::string& heading)
@@ -116,6 +116,12 @@ void StageMain::answer(const std::string& name, const Help& help,
         m_command.print = print;
         return true;
     });
+}
+
+void StageMain::form(const std::string& name, const std::string& operand, const Help& help, const std::string& reason)
+{
+    m_command.line.form = { name, operand, reason };
+    option(name, "", help, [](auto, auto&) { return true; });
 }
 
 void StageMain::dry_run(const Help& help)

@@ -78,6 +78,9 @@ public:
     /// failure.
     void answer(const std::string& name, const Help& help,
                 std::function<bool(std::string& text, std::string& error)> print);
+    /// Add a flag with which the operands are `operand`, one or more, and no recipe. Other flags than those of the
+    /// output are refused then, for the `reason`, and no check() is made; see is_form().
+    void form(const std::string& name, const std::string& operand, const Help& help, const std::string& reason);
     /// Add --dry-run, which reports what the work would do and take, and writes nothing: see is_dry_run().
     void dry_run(const Help& help);
     /// Add a check of the whole command line. `fault` returns what is wrong (exit code 2), or "". Skipped if only a
@@ -96,6 +99,8 @@ public:
     const std::string& output() const { return m_command.output; }
     /// Whether nothing is to be written; output() may then be "".
     bool is_dry_run() const { return m_command.is_dry_run; }
+    /// Whether the flag of form() is given.
+    bool is_form() const { return m_command.line.given_form(); }
     /// Pixel format of the output file: "float" or "half".
     const std::string& pixel_format() const { return m_command.file.format; }
     /// The positional arguments.

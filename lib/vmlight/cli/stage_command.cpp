@@ -67,7 +67,7 @@ ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
         if (!recipe.read(line.operands[0], error))
             return ExitCode::Failed;
         fault_of_recipe = recipe.fault();
-    } else {
+    } else if (!line.given_form()) {
         recipe.set_operands(line.operands);
     }
     for (const auto& [option, text] : line.given)
@@ -80,6 +80,12 @@ ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
 std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
 {
     std::string fault;
+    if (line.given_form())
+        fault = line.form_fault();
+    if (line.given_form() && fault.empty())
+        fault = output.empty() ? format("-o {} is missing", line.output_metavar) : output_name_fault(output);
+    if (line.given_form())
+        return fault;
     const bool works = makes_image();
     if (prints_recipe || saves_recipe())
         fault = unsavable();

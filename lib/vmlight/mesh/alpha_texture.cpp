@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/mesh/alpha_texture.h>
 
+#include <OpenImageIO/hash.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -76,6 +79,18 @@ bool AlphaTexture::operator==(const AlphaTexture& other) const
 {
     return m_width == other.m_width && m_height == other.m_height && m_wrap_s == other.m_wrap_s
         && m_wrap_t == other.m_wrap_t && m_is_nearest == other.m_is_nearest && m_texels == other.m_texels;
+}
+
+uint64_t AlphaTexture::hash() const
+{
+    const std::array<uint64_t, 6> parts { uint64_t(m_width),
+                                          uint64_t(m_height),
+                                          uint64_t(m_wrap_s),
+                                          uint64_t(m_wrap_t),
+                                          uint64_t(m_is_nearest),
+                                          OIIO::farmhash::Fingerprint64(reinterpret_cast<const char*>(m_texels.data()),
+                                                                        m_texels.size() * sizeof(float)) };
+    return OIIO::farmhash::Fingerprint64(reinterpret_cast<const char*>(parts.data()), sizeof(parts));
 }
 
 double AlphaTexture::lookup(const Imath::V2d& st) const

@@ -35,6 +35,8 @@ public:
 
     /// The same values at all points.
     bool operator==(const AlphaTexture& other) const;
+    /// Equal for equal textures, the same on every little-endian machine.
+    uint64_t hash() const;
 
     /// The value at a point, between texel centres (i + 0.5) / n bilinearly, unless `is_nearest`. Texel coordinates
     /// beyond 1e9 are those of 1e9. Not checked: that `st` is finite.

@@ -96,6 +96,13 @@ std::string error_line(const VismapReport& report, bool is_reconstructed)
 
 } // namespace
 
+std::string dark_warning(int64_t dark, int64_t covered)
+{
+    return dark > covered / 2
+        ? format("{:.0f} % of the covered texels see no light: do the normals point inwards?", percent_of(dark, covered))
+        : "";
+}
+
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
                  const VismapRecipe& recipe, const Mesh& mesh)
 {
@@ -132,9 +139,8 @@ void report_bake(const MakeOptions& options, const VismapReport& report, const O
     report_rounding(options, report);
     if (report.covered == 0)
         warn("no texel centre is covered: the map is empty");
-    else if (report.dark > report.covered / 2)
-        warn(format("{:.0f} % of the covered texels see no light: do the normals point inwards?",
-                    percent_of(report.dark, report.covered)));
+    else if (const std::string warning = dark_warning(report.dark, report.covered); !warning.empty())
+        warn(warning);
 }
 
 } // namespace vmlight

@@ -15,4 +15,7 @@ namespace vmlight {
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
                  const VismapRecipe& recipe, const Mesh& mesh);
 
+/// That most of a map is dark, or "".
+std::string dark_warning(int64_t dark, int64_t covered);
+
 } // namespace vmlight

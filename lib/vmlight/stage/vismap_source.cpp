@@ -8,12 +8,15 @@
 #include <vmlight/stage/bake_report.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/cutouts.h>
+#include <vmlight/stage/map_parts.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/pose_report.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
 #include <vmlight/stage/source_cache.h>
+#include <vmlight/stage/vismap_metadata.h>
+#include <vmlight/vismap/bake_parts.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/pose_sequence.h>
 #include <vmlight/vismap/reconstruct.h>
@@ -28,35 +31,6 @@
 
 namespace vmlight {
 namespace {
-
-// The parameters of the recipe's mesh.
-void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
-{
-    append_params(spec, recipe.mesh_params);
-    // A map of the whole mesh in its own UVs, at no frame, has the metadata that it always had.
-    if (recipe.mesh_params.frame == MeshParams::kFirstSample)
-        for (const char* name : { "frame", "fps" })
-            spec.erase_attribute(metadata_name(name));
-    if (recipe.cutout_params.cutouts == "off") // `auto` is known once the files are read
-        append_params(spec, recipe.cutout_params);
-    if (recipe.unwrap)
-        spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
-    if (!recipe.normal_map.empty()) {
-        spec.attribute(metadata_name("normal_map"), OIIO::Filesystem::filename(recipe.normal_map));
-        append_params(spec, recipe.normal_map_params);
-    }
-    if (recipe.material_normals) {
-        spec.attribute(metadata_name("material_normals"), value_text(recipe.material_normals, Flag {}));
-        append_params(spec, recipe.normal_map_params);
-    }
-    if (const std::string off = switched_off(recipe.effects, VismapRecipe::kStage); !off.empty())
-        spec.attribute(metadata_name("effects"), off);
-    MeshSelection selection = recipe.selection;
-    selection.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
-        if (!value.empty())
-            spec.attribute(metadata_name(name), value_text(value, allowed));
-    });
-}
 
 std::shared_ptr<const Mesh> mesh_of(const BakeScenePointer& scene)
 {
@@ -84,7 +58,7 @@ public:
     {
         // No mesh hash: computing it would mean reading the mesh in open().
         m_spec = describe_vismap(OIIO::Filesystem::filename(m_recipe.mesh), m_recipe.vismap_params);
-        append_mesh(m_spec, m_recipe);
+        append_mesh_metadata(m_spec, m_recipe);
     }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
@@ -98,63 +72,43 @@ public:
     // The whole map in one go: no tile cache, no overlapping margins.
     bool make(std::vector<OIIO::ImageBuf>& dst, ImageRange, const MakeOptions& options, std::string& error) override
     {
-        BakeScenePointer scene;
-        VismapReport report;
-        double build_seconds = 0;
-        std::string at;
-        if (!share_scene(scene, m_recipe, m_stamps, options.threads, &build_seconds, at, error, options.steps())) {
-            error = with_location(m_recipe, at, options.chain, error);
+        Inputs inputs;
+        if (!read_inputs(inputs, options, error))
             return false;
-        }
-        if (options.scene)
-            *options.scene = scene;
-        NormalMapPointer normal_map;
-        std::vector<std::string> notes, warnings;
-        if (!read_normal_map(normal_map, m_recipe, mesh_of(scene), options.threads, notes, warnings, error)) {
-            error = with_location(m_recipe, m_recipe.material_normals ? "material_normals" : "normal_map",
-                                  options.chain, error);
-            return false;
-        }
-        for (const std::string& note : notes)
-            options.report(note);
-        for (const std::string& warning : warnings)
-            options.report_warning(warning);
-        BakeForecast forecast;
-        if ((options.explain || m_given.effects != "auto")
-            && !forecast_effects(forecast, scene, normal_map, options, error))
-            return false;
-        const BakeWork before = BakeWork::so_far(*scene);
+        const BakeWork before = BakeWork::so_far(*inputs.scene);
         dst.clear();
         OIIO::ImageBuf& map = dst.emplace_back();
-        const MapJob job { scene,
-                           m_recipe.vismap_params,
-                           options.threads,
-                           options.step("bake", m_spec.width, m_spec.height),
-                           m_recipe.time_budget,
-                           normal_map,
-                           options.steps() };
+        const MapJob job = job_of(inputs, options);
+        VismapReport report;
         PoseSequence* const poses
             = switches_of(m_given.effects, VismapRecipe::kStage).of("poses") == Switch::on ? nullptr : options.poses;
         if (!(poses ? poses->bake(map, job, options.pose, &report)
-                    : make_vismap(map, scene, job.params, &report, job.nthreads, job.progress, job.time_budget,
-                                  normal_map, job.at_step))) {
+                    : make_vismap(map, job.scene, job.params, &report, job.nthreads, job.progress, job.time_budget,
+                                  job.normal_map, job.at_step))) {
             error = map.geterror();
             return false;
         }
-        report.build_seconds += build_seconds;
-        append_mesh(map.specmod(), m_recipe);
-        const CutoutCounts& cutouts = scene->occluder().cutouts();
-        if (cutouts.triangles > 0)
-            append_params(map.specmod(), m_recipe.cutout_params);
-        if (!options.repeated_inputs)
-            for (const std::string& remark : scene->remarks)
-                options.report(remark);
-        report_bake(options, report, map.spec(), m_recipe, scene->mesh());
-        report_cutouts(options, cutouts);
+        tag(map.specmod(), *inputs.scene);
+        this->report(inputs, report, map.spec(), options);
         if (poses)
             report_pose(poses->last(), options);
         if (options.explain)
-            report_taken(forecast, report, before, *scene, options);
+            report_taken(inputs.forecast, report, before, *inputs.scene, options);
+        return true;
+    }
+
+    // Some parts of the map.
+    bool make_parts(const PartRequest& request, const MakeOptions& options, std::string& error)
+    {
+        Inputs inputs;
+        if (!read_inputs(inputs, options, error))
+            return false;
+        PartsJob job { job_of(inputs, options), request.count, request.parts, {}, request.is_made, request.write };
+        job.tag = [&](OIIO::ImageSpec& map) { tag(map, *inputs.scene); };
+        VismapReport report;
+        if (!bake_parts(job, report, error))
+            return false;
+        this->report(inputs, report, m_spec, options);
         return true;
     }
 
@@ -196,6 +150,64 @@ public:
     }
 
 private:
+    struct Inputs
+    {
+        BakeScenePointer scene;
+        NormalMapPointer normal_map;
+        BakeForecast forecast; // if it is asked for
+        double build_seconds = 0;
+    };
+
+    bool read_inputs(Inputs& dst, const MakeOptions& options, std::string& error) const
+    {
+        std::string at;
+        if (!share_scene(dst.scene, m_recipe, m_stamps, options.threads, &dst.build_seconds, at, error,
+                         options.steps())) {
+            error = with_location(m_recipe, at, options.chain, error);
+            return false;
+        }
+        if (options.scene)
+            *options.scene = dst.scene;
+        std::vector<std::string> notes, warnings;
+        if (!read_normal_map(dst.normal_map, m_recipe, mesh_of(dst.scene), options.threads, notes, warnings, error)) {
+            error = with_location(m_recipe, m_recipe.material_normals ? "material_normals" : "normal_map",
+                                  options.chain, error);
+            return false;
+        }
+        for (const std::string& note : notes)
+            options.report(note);
+        for (const std::string& warning : warnings)
+            options.report_warning(warning);
+        return (!options.explain && m_given.effects == "auto")
+            || forecast_effects(dst.forecast, dst.scene, dst.normal_map, options, error);
+    }
+
+    MapJob job_of(const Inputs& inputs, const MakeOptions& options) const
+    {
+        return { inputs.scene,         m_recipe.vismap_params,
+                 options.threads,      options.step("bake", m_spec.width, m_spec.height),
+                 m_recipe.time_budget, inputs.normal_map,
+                 options.steps() };
+    }
+
+    void tag(OIIO::ImageSpec& map, const BakeScene& scene) const
+    {
+        append_mesh_metadata(map, m_recipe);
+        if (scene.occluder().cutouts().triangles > 0)
+            append_params(map, m_recipe.cutout_params);
+    }
+
+    void report(const Inputs& inputs, VismapReport& report, const OIIO::ImageSpec& map,
+                const MakeOptions& options) const
+    {
+        report.build_seconds += inputs.build_seconds;
+        if (!options.repeated_inputs)
+            for (const std::string& remark : inputs.scene->remarks)
+                options.report(remark);
+        report_bake(options, report, map, m_recipe, inputs.scene->mesh());
+        report_cutouts(options, inputs.scene->occluder().cutouts());
+    }
+
     bool forecast_effects(BakeForecast& dst, const BakeScenePointer& scene, const NormalMapPointer& normal_map,
                           const MakeOptions& options, std::string& error) const
     {
@@ -279,6 +291,14 @@ bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std
     const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
     const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
     return vismap && vismap->report_plan(options, error);
+}
+
+bool make_vismap_parts(const VismapRecipe& recipe, const PartRequest& request, const MakeOptions& options,
+                       std::string& error)
+{
+    const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
+    const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
+    return vismap && vismap->make_parts(request, options, error);
 }
 
 } // namespace vmlight

@@ -2,6 +2,7 @@
 #include <vmlight/trace/bake_scene.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/opacity_hash.h>
 #include <vmlight/trace/horizon.h>
 #include <vmlight/trace/surface.h>
 
@@ -103,6 +104,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
     for (const Mesh* caster : casters) {
         m_triangles += int64_t(caster->triangles.size());
+        m_opacity_hashes += (caster == casters[0] ? "" : ",") + opacity_hash(*caster);
         for (const std::string& warning : caster->warnings)
             m_warnings.push_back(format("\"{}\": {}", caster->path.empty() ? caster->name : caster->path, warning));
     }
@@ -147,6 +149,7 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
     m_occluder = whole->m_occluder;
     m_occluder_hashes
         = vmlight::mesh_hash(rest) + (whole->m_occluder_hashes.empty() ? "" : ",") + whole->m_occluder_hashes;
+    m_opacity_hashes = whole->m_opacity_hashes;
     m_triangles = whole->m_triangles;
     m_lowest = whole->m_lowest;
     m_diagonal = whole->m_diagonal;

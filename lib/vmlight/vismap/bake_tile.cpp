@@ -31,6 +31,19 @@ void VismapBaker::cover_tile(int tile, Scratch& scratch, TileBits& covered) cons
             << i % kTileSize;
 }
 
+BakeCounts VismapBaker::count_tile(int tile, Scratch& scratch) const
+{
+    const TileCover& cover = scratch.cover;
+    m_setup->raster.cover(tile, scratch.cover);
+    BakeCounts counts;
+    counts.covered = cover.covered;
+    counts.overlapping = cover.overlapping;
+    counts.tiles = cover.covered > 0;
+    for (size_t i = 0; i < cover.triangle.size() && cover.covered > 0; ++i)
+        counts.open += cover.triangle[i] != TileCover::kNone && m_setup->open.is_open(cover.triangle[i]);
+    return counts;
+}
+
 BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, size_t pitch, TileBits& covered,
                                   const BakeHints* given) const
 {

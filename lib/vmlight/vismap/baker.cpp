@@ -104,9 +104,7 @@ int VismapBaker::before_basis() const
 
 MarginChannels VismapBaker::margin_channels() const
 {
-    return find_basis(m_setup->params.basis).whole_numbers
-        ? MarginChannels { before_basis(), m_setup->basis_count }
-        : MarginChannels { before_basis() + m_setup->basis_count, 0 };
+    return margin_channels_of(describe_vismap("", m_setup->params).channelnames);
 }
 
 int VismapBaker::tiles_across() const

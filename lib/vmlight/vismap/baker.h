@@ -28,6 +28,9 @@ namespace vmlight {
 /// for a target error.
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params);
 
+/// Which of a map's channels, in the order of describe_vismap(), the margin fills, and how.
+MarginChannels margin_channels_of(const std::vector<std::string>& names);
+
 /// make_vismap() from a scene that other maps may share. With a `time_budget`, in seconds, the bake traces as many rays
 /// per texel as it has time for on this machine, at least one; the report has their number. `at_step` hears of the
 /// steps before and after those of `progress`.
@@ -106,6 +109,10 @@ public:
     /// Find the covered texels of tile number `tile` (row by row). Traces no ray. Any thread, with a scratch of its
     /// own.
     void cover_tile(int tile, Scratch& scratch, TileBits& covered) const;
+
+    /// Count the texels of tile number `tile` that are covered, overlapping and open. Traces no ray. Any thread, with a
+    /// scratch of its own.
+    BakeCounts count_tile(int tile, Scratch& scratch) const;
 
     /// Bake tile number `tile`. Any thread, with a scratch of its own.
     ///

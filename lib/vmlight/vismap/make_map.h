@@ -42,6 +42,17 @@ inline MapJob with_progress(MapJob job, const Progress& progress)
 /// Set all covered texels of the map, their coverage, counts and contexts. False if `progress` stopped it.
 using BakeTexels = std::function<bool(const VismapBaker& baker, const Progress& progress, BakedTexels& dst)>;
 
+/// Prepare the baker of a job, and describe its map.
+///
+/// @param report   set to what is known before the bake
+/// @param islands  whether to count UV islands for it
+/// @returns false, with the reason in `error`, as make_vismap()
+bool prepare_map(VismapBaker& baker, OIIO::ImageSpec& spec, VismapReport& report, const MapJob& job, bool islands,
+                 std::string& error);
+
+/// Add what a bake counted to its report.
+void count_baked(VismapReport& report, const BakeCounts& baked);
+
 /// make_vismap(), with the texels of `bake`.
 bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report);
 

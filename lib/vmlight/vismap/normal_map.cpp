@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 
+#include <OpenImageIO/hash.h>
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
@@ -153,6 +154,14 @@ void NormalMap::attach(std::shared_ptr<const Mesh> mesh)
 bool NormalMap::is_same_image(const NormalMap& other) const
 {
     return m_is_object_space == other.m_is_object_space && m_normals == other.m_normals;
+}
+
+uint64_t NormalMap::hash() const
+{
+    const std::array<uint64_t, 2> parts { uint64_t(m_is_object_space),
+                                          OIIO::farmhash::Fingerprint64(reinterpret_cast<const char*>(m_normals.data()),
+                                                                        m_normals.size() * sizeof(V3f)) };
+    return OIIO::farmhash::Fingerprint64(reinterpret_cast<const char*>(parts.data()), sizeof(parts));
 }
 
 bool NormalMap::is_turned(const NormalMap& base, uint32_t triangle, const Rotation& turn, bool exactly) const

@@ -57,6 +57,8 @@ public:
 
     /// Whether both give every texel the same normal on the same mesh.
     bool is_same_image(const NormalMap& other) const;
+    /// Equal if they do, the same on every little-endian machine.
+    uint64_t hash() const;
     /// Whether the normals of a triangle are those that `base` has in another pose of the mesh, turned: tangents also
     /// turn with neighbours. Both are attached.
     /// @param exactly  to the last bit, as what stands still

@@ -70,62 +70,77 @@ bool make_vismap(OIIO::ImageBuf& dst, const BakeScenePointer& scene, const Visma
                     report);
 }
 
+bool prepare_map(VismapBaker& baker, OIIO::ImageSpec& spec, VismapReport& report, const MapJob& job, bool islands,
+                 std::string& error)
+{
+    const Stopwatch timer;
+    const BakeScene& scene = *job.scene;
+    if (check_params(job.params, error))
+        error = memory_shortage(describe_vismap("", job.params), reconstruct_bytes(job.params));
+    begin_step(job.at_step, "prove");
+    if (!error.empty()
+        || !baker.prepare(job.scene, job.params, error, job.nthreads, job.progress, job.time_budget, job.normal_map))
+        return false;
+    spec = vismap_spec(scene, baker);
+    report.uv = baker.uv_report();
+    report.normals_from = scene.mesh().normals_from;
+    report.warnings = scene.warnings();
+    report.tiny = scene.tiny_triangles();
+    report.rounding = scene.rounding();
+    if (islands)
+        baker.count_islands(report.uv);
+    report.texels = int64_t(spec.width) * spec.height;
+    report.samples = baker.error().samples;
+    report.error = baker.error().rms;
+    report.error_texels = baker.error().texels;
+    report.expected_seconds = baker.error().bake_seconds;
+    report.pilot_seconds = baker.error().pilot_seconds;
+    report.build_seconds = timer() - report.pilot_seconds;
+    return true;
+}
+
+void count_baked(VismapReport& report, const BakeCounts& baked)
+{
+    report.covered += baked.covered;
+    report.overlapping += baked.overlapping;
+    report.dark += baked.dark;
+    report.rays += baked.rays;
+    report.open += baked.open;
+}
+
 bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report)
 {
-    const auto& [scene, params, nthreads, progress, time_budget, normal_map, at_step] = job;
     VismapReport counts;
-    Stopwatch timer;
     std::string error;
-    if (check_params(params, error))
-        error = memory_shortage(describe_vismap("", params), reconstruct_bytes(params));
     VismapBaker baker;
-    begin_step(at_step, "prove");
-    if (!error.empty() || !baker.prepare(scene, params, error, nthreads, progress, time_budget, normal_map))
+    OIIO::ImageSpec spec;
+    if (!prepare_map(baker, spec, counts, job, report != nullptr, error))
         return fail_with(dst, error);
-    const OIIO::ImageSpec spec = vismap_spec(*scene, baker);
+    Stopwatch timer;
     dst.reset(spec, OIIO::InitializePixels::Yes);
     float* pixels = static_cast<float*>(dst.localpixels());
     if (!pixels)
         return fail_with(dst, format("out of memory for {}x{} texels", spec.width, spec.height));
-    counts.uv = baker.uv_report();
-    counts.normals_from = scene->mesh().normals_from;
-    counts.warnings = scene->warnings();
-    counts.tiny = scene->tiny_triangles();
-    counts.rounding = scene->rounding();
-    if (report)
-        baker.count_islands(counts.uv);
-    counts.build_seconds = timer.lap() - baker.error().pilot_seconds;
 
     BakedTexels map { pixels, Coverage(spec.width, spec.height), {}, {} };
     const bool reconstructs = is_reconstructed(baker.params());
     if (reconstructs)
         map.contexts = TexelContexts(0, 0, spec.width, spec.height);
     const double share = reconstructs ? kBakeShare : 1;
-    if (!bake(baker, part_of(progress, 0, share), map))
+    if (!bake(baker, part_of(job.progress, 0, share), map))
         return fail_with(dst, "interrupted");
     counts.bake_seconds = timer.lap();
-    BakeCounts& baked = map.counts;
     if (reconstructs) {
-        if (!reconstruct_map(baker, pixels, map.contexts, baked.dark, nthreads, part_of(progress, share, 1)))
+        if (!reconstruct_map(baker, pixels, map.contexts, map.counts.dark, job.nthreads,
+                             part_of(job.progress, share, 1)))
             return fail_with(dst, "interrupted");
         counts.reconstruct_seconds = timer.lap();
     }
-    if (params.margin != 0)
-        begin_step(at_step, "margin");
-    fill_margin(pixels, spec.nchannels, map.coverage, params.margin, baker.margin_channels());
+    if (job.params.margin != 0)
+        begin_step(job.at_step, "margin");
+    fill_margin(pixels, spec.nchannels, map.coverage, job.params.margin, baker.margin_channels());
     counts.margin_seconds = timer.lap();
-
-    counts.texels = int64_t(spec.width) * spec.height;
-    counts.covered = baked.covered;
-    counts.overlapping = baked.overlapping;
-    counts.dark = baked.dark;
-    counts.rays = baked.rays;
-    counts.open = baked.open;
-    counts.samples = baker.error().samples;
-    counts.error = baker.error().rms;
-    counts.error_texels = baker.error().texels;
-    counts.expected_seconds = baker.error().bake_seconds;
-    counts.pilot_seconds = baker.error().pilot_seconds;
+    count_baked(counts, map.counts);
     if (report)
         *report = counts;
     return true;

@@ -8,6 +8,8 @@
 #include <vmlight/vismap/reconstruct.h>
 #include <vmlight/vismap/sun_visibility.h>
 
+#include <algorithm>
+
 namespace vmlight {
 
 OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams& params)
@@ -43,6 +45,13 @@ OIIO::ImageSpec describe_vismap(const std::string& mesh_name, const VismapParams
     spec.attribute("vmlight:version", VMLIGHT_VERSION_STRING);
     spec.attribute("vmlight:mesh", mesh_name);
     return spec;
+}
+
+MarginChannels margin_channels_of(const std::vector<std::string>& names)
+{
+    const int copied = int(std::count_if(names.begin(), names.end(), holds_whole_numbers));
+    const int unfilled = int(std::count(names.begin(), names.end(), kCoverageChannel));
+    return { int(names.size()) - copied - unfilled, copied };
 }
 
 } // namespace vmlight
