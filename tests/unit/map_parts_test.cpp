@@ -38,7 +38,7 @@ VismapParams quick(int width, int height)
     return params;
 }
 
-BakeScenePointer scene_of(const Mesh& mesh, const std::vector<Mesh>& occluders = {})
+BakeScenePointer parted_scene(const Mesh& mesh, const std::vector<Mesh>& occluders = {})
 {
     auto scene = std::make_shared<BakeScene>();
     std::string error;
@@ -142,7 +142,7 @@ TEST(MapParts, JoinedTheyAreTheWholeMapWhateverTheMeshAndTheirNumber)
     for (int turn = 0; turn < 24; ++turn) {
         const Mesh mesh = random_mesh(random);
         const VismapParams params = random_params(random);
-        const auto scene = scene_of(mesh, { scenes::rectangle(V3d(-1, 3, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
+        const auto scene = parted_scene(mesh, { scenes::rectangle(V3d(-1, 3, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
         const int count = std::array { 1, 2, 3, 7, 16, 40 }[random() % 6];
         SCOPED_TRACE(testing::Message() << turn << ": " << mesh.name << ", " << params.size().width << "x"
                                         << params.size().height << " " << params.basis << " " << params.reconstruct
@@ -170,7 +170,7 @@ TEST(MapParts, JoinedTheyAreTheWholeMapWhateverTheMeshAndTheirNumber)
 
 TEST(MapParts, APartIsCroppedToItsTiles)
 {
-    const auto scene = scene_of(scenes::floor_facing_z(1)); // 16 tiles alike
+    const auto scene = parted_scene(scenes::floor_facing_z(1)); // 16 tiles alike
     const Parts parts = baked(scene, quick(256, 256), 16, { 1, 16 });
     const OIIO::ImageSpec& first = parts.at(1).spec();
     EXPECT_EQ(OIIO::get_roi_full(first), OIIO::ROI(0, 256, 0, 256, 0, 1, 0, first.nchannels));
@@ -188,7 +188,7 @@ TEST(MapParts, SharesHaveTheSameExpectedCost)
     Mesh mesh;
     mesh.name = "half";
     scenes::add_quad(mesh, V3d(-1, 0, 1), V3d(1, 0, 1), V3d(1, 0, -1), V3d(-1, 0, -1), V2f(0, 0), V2f(1, .5f));
-    const auto scene = scene_of(mesh, { scenes::rectangle(V3d(-1, 1, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
+    const auto scene = parted_scene(mesh, { scenes::rectangle(V3d(-1, 1, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
     VismapBaker baker;
     std::string error;
     ASSERT_TRUE(baker.prepare(scene, quick(1024, 1024), error)) << error;
@@ -216,7 +216,7 @@ TEST(MapParts, SharesHaveTheSameExpectedCost)
 
 TEST(MapParts, APartIsNotBakedIfItIsThere)
 {
-    const auto scene = scene_of(scenes::box(V3d(-1), V3d(1), true));
+    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
     const VismapParams params = quick(256, 256);
     PartsJob job { { scene, params, 2, {}, 0, nullptr }, 4, { 1, 2, 3, 4 }, {}, {}, {} };
     std::vector<int> written;
@@ -246,12 +246,12 @@ TEST(MapParts, WhatDoesNotFitIsRefused)
 {
     const Mesh mesh = scenes::box(V3d(-1), V3d(1), true);
     const VismapParams params = quick(130, 70);
-    const auto scene = scene_of(mesh);
+    const auto scene = parted_scene(mesh);
     const Parts good = baked(scene, params, 3, { 1, 2, 3 });
     OIIO::ImageBuf map;
     EXPECT_EQ(join_fault(map, good, 3), "");
     const auto with_second = [&](const Mesh& other, const VismapParams& changed) {
-        Parts parts = baked(scene_of(other), changed, 3, { 2 });
+        Parts parts = baked(parted_scene(other), changed, 3, { 2 });
         for (const int index : { 1, 3 })
             parts[index].copy(good.at(index));
         OIIO::ImageBuf joined;
@@ -288,7 +288,7 @@ TEST(MapParts, WhatDoesNotFitIsRefused)
 
 TEST(MapParts, DamagedMetadataAreRefused)
 {
-    const auto scene = scene_of(scenes::box(V3d(-1), V3d(1), true));
+    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
     const Parts good = baked(scene, quick(130, 70), 2, { 1, 2 });
     const std::pair<const char*, const char*> damages[]
         = { { "vmlight:part", "0/2" },
@@ -327,7 +327,7 @@ TEST(MapParts, DamagedMetadataAreRefused)
 
 TEST(MapParts, AnInterruptedBakeStops)
 {
-    const auto scene = scene_of(scenes::box(V3d(-1), V3d(1), true));
+    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
     PartsJob job {
         { scene, quick(256, 256), 1, [](double done) { return done < 0.5; }, 0, nullptr }, 4, { 1, 2, 3, 4 }, {}, {}, {}
     };
@@ -343,7 +343,7 @@ TEST(MapParts, AnInterruptedBakeStops)
 
 TEST(MapParts, ProgressGoesUpToOne)
 {
-    const auto scene = scene_of(scenes::box(V3d(-1), V3d(1), true));
+    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
     for (const char* reconstruct : { "off", "auto" }) {
         VismapParams params = quick(256, 256);
         params.reconstruct = reconstruct;

@@ -16,7 +16,7 @@ namespace {
 
 using Corners = std::array<V3d, 4>;
 
-const Corners kSquare { V3d(0, 0, 0), V3d(1, 0, 0), V3d(1, 1, 0), V3d(0, 1, 0) };
+const Corners kUnitSquare { V3d(0, 0, 0), V3d(1, 0, 0), V3d(1, 1, 0), V3d(0, 1, 0) };
 
 Corners scaled(Corners quad, double scale)
 {
@@ -28,7 +28,7 @@ Corners scaled(Corners quad, double scale)
 // The square with corner k at `at`.
 Corners square_with(size_t k, const V3d& at)
 {
-    Corners quad = kSquare;
+    Corners quad = kUnitSquare;
     quad[k] = at;
     return quad;
 }
@@ -68,7 +68,7 @@ TEST(Quads, AreCutInsideThemselves)
 {
     const V3d inside[] { V3d(0.6, 0.6, 0), V3d(0.4, 0.6, 0), V3d(0.4, 0.4, 0), V3d(0.6, 0.4, 0) };
     for (const double size : { 1.0, 1e-150, 1e150, 0x1p-1000 }) {
-        EXPECT_EQ(quad_diagonal(scaled(kSquare, size)), 0) << size;
+        EXPECT_EQ(quad_diagonal(scaled(kUnitSquare, size)), 0) << size;
         for (size_t k = 0; k < 4; ++k) // the diagonal goes through the concave corner
             EXPECT_EQ(quad_diagonal(scaled(square_with(k, inside[k]), size)), int(k % 2)) << k << ' ' << size;
     }
@@ -80,7 +80,7 @@ TEST(Quads, AreCutAlikeHoweverTheyBend)
     std::mt19937 random(5);
     std::uniform_real_distribution<double> bend(-0.7, 0.7);
     for (int i = 0; i < 1000; ++i) {
-        Corners quad = kSquare;
+        Corners quad = kUnitSquare;
         for (V3d& corner : quad)
             corner.z += bend(random);
         EXPECT_EQ(quad_diagonal(quad), 0) << i;
@@ -93,7 +93,8 @@ TEST_F(MeshFiles, PosesOfAQuadHaveTheSameTriangles)
     for (const bool is_collada : { false, true }) {
         const char* const name = is_collada ? "quad.dae" : "quad.obj";
         const auto file = is_collada ? collada_of : obj_of;
-        const Mesh mesh = read(name, file(kSquare)), pose = read(name, file(bent)), other = read(name, file(folded));
+        const Mesh mesh = read(name, file(kUnitSquare)), pose = read(name, file(bent)),
+                   other = read(name, file(folded));
         ASSERT_EQ(mesh.triangles.size(), 2u);
         ASSERT_EQ(mesh.uvs.size(), 4u);
         EXPECT_EQ(triangles_fault(mesh, pose), "") << name;

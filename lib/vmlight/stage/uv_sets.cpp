@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostUvSets = 8;
 
 // False if the mesh or the chosen part has no such UV set.
-bool read_part(Mesh& dst, const VismapRecipe& recipe, int set)
+bool read_uv_set(Mesh& dst, const VismapRecipe& recipe, int set)
 {
     MeshParams params = recipe.mesh_params;
     params.uv_set = set;
@@ -58,7 +58,7 @@ void for_each_other_uv_set(const VismapRecipe& recipe, const std::function<void(
         Mesh part;
         if (set == recipe.mesh_params.uv_set)
             continue;
-        if (read_part(part, recipe, set))
+        if (read_uv_set(part, recipe, set))
             visit(set, part);
         else if (set > 0)
             return;
