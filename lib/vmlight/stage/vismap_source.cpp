@@ -11,6 +11,7 @@
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/pose_report.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
 #include <vmlight/stage/source_cache.h>
@@ -58,6 +59,15 @@ void append_mesh(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
     });
 }
 
+// Why the map is not reconstructed, though the recipe as given asks for it.
+void append_fault(OIIO::ImageSpec& spec, const VismapRecipe& given)
+{
+    if (given.vismap_params.reconstruct == "off")
+        return;
+    if (const std::string fault = why_not_reconstructed(given); !fault.empty())
+        spec.attribute(metadata_name("no_reconstruct"), fault);
+}
+
 std::shared_ptr<const Mesh> mesh_of(const BakeScenePointer& scene)
 {
     return { scene, &scene->mesh() };
@@ -85,6 +95,7 @@ public:
         // No mesh hash: computing it would mean reading the mesh in open().
         m_spec = describe_vismap(OIIO::Filesystem::filename(m_recipe.mesh), m_recipe.vismap_params);
         append_mesh(m_spec, m_recipe);
+        append_fault(m_spec, m_given);
     }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
@@ -143,6 +154,7 @@ public:
         }
         report.build_seconds += build_seconds;
         append_mesh(map.specmod(), m_recipe);
+        append_fault(map.specmod(), m_given);
         const CutoutCounts& cutouts = scene->occluder().cutouts();
         if (cutouts.triangles > 0)
             append_params(map.specmod(), m_recipe.cutout_params);
