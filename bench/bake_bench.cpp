@@ -109,6 +109,7 @@ int main(int argc, const char** argv)
     VismapParams params;
     params.resolution.width = params.resolution.height = argc > 2 ? std::atoi(argv[2]) : 1024;
     params.samples = argc > 3 ? std::atoi(argv[3]) : 64;
+    params.reconstruct = "off";
     Mesh mesh;
     std::string error;
     if (!read_mesh(mesh, argv[1], {}, error)) {

@@ -76,6 +76,7 @@ inline VismapParams map_params(int width, int height, int samples, const std::st
     params.margin = 0;
     params.channels = { "coverage" };
     params.skip_open = false; // what is tested is the rays
+    params.reconstruct = "off";
     return params;
 }
 

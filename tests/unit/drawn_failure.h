@@ -27,9 +27,10 @@ inline std::string text_of(const Drawn& drawn)
         text += ", " + mesh_text(occluder);
     const OIIO::ImageSpec &env = drawn.light.environment.spec(), &albedo = drawn.light.albedo.spec();
     return text
-        + format("{}{}, basis {}, {} rays, distance {}, margin {}, {} extra channels",
+        + format("{}{}, basis {}, {} rays, distance {}, margin {}, {} extra channels{}",
                  scene.normal_map.initialized() ? ", normal map" : "", params.ground ? ", ground" : "", params.basis,
-                 params.samples, params.max_distance, params.margin, params.channels.size())
+                 params.samples, params.max_distance, params.margin, params.channels.size(),
+                 params.reconstruct == "off" ? "" : ", reconstructed")
         + format("; environment {}x{}, albedo {}x{}, model {}{}{}, exposure {}", env.width, env.height, albedo.width,
                  albedo.height, drawn.light.params.model, drawn.light.suns ? ", suns" : "",
                  drawn.light.params.rotate.empty() ? "" : ", rotated", drawn.light.params.exposure)
@@ -55,6 +56,7 @@ inline std::string shrunk(Drawn drawn, const std::function<bool(const Drawn&)>& 
     fails_without([](Drawn& less) { less.pose.kind = DrawnPose::none; });
     fails_without([](Drawn& less) { less.light.bounce = false; });
     fails_without([](Drawn& less) { less.scene.normal_map.clear(); });
+    fails_without([](Drawn& less) { less.scene.params.reconstruct = "off"; });
     fails_without([](Drawn& less) { less.scene.params.ground = false; });
     fails_without([&](Drawn& less) { less.scene.params.max_distance = plain.max_distance; });
     fails_without([](Drawn& less) { less.light.params = {}; });

@@ -63,6 +63,8 @@ private:
         VismapRecipe recipe;
         recipe.vismap_params = drawn.params;
         recipe.occluder.resize(drawn.occluders.size());
+        if (drawn.normal_map.initialized())
+            recipe.normal_map = "drawn";
         recipe.effects = effects;
         return with_switches(recipe);
     }

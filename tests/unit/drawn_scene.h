@@ -93,6 +93,7 @@ struct DrawnScene
                 drawn_surface::cut_out(*one, random);
         if (one_of(3) == 0)
             normal_map = drawn_surface::normal_map(normal_map_params, random);
+        params.reconstruct = one_of(2) ? "auto" : "off";
     }
 
     std::vector<Mesh*> all_meshes()

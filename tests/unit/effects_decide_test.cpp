@@ -256,13 +256,13 @@ TEST(EffectsDecide, SwitchesOverrideOneByOne)
             states += decision.on ? '1' : '0';
         return states;
     };
-    // self-occlusion, occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half
-    EXPECT_EQ(state("auto"), "0000000000");
-    EXPECT_EQ(state("all"), "1100000000") << "what is not given cannot be forced";
-    EXPECT_EQ(state("+normal-map"), "0000000000") << "nor is what has nothing to do";
-    EXPECT_EQ(state("+occluders"), "0100000000");
-    EXPECT_EQ(state("all,-occluders"), "1000000000");
-    EXPECT_EQ(state(" auto , +self-occlusion "), "1000000000");
+    // self-occlusion, occluders, ground, cut-outs, normal-map, max-distance, poses, udim, reconstruction, margin, half
+    EXPECT_EQ(state("auto"), "00000000000");
+    EXPECT_EQ(state("all"), "11000000000") << "what is not given cannot be forced";
+    EXPECT_EQ(state("+normal-map,+reconstruction"), "00000000000") << "nor is what has nothing to do";
+    EXPECT_EQ(state("+occluders"), "01000000000");
+    EXPECT_EQ(state("all,-occluders"), "10000000000");
+    EXPECT_EQ(state(" auto , +self-occlusion "), "10000000000");
 }
 
 // Only where there is work to force: a flat normal map has none, whatever the switch.
@@ -345,9 +345,26 @@ TEST(EffectsDecide, CutOutsThatAreNotAskedForAreNotSaidToBeMissing)
               "effects: +cut-outs is impossible: cutouts is off: every material is opaque");
 }
 
+TEST(EffectsDecide, TexelsAreAveragedUnlessThatIsUnsoundOrNothingBlocksThem)
+{
+    EffectFacts facts = everything();
+    EXPECT_EQ(named("reconstruction", facts).reason,
+              "each of 5000 texels is averaged with those of the 48 around it that see the same");
+    facts.bake.no_reconstruct = "reconstruct is off";
+    EXPECT_EQ(named("reconstruction", facts).reason,
+              "reconstruct is off: each of 5000 texels has what its own rays see");
+    EXPECT_FALSE(named("reconstruction", facts).called_for);
+    EXPECT_EQ(refusal(facts, "+reconstruction"), "effects: +reconstruction is impossible: reconstruct is off");
+    facts = nothing();
+    EXPECT_EQ(named("reconstruction", facts).reason, "nothing blocks a ray of any of 10000 texels");
+    facts.bake.has_ground = true; // which, near enough, is sampled
+    EXPECT_TRUE(named("reconstruction", facts).on);
+}
+
 TEST(EffectsDecide, WhatIsLeftOutThoughCalledForIsNamed)
 {
-    EXPECT_EQ(left_out(decided("vismap", everything(), "-margin")), "") << "no texel of the mesh changes";
+    EXPECT_EQ(left_out(decided("vismap", everything(), "-margin,-reconstruction")), "")
+        << "no texel of the mesh sees something else";
     EXPECT_EQ(left_out(decided("vismap", everything(), "-ground,-occluders")), "occluders \"tree\", ground");
     EXPECT_EQ(left_out(decided("vismap", nothing(), "-ground,-occluders")), "");
 }
@@ -365,10 +382,10 @@ TEST(EffectsDecide, TheImpossibleIsRefused)
     EXPECT_EQ(
         switch_refusal(everything(), "+gruond"),
         "\"gruond\" is not an effect: did you mean \"ground\"? The effects are self-occlusion, occluders, ground, "
-        "cut-outs, normal-map, max-distance, poses, udim, margin, half");
+        "cut-outs, normal-map, max-distance, poses, udim, reconstruction, margin, half");
     EXPECT_EQ(switch_refusal(everything(), "ground"),
               "\"ground\" is not a switch: auto, all, or + or - before the name of an effect: self-occlusion, "
-              "occluders, ground, cut-outs, normal-map, max-distance, poses, udim, margin, half");
+              "occluders, ground, cut-outs, normal-map, max-distance, poses, udim, reconstruction, margin, half");
     EXPECT_EQ(switch_refusal(everything(), "+ground,-ground"), "\"ground\" is named twice");
     EXPECT_EQ(switch_refusal(everything(), "+ground,all"), "\"all\" must be the first word");
 }

@@ -150,6 +150,7 @@ inline VismapParams pose_params(int side, int samples)
     params.samples = samples;
     params.margin = 2;
     params.channels = { "coverage" };
+    params.reconstruct = "off"; // what is tested is which rays are traced again
     return params;
 }
 

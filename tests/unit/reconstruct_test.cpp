@@ -4,11 +4,15 @@
 #include "pose_scenes.h"
 
 #include <vmlight/math/longest_direction.h>
+#include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/stage/recipe/unused_flags.h>
 #include <vmlight/vismap/neighbour_weights.h>
 #include <vmlight/vismap/reconstruct.h>
+
+#include <gmock/gmock.h>
 
 #include <random>
 #include <string>
@@ -246,12 +250,12 @@ TEST(Reconstruct, TheSameBytesForAnyThreads)
     EXPECT_EQ(one.report.error, many.report.error);
 }
 
-TEST(Reconstruct, ItIsOffUnlessAskedForAndTheMapSaysWhether)
+TEST(Reconstruct, ItIsOnUnlessSwitchedOffAndTheMapSaysWhether)
 {
     const BakeInput scene = ball_over_floor();
     VismapParams params = map_params(64, 64, 16);
     EXPECT_FALSE(BakedMap(scene.mesh, scene.occluders, params).spec().find_attribute("vmlight:reconstruct"));
-    params.reconstruct = "auto";
+    params.reconstruct = VismapParams().reconstruct;
     EXPECT_EQ(BakedMap(scene.mesh, scene.occluders, params).spec().get_string_attribute("vmlight:reconstruct"), "auto");
     // Where it cannot be, the map is what it was.
     params.basis = "mask";
@@ -266,8 +270,6 @@ TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
 {
     VismapRecipe recipe;
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
-    recipe.vismap_params.reconstruct = "auto";
-    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
     recipe.vismap_params.basis = "cells";
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "what the basis cells packs of each ray has no mean");
     recipe.vismap_params.basis = "sh";
@@ -278,33 +280,63 @@ TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
     recipe.vismap_params.samples = 1;
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "it needs at least 2 rays per texel");
     recipe.vismap_params.samples = 2;
-    recipe.mesh = "hero.obj";
-    EXPECT_EQ(recipe_fault(recipe, {}), "");
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
     recipe.normal_map = "bumps.png";
-    EXPECT_EQ(recipe_fault(recipe, {}),
-              "reconstruct: with a normal map, neighbouring texels have normals of their own");
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "with a normal map, neighbouring texels have normals of their own");
+    recipe.vismap_params.reconstruct = "off";
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "") << "what is off can be said to be";
 }
 
-TEST(Reconstruct, ARecipeThatAsksForWhatCannotBeIsRefusedAsAFlagIs)
+TEST(Reconstruct, ARecipeThatCannotHaveItIsBakedWithout)
 {
     VismapRecipe recipe;
     recipe.mesh = "hero.obj";
-    recipe.vismap_params.reconstruct = "auto";
-    EXPECT_EQ(recipe_fault(recipe, {}), "");
+    EXPECT_EQ(why_not_reconstructed(recipe), "");
     for (const char* basis : { "mask", "cells" }) {
         recipe.vismap_params.basis = basis;
-        EXPECT_EQ(recipe_fault(recipe, {}), "reconstruct: " + unused_reason(recipe, "reconstruct"));
-        EXPECT_NE(unused_reason(recipe, "reconstruct"), "");
+        EXPECT_EQ(recipe_fault(recipe, {}), "");
+        EXPECT_FALSE(is_reconstructed(with_switches(recipe).vismap_params));
+        EXPECT_THAT(why_not_reconstructed(recipe), testing::HasSubstr(basis));
     }
-    recipe.vismap_params.reconstruct = "off";
-    EXPECT_EQ(recipe_fault(recipe, {}), "");
-    // What is switched off cannot stand in the way.
     recipe.vismap_params = {};
-    recipe.vismap_params.reconstruct = "auto";
     recipe.normal_map = "bumps.png";
-    recipe.effects = "-normal-map";
     EXPECT_EQ(recipe_fault(recipe, {}), "");
+    EXPECT_FALSE(is_reconstructed(with_switches(recipe).vismap_params));
+    EXPECT_NE(why_not_reconstructed(recipe), "");
+    // What is switched off cannot stand in the way.
+    recipe.effects = "-normal-map";
+    EXPECT_TRUE(is_reconstructed(with_switches(recipe).vismap_params));
+    EXPECT_EQ(why_not_reconstructed(recipe), "");
+    recipe.effects = "-normal-map,-reconstruction";
+    EXPECT_FALSE(is_reconstructed(with_switches(recipe).vismap_params));
+    recipe.vismap_params.reconstruct = "off";
+    EXPECT_EQ(why_not_reconstructed(recipe), "reconstruct is off");
+}
+
+// Half of a floor has something above it, half has nothing.
+TEST(Reconstruct, WhereNoRayAroundIsBlockedATexelStaysAsItIs)
+{
+    Reconstruction reconstruction(reconstruct_params(kTileSize, 16), 1);
+    TexelContexts contexts(0, 0, kTileSize, kTileSize);
+    std::vector<float> raw(kTileTexels * 6, 0.0f);
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = 0; x < kTileSize; ++x) {
+            float* texel = &raw[(size_t(y) * kTileSize + size_t(x)) * 6];
+            const bool is_blocked = x >= 32;
+            texel[0] = is_blocked ? 0.98f : 1;
+            texel[3] = 2.0f / 3 * texel[0];
+            contexts.at(x, y) = { V3f(float(x), float(y), 0), V3f(0, 0, 1), 1, is_blocked ? 1e-3f : 0, 0 };
+            reconstruction.add(x, y, texel, contexts.at(x, y));
+        }
+    std::vector<float> texels = raw;
+    EXPECT_EQ(reconstruction.apply(raw.data(), texels.data(), kTileSize * 6, 0, 0, contexts), 0);
+    const auto visibility = [&](int x) { return texels[(30 * kTileSize + size_t(x)) * 6]; };
+    for (int x = 0; x < 31; ++x)
+        ASSERT_EQ(visibility(x), 1) << x;
+    for (const int x : { 31, 32, 33 }) {
+        EXPECT_LT(visibility(x), 1) << x;
+        EXPECT_GT(visibility(x), 0.98f) << x;
+    }
 }
 
 TEST(Reconstruct, APoseThatChangesNothingHasTheBytesOfItsBase)

@@ -35,6 +35,7 @@ VismapParams quick(int width, int height, int margin)
     params.resolution = { width, height };
     params.samples = 4;
     params.margin = margin;
+    params.reconstruct = "off"; // what is tested are the tiles that a tile needs
     return params;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/vismap/neighbour_weights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@ constexpr double kTracing = 0.85;
 // What asking at triangles that are transparent in part adds to tracing, and what those hits add that ask the texture:
 // bench/cutout_bench.cpp.
 constexpr double kAsking = 0.3, kTexture = 0.5;
+// What averaging neighbours takes beside a bake of 64 rays.
+constexpr double kAveraging = 0.06;
 
 // How deep rays go into so many triangles.
 double depth(int64_t triangles)
@@ -175,6 +178,21 @@ void decide_udim(std::vector<EffectDecision>& dst, const Effect& effect, const E
                                            : std::string("no tile is given: [0, 1] of UV space is baked")));
     if (!bake.udim_given)
         dst.back().impossible = "no --udim is given";
+}
+
+void decide_reconstruction(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)
+{
+    const BakeFacts& bake = facts.bake;
+    const bool is_open = bake.open_triangles == bake.triangles && !bake.has_ground;
+    const std::string texels = count_text(bake.covered, "texel", "texels");
+    dst.push_back(decision(
+        effect, bake.no_reconstruct.empty() && !is_open,
+        !bake.no_reconstruct.empty() ? format("{}: each of {} has what its own rays see", bake.no_reconstruct, texels)
+            : is_open                ? format("nothing blocks a ray of any of {}", texels)
+                      : format("each of {} is averaged with those of the {} around it that see the same", texels,
+                               NeighbourWindow::kNeighbours),
+        kAveraging));
+    dst.back().impossible = bake.no_reconstruct;
 }
 
 void decide_margin(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts)

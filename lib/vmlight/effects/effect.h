@@ -38,7 +38,7 @@ struct Effect
     /// Whether switching it on makes work where nothing calls for it. The others have nothing to do there, and stay
     /// off.
     bool can_be_forced;
-    /// Whether it changes texels that the mesh covers, so that their difference says what leaving it out costs.
+    /// Whether texels that the mesh covers see something else, so that the difference says what leaving it out costs.
     bool changes_texels;
     /// Add a decision as of Switch::automatic, or one for each of its kind. A pure function of the facts.
     void (*decide)(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);

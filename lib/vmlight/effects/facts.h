@@ -36,6 +36,7 @@ struct BakeFacts
     double diagonal = 0; ///< of the box around mesh and occluders
     /// Length of rays; and as it is asked for, even if it is switched off.
     double reach = std::numeric_limits<double>::infinity(), given_reach = reach;
+    std::string no_reconstruct {}; ///< why texels are not averaged with their neighbours, or ""
     int margin = 0;
     int udim = 1001;
     bool udim_given = false, half = false;

@@ -26,6 +26,7 @@ void decide_normal_map(std::vector<EffectDecision>& dst, const Effect& effect, c
 void decide_distance(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);
 void decide_poses(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);
 void decide_udim(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);
+void decide_reconstruction(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);
 void decide_margin(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);
 void decide_half(std::vector<EffectDecision>& dst, const Effect& effect, const EffectFacts& facts);
 

@@ -16,6 +16,8 @@ constexpr Effect kEffects[] = {
     { "max-distance", "what is far away blocks no ray", "vismap", true, false, true, decide_distance },
     { "poses", "the mesh deforms", "vismap", false, false, true, decide_poses },
     { "udim", "a tile of UV space other than the first", "vismap", false, false, true, decide_udim },
+    { "reconstruction", "texels are averaged with neighbours that see the same", "vismap", true, false, false,
+      decide_reconstruction },
     { "margin", "texels around UV islands are filled", "vismap", true, false, false, decide_margin },
     { "half", "16 bits per channel", "vismap", false, false, true, decide_half },
     { "color-conversion", "inputs are brought to one colour space", "lightmap", false, false, true, decide_color },

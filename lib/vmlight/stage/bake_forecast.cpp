@@ -2,14 +2,17 @@
 #include <vmlight/stage/bake_forecast.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/parallel.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/effects/bake_facts.h>
 #include <vmlight/math/difference.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/normal_map_file.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/vismap/forecast.h>
 #include <vmlight/vismap/pose_sequence.h>
+#include <vmlight/vismap/reconstruct.h>
 
 #include <algorithm>
 
@@ -20,10 +23,13 @@ namespace {
 constexpr int kCompared = 64;
 // CPU seconds per texel and channel to fill the margin on one thread. Measured on maps of 1024 and 2048, half covered.
 constexpr double kMarginSeconds = 10e-9;
+// The same per covered texel that is averaged with its neighbours.
+constexpr double kReconstructSeconds = 0.4e-6;
 
 VismapParams without_pilot(VismapParams params)
 {
     params.target_error = 0;
+    params.reconstruct = "off";
     params.channels.erase(std::remove(params.channels.begin(), params.channels.end(), "error"), params.channels.end());
     return params;
 }
@@ -95,6 +101,7 @@ bool find_facts(BakeFacts& dst, const Bake& bake, const VismapBaker& baker, int6
     dst.has_flat_normal_map = recipe.has_normal_map() && !normal_map;
     dst.has_material_normals = recipe.material_normals;
     dst.given_reach = given.max_distance;
+    dst.no_reconstruct = why_not_reconstructed(recipe);
     dst.margin = given.margin;
     dst.udim_given = recipe.udim_given;
     dst.half = options.half;
@@ -165,12 +172,16 @@ void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, c
     // Poses of a sequence keep texels of each other: how many, only their bakes say.
     const double poses = options.poses ? double(options.pose_count) : 1;
     const double margin = poses * (recipe.vismap_params.margin != 0 ? values * kMarginSeconds : 0);
+    const double average = is_reconstructed(recipe.vismap_params)
+        ? double(forecast.covered) * kReconstructSeconds / worker_count(options.threads)
+        : 0;
     const double bake = poses
-        * (recipe.time_budget > 0 && forecast.bake_seconds > recipe.time_budget ? recipe.time_budget
-                                                                                : forecast.bake_seconds);
+        * (average
+           + (recipe.time_budget > 0 && forecast.bake_seconds > recipe.time_budget ? recipe.time_budget
+                                                                                   : forecast.bake_seconds));
     const double write = poses * write_seconds(spec, options.threads), read = poses * taken.read;
     // The map, and what the file's writer holds of it.
-    const double bytes = expected_bytes(spec, 1.5);
+    const double bytes = expected_bytes(spec, 1.5) + reconstruct_bytes(recipe.vismap_params);
     const double start = options.forecasts ? options.forecasts->start(taken) : start_seconds(taken);
     const double seconds = start + read + bake + margin + write;
     if (options.forecasts)
@@ -208,6 +219,9 @@ void report_taken(const BakeForecast& forecast, const VismapReport& report, cons
                                      double(hits) * 1e-6, 100 * double(now.lookups - before.lookups) / double(hits)));
     if (const int64_t blocked = now.below_ground - before.below_ground; blocked > 0)
         options.report_answer(format("  ground: {:.2f} M directions blocked without a ray", double(blocked) * 1e-6));
+    if (report.reconstruct_seconds > 0)
+        options.report_answer(format("  reconstruction: {:.3f} M texels in {:.2f} s", double(report.covered) * 1e-6,
+                                     report.reconstruct_seconds));
     if (const int64_t filled = now.margin - before.margin; filled > 0)
         options.report_answer(format("  margin: {:.3f} M texels filled", double(filled) * 1e-6));
 }

@@ -46,6 +46,8 @@ VismapRecipe with_switches(const VismapRecipe& recipe)
         params.max_distance = defaults.max_distance;
     if (switches.of("margin") == Switch::off)
         params.margin = 0;
+    if (switches.of("reconstruction") == Switch::off || switched.has_normal_map())
+        params.reconstruct = "off";
     params.skip_open = switches.of("self-occlusion") != Switch::on;
     return switched;
 }

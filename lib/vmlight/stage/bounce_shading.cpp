@@ -28,6 +28,7 @@ VismapParams point_params(const VismapParams& map)
 {
     VismapParams params = map;
     params.samples = std::min(params.samples, kPointSamples);
+    params.reconstruct = "off"; // points have no neighbours
     params.target_error = 0;
     return params;
 }

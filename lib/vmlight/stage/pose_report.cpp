@@ -44,6 +44,7 @@ VismapParams looking(VismapParams params)
 {
     params.skip_open = false;
     params.target_error = 0;
+    params.reconstruct = "off";
     params.channels.clear();
     return params;
 }

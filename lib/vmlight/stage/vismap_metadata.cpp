@@ -3,6 +3,7 @@
 
 #include <vmlight/base/params.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -36,6 +37,14 @@ void append_mesh_metadata(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
         if (!value.empty())
             spec.attribute(metadata_name(name), value_text(value, allowed));
     });
+}
+
+void append_no_reconstruct(OIIO::ImageSpec& spec, const VismapRecipe& given)
+{
+    if (given.vismap_params.reconstruct == "off")
+        return;
+    if (const std::string reason = why_not_reconstructed(given); !reason.empty())
+        spec.attribute(metadata_name("no_reconstruct"), reason);
 }
 
 } // namespace vmlight

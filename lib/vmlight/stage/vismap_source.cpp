@@ -12,6 +12,7 @@
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/pose_report.h>
+#include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
 #include <vmlight/stage/source_cache.h>
@@ -59,6 +60,7 @@ public:
         // No mesh hash: computing it would mean reading the mesh in open().
         m_spec = describe_vismap(OIIO::Filesystem::filename(m_recipe.mesh), m_recipe.vismap_params);
         append_mesh_metadata(m_spec, m_recipe);
+        append_no_reconstruct(m_spec, m_given);
     }
 
     bool read(OIIO::ROI roi, float* dst, std::string& error) override
@@ -193,6 +195,7 @@ private:
     void tag(OIIO::ImageSpec& map, const BakeScene& scene) const
     {
         append_mesh_metadata(map, m_recipe);
+        append_no_reconstruct(map, m_given);
         if (scene.occluder().cutouts().triangles > 0)
             append_params(map, m_recipe.cutout_params);
     }

@@ -99,12 +99,9 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
                                                                  open[size_t(k)], out + basis_at, memory);
             counts.dark += seen.visibility < 0.01;
             if (hints.contexts)
-                hints.contexts->at(tile_x + x, tile_y + y) = { points[size_t(k)].near_origin,
-                                                               points[size_t(k)].normal,
-                                                               spacing.of(triangles[size_t(k)]),
-                                                               float(seen.error * seen.error),
-                                                               open[size_t(k)],
-                                                               m_setup->seams.island(triangles[size_t(k)]) };
+                hints.contexts->at(tile_x + x, tile_y + y)
+                    = { points[size_t(k)].near_origin, points[size_t(k)].normal, spacing.of(triangles[size_t(k)]),
+                        float(seen.error * seen.error), m_setup->seams.island(triangles[size_t(k)]) };
             if (hints.errors)
                 hints.errors[size_t(tile_y + y) * size_t(width()) + size_t(tile_x + x)] = seen.error;
             out[0] = float(seen.visibility);

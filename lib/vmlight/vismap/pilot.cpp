@@ -17,8 +17,17 @@ namespace {
 
 // Rays between two progress checks: few enough to stop in well under a second.
 constexpr int64_t kRaysPerItem = 1 << 14;
+// Of lane_scale() in the scenes that were measured: see lane_scatter(). It counts as much as so many texels.
+constexpr double kUsualScale = 0.4, kUsualTexels = 16;
 
 } // namespace
+
+double lane_scale(const PilotError& measured, int64_t texels)
+{
+    const double found = measured.lane_rms > 0 ? measured.rms / measured.lane_rms : kUsualScale;
+    return std::sqrt((double(texels) * found * found + kUsualTexels * kUsualScale * kUsualScale)
+                     / (double(texels) + kUsualTexels));
+}
 
 VismapPilot::VismapPilot(const BakeScene& scene, const NormalMap* normal_map, const VismapParams& params, int nthreads,
                          const Progress& progress)

@@ -30,6 +30,10 @@ struct PilotError
     double seconds = 0;
 };
 
+/// What Visibility::error is to be multiplied by to be the error of V, as reconstruction needs it: measured, and where
+/// few texels were, near what is usual. A larger factor would average what differs.
+double lane_scale(const PilotError& measured, int64_t texels);
+
 class VismapPilot
 {
 public:

@@ -104,12 +104,9 @@ public:
                     continue;
                 const SurfacePoint point
                     = worker.surface->at(triangle, worker.cover->weight1[i], worker.cover->weight2[i]);
-                map.contexts.at(column, row) = { point.near_origin,
-                                                 point.normal,
-                                                 spacing.of(triangle),
-                                                 m_base.contexts.at(column, row).variance,
-                                                 false,
-                                                 m_baker.seams().island(triangle) };
+                map.contexts.at(column, row)
+                    = { point.near_origin, point.normal, spacing.of(triangle), m_base.contexts.at(column, row).variance,
+                        m_baker.seams().island(triangle) };
             }
     }
 

@@ -26,7 +26,7 @@ constexpr double kLengthRounding = 1e-6;
 std::string reconstruct_fault(const VismapParams& params)
 {
     if (params.reconstruct == "off")
-        return "it is switched off";
+        return "reconstruct is off";
     if (params.measure != "cosine")
         return "with the measure uniform, B is not a mean over rays";
     if (find_basis(params.basis).whole_numbers)
@@ -106,12 +106,10 @@ int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int
         if (m_window.spacing[NeighbourWindow::index(x, y)] > 0)
             islands[i] = contexts.at(left + x, top + y).island;
     }
-    int64_t dark = 0;
     std::vector<float> added;
     for (const IslandLayer& layer : layers_of_islands(islands, continuations)) {
         if (layer.texels == decltype(layer.texels) {})
             continue;
-        m_window.wanted = layer.texels;
         added.clear();
         const auto each = [&](auto&& visit) {
             for (const auto& [first, last] : layer.continuations)
@@ -123,18 +121,41 @@ int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int
                 added.push_back((*plane)[i]);
             add(there.x, there.y, there.texel, *there.context);
         });
-        dark += apply_layer(raw, texels, pitch, left, top, contexts);
+        want_scattered(layer.texels);
+        if (m_window.wanted != decltype(m_window.wanted) {})
+            apply_layer(raw, texels, pitch, left, top, contexts);
         const float* value = added.data();
         each([&](const Continuation&, size_t i) {
             for (NeighbourWindow::Plane* plane : m_planes)
                 (*plane)[i] = *value++;
         });
     }
+    int64_t dark = 0;
+    for (size_t i = 0; i < islands.size(); ++i)
+        dark += m_window.spacing[NeighbourWindow::index(int(i % kTileSize), int(i / kTileSize))] > 0
+            && texels[i / kTileSize * pitch + i % kTileSize * m_layout.channels] < 0.01f;
     return dark;
 }
 
-int64_t Reconstruction::apply_layer(const float* raw, float* texels, size_t pitch, int left, int top,
-                                    const TexelContexts& contexts)
+void Reconstruction::want_scattered(const std::array<uint64_t, kTileSize>& texels)
+{
+    constexpr int kPatch = NeighbourWindow::kPatch;
+    for (int row = 0; row < kTileSize; ++row) {
+        uint64_t& wanted = m_window.wanted[size_t(row)];
+        wanted = texels[size_t(row)];
+        for (int x = 0; x < kTileSize; ++x) {
+            bool scatters = false;
+            for (int y = row - kPatch; y <= row + kPatch; ++y)
+                for (int column = x - kPatch; column <= x + kPatch; ++column)
+                    scatters |= m_window.variance[NeighbourWindow::index(column, y)] > 0;
+            if (!scatters)
+                wanted &= ~(uint64_t(1) << x);
+        }
+    }
+}
+
+void Reconstruction::apply_layer(const float* raw, float* texels, size_t pitch, int left, int top,
+                                 const TexelContexts& contexts)
 {
     weigh_neighbours(m_window);
     const std::array<const float*, 4> planes { m_window.visibility.data(), m_window.x.data(), m_window.y.data(),
@@ -144,7 +165,6 @@ int64_t Reconstruction::apply_layer(const float* raw, float* texels, size_t pitc
     std::vector<float> variance(m_layout.has_error ? m_change[0].size() : 0);
     if (m_layout.has_error)
         mean_variance(m_window, variance.data());
-    int64_t dark = 0;
     std::vector<size_t> changed;
     for (size_t i = 0; i < m_change[0].size(); ++i) {
         const int x = int(i % kTileSize), y = int(i / kTileSize);
@@ -152,8 +172,6 @@ int64_t Reconstruction::apply_layer(const float* raw, float* texels, size_t pitc
             continue;
         const size_t at = size_t(y) * pitch + size_t(x) * m_layout.channels;
         const TexelContext& context = contexts.at(left + x, top + y);
-        if (context.is_open)
-            continue;
         if (m_layout.has_error)
             texels[at + m_layout.error_at] = std::sqrt(variance[i]) * m_error_scale;
         const std::array<float, 4> change { m_change[0][i], m_change[1][i], m_change[2][i], m_change[3][i] };
@@ -174,11 +192,9 @@ int64_t Reconstruction::apply_layer(const float* raw, float* texels, size_t pitc
             }
             changed.push_back(i);
         }
-        dark += texels[at] < 0.01f;
     }
     if (!m_bands.empty())
         change_bands(raw, texels, pitch, changed);
-    return dark;
 }
 
 void Reconstruction::change_bands(const float* raw, float* texels, size_t pitch, const std::vector<size_t>& changed)

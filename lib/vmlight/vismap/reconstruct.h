@@ -36,7 +36,6 @@ struct TexelContext
     Imath::V3f position { 0 }, normal { 0 }; ///< in the scene's space; of unit length
     float spacing = 0; ///< the longest distance to the next texel, in the scene's space; 0: not covered
     float variance = 0; ///< of V, up to SampleCount::lane_scale squared
-    bool is_open = false; ///< no ray was traced, and nothing blocks one: V and B are exact
     uint32_t island = 0; ///< SeamLinks::island()
 };
 
@@ -78,7 +77,8 @@ public:
     /// Add a covered texel at (x, y) from the first of the tile: at least -NeighbourWindow::kHalo, and less than
     /// kTileSize + kHalo. In any order.
     void add(int x, int y, const float* texel, const TexelContext& context);
-    /// Once all covered texels are added, set those of the tile.
+    /// Once all covered texels are added, set those of the tile. A texel stays as it is, to the bit, if none of the 3x3
+    /// around it has a variance: all their rays are free, or all are blocked, or the ground alone blocks them.
     ///
     /// @param raw, texels  the tile's first texel, as it was baked and to be set; rows are `pitch` floats apart
     /// @param contexts     has those of the tile
@@ -88,8 +88,8 @@ public:
                   const std::vector<Continuation>& continuations = {});
 
 private:
-    int64_t apply_layer(const float* raw, float* texels, size_t pitch, int left, int top,
-                        const TexelContexts& contexts);
+    void want_scattered(const std::array<uint64_t, kTileSize>& texels);
+    void apply_layer(const float* raw, float* texels, size_t pitch, int left, int top, const TexelContexts& contexts);
     void change_bands(const float* raw, float* texels, size_t pitch, const std::vector<size_t>& changed);
 
     struct Layout

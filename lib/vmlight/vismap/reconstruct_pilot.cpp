@@ -36,10 +36,9 @@ ReconstructPilot::ReconstructPilot(const BakeScene& scene, const VismapPilot& pi
     m_params.sun_directions.clear();
 }
 
-bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) const
+bool ReconstructPilot::measure(const PilotError& plain, double scale, ReconstructError& dst) const
 {
     const int samples = plain.samples;
-    const double lane_scale = plain.lane_rms > 0 ? plain.rms / plain.lane_rms : 1;
     constexpr int kAcross = NeighbourWindow::kSide / kSide;
     const auto most = size_t(std::clamp(kRaysPerGroup / (kSide * kSide * samples), 1, kAcross * kAcross));
     const int probe_samples = std::max(samples, std::min(samples * kProbeRays, kMostProbeRays));
@@ -60,7 +59,7 @@ bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) c
         for (size_t k = 0; k < 3; ++k)
             worker.integrators[k] = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), k ? probe : pattern,
                                                                            params[k], units, ground);
-        worker.reconstruction = std::make_unique<Reconstruction>(m_params, lane_scale);
+        worker.reconstruction = std::make_unique<Reconstruction>(m_params, scale);
     }
     struct Sums
     {
@@ -88,7 +87,7 @@ bool ReconstructPilot::measure(const PilotError& plain, ReconstructError& dst) c
                     continue;
                 const Visibility seen = integrators[0]->integrate(texel.point, texel.x, texel.y, texel.open);
                 const TexelContext context { texel.point.near_origin, texel.point.normal, texel.spacing,
-                                             float(seen.error * seen.error), texel.open };
+                                             float(seen.error * seen.error) };
                 const std::array<float, kChannels> channels { float(seen.visibility), float(seen.direction.x),
                                                               float(seen.direction.y), float(seen.direction.z), 0 };
                 const Imath::V2i at = slot(k, i);

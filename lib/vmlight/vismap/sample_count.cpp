@@ -18,8 +18,8 @@ namespace {
 constexpr int kFirst = 64, kMost = 1 << 20;
 // The error is known to a few per cent only: closer counts are equally good.
 constexpr double kNear = 1.04;
-// Texels that are enough to scale the scatter of lanes, and one of how many.
-constexpr int64_t kScaleTexels = 1024, kScaleStep = 64;
+// Texels that are enough to scale the scatter of lanes, and one of how many at most.
+constexpr int64_t kScaleTexels = 1024, kScaleStep = 16;
 // All of fewer texels may agree by chance.
 constexpr int64_t kTelling = 256;
 
@@ -131,25 +131,29 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         return false;
     }
     const Stopwatch timer;
+    // The scatter of lanes is scaled by texels of its own, so that measuring the error changes nothing else.
     VismapPilot pilot(scene, normal_map, params, nthreads, progress);
-    // Where only the scatter of lanes is scaled, less will do.
-    if (!(wants_error ? pilot.pick(raster, open) : pilot.pick(raster, open, kScaleTexels, kScaleStep)))
+    VismapPilot scatter(scene, normal_map, params, nthreads, progress);
+    ReconstructPilot windows(scene, pilot, params, nthreads, progress);
+    if ((wants_error && !pilot.pick(raster, open))
+        || (reconstructs && !scatter.pick(raster, open, kScaleTexels, kScaleStep))
+        || (wants_error && reconstructs && !windows.pick(raster, open, seams)))
         return stopped();
-    std::unique_ptr<ReconstructPilot> windows;
-    if (reconstructs && wants_error) {
-        windows = std::make_unique<ReconstructPilot>(scene, pilot, params, nthreads, progress);
-        if (!windows->pick(raster, open, seams))
-            return stopped();
-    }
-    double lane_scale = 1, error_scale = 1; // of the last measurement
+    double reconstruct_scale = 1, error_scale = 1; // of the last measurement
     const Measure measure = [&](int samples, PilotError& error_there) {
+        if (reconstructs) {
+            if (!scatter.measure(samples, error_there))
+                return false;
+            reconstruct_scale = lane_scale(error_there, scatter.texels());
+        }
+        if (!wants_error)
+            return true;
         if (!pilot.measure(samples, error_there))
             return false;
-        lane_scale = error_there.lane_rms > 0 ? error_there.rms / error_there.lane_rms : 1;
         ReconstructError reconstructed;
-        if (!windows)
+        if (!reconstructs)
             return true;
-        if (!windows->measure(error_there, reconstructed))
+        if (!windows.measure(error_there, reconstruct_scale, reconstructed))
             return false;
         error_there.rms = reconstructed.rms;
         error_scale = reconstructed.scale;
@@ -179,10 +183,10 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
             return stopped();
     }
     dst.samples = measured.samples;
-    if (windows && target > 0 && !measure(dst.samples, measured)) // the last try may have been another count
+    if (reconstructs && target > 0 && !measure(dst.samples, measured)) // the last try may have been another count
         return stopped();
     dst.pilot_seconds = timer();
-    dst.lane_scale = windows || measured.lane_rms == 0 ? lane_scale : measured.rms / measured.lane_rms;
+    dst.lane_scale = reconstructs ? reconstruct_scale : measured.lane_rms > 0 ? measured.rms / measured.lane_rms : 1;
     dst.error_scale = error_scale;
     if (!wants_error)
         return true;

@@ -38,7 +38,7 @@ struct VismapParams
     /// `auto`: V, B and the bands of `sh` of a texel are means over its own rays and those of neighbours that see the
     /// same, where the basis and the measure allow it (docs/accuracy.md). `off`: of its own rays alone. Does not apply
     /// to `sun_directions`, nor to maps with normals of their own.
-    std::string reconstruct = "off";
+    std::string reconstruct = "auto";
     /// Sample pattern. `fibonacci` has the least error at a fixed number of rays (docs/accuracy.md); `halton` is the
     /// paper's.
     std::string sampler = "fibonacci";
@@ -94,7 +94,7 @@ struct VismapParams
         field("target_error", target_error, Range { 1e-9, 1, "none", 0 },
               "Instead of a fixed count, choose one for this RMS error of visibility, such as 0.01");
         field("reconstruct", reconstruct,
-              Choices { { { "auto", "also from the rays of neighbouring texels that see the same" },
+              Choices { { { "auto", "where it is sound, also from neighbouring texels that see the same" },
                           { "off", "from each texel's own rays" } } },
               "Denoise visibility: less error from the same rays");
         field("sampler", sampler,

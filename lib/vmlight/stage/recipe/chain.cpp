@@ -97,11 +97,7 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
         return with_location(
             recipe, key, chain,
             format("{}a normal map is given too: set only one of them", chain.empty() ? "material_normals: " : ""));
-    if (const std::string fault = effects_fault(recipe, chain); !fault.empty())
-        return fault;
-    const std::string fault = unreconstructable(recipe);
-    return fault.empty() ? ""
-                         : with_location(recipe, "reconstruct", chain, (chain.empty() ? "reconstruct: " : "") + fault);
+    return effects_fault(recipe, chain);
 }
 
 std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)

@@ -34,6 +34,7 @@ EffectFacts known_facts(const VismapRecipe& recipe, const EffectSwitches& switch
     bake.margin = recipe.vismap_params.margin;
     bake.udim = recipe.vismap_params.udim;
     bake.udim_given = recipe.udim_given;
+    bake.no_reconstruct = why_not_reconstructed(recipe);
     bake.half = switches.of("half") == Switch::on;
     bake.poses = switches.of("poses") == Switch::on ? 2 : 1;
     return facts;
@@ -98,13 +99,11 @@ bool wants_bounce(const LightmapRecipe& recipe)
     return recipe.bounce_params.bounce != "off" || is_named_on(recipe, "bounce");
 }
 
-std::string unreconstructable(const VismapRecipe& recipe)
+std::string why_not_reconstructed(const VismapRecipe& recipe)
 {
     EffectSwitches switches;
     std::string ignored;
-    if (recipe.vismap_params.reconstruct == "off")
-        return "";
-    if (recipe.has_normal_map()
+    if (recipe.vismap_params.reconstruct != "off" && recipe.has_normal_map()
         && !(EffectSwitches::parse(switches, recipe.effects, VismapRecipe::kStage, ignored)
              && switches.of("normal-map") == Switch::off))
         return "with a normal map, neighbouring texels have normals of their own";

@@ -21,8 +21,8 @@ bool wants_bounce(const LightmapRecipe& recipe);
 std::string switched_fault(const VismapRecipe& recipe);
 std::string switched_fault(const LightmapRecipe& recipe);
 
-/// Why the map of the recipe cannot be reconstructed, which it asks for, or "".
-std::string unreconstructable(const VismapRecipe& recipe);
+/// Why the map of the recipe is not reconstructed, a phrase, or "".
+std::string why_not_reconstructed(const VismapRecipe& recipe);
 
 /// What the recipe says of its light. What only its inputs know is taken to allow the switches.
 EffectFacts known_facts(const LightmapRecipe& recipe, const EffectSwitches& switches);

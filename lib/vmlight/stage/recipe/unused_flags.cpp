@@ -32,8 +32,8 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "width and height override it";
     if (key == "ground_height" && !recipe.vismap_params.ground)
         return "no ground is given";
-    if (key == "reconstruct")
-        return unreconstructable(recipe);
+    if (key == "reconstruct" && recipe.vismap_params.reconstruct != "off")
+        return why_not_reconstructed(recipe);
     const std::string other_basis = unused_basis_parameter(recipe.vismap_params, key);
     if (!other_basis.empty())
         return other_basis;
