@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/cli/main.h>
+#include <vmlight/cli/material_files.h>
 #include <vmlight/cli/part_run.h>
 #include <vmlight/cli/pose_list.h>
 #include <vmlight/cli/udim_run.h>
@@ -8,6 +10,7 @@
 #include <vmlight/stage/forecast_costs.h>
 #include <vmlight/stage/mesh_list.h>
 #include <vmlight/stage/pose_report.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/vismap/basis.h>
 #include <vmlight/vismap/pose_sequence.h>
@@ -68,6 +71,7 @@ int main(int argc, const char** argv)
     stage.params("Mesh:", recipe.cutout_params);
     stage.option("write_mesh", "PATH", "Also write the mesh as baked, with the UVs of the map, to this .glb or .obj",
                  write_path);
+    stage.params("Strands:", recipe.strand_params);
     const auto unsavable = [&] {
         return recipe.time_budget > 0    ? "--time-budget cannot be saved in a recipe: it depends on the machine"
             : !write_path.empty()        ? "--write-mesh cannot be saved in a recipe"
@@ -111,6 +115,17 @@ int main(int argc, const char** argv)
               "and "
               "bake those"
             : "";
+    });
+
+    stage.check([&] {
+        const char* const flag = !write_path.empty()                                   ? "--write-mesh"
+            : explain                                                                  ? "--explain"
+            : stage.is_dry_run()                                                       ? "--dry-run"
+            : poses.count() > 1 || !poses.compared(recipe).empty()                     ? "--frames and --pose"
+            : has_udim_pattern(stage.output()) || has_material_pattern(stage.output()) ? "-o with <UDIM> or <MATERIAL>"
+                                                                                       : "";
+        return *flag && bakes_strands(recipe) ? format("\"{}\": {}: not of strands, only of meshes", recipe.mesh, flag)
+                                              : std::string();
     });
 
     std::string written; // one mesh for all tiles, unless each has its own

@@ -3,7 +3,8 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/fail_with.h>
-#include <vmlight/cfem/exact.h>
+#include <vmlight/base/format.h>
+#include <vmlight/cfem/filter_kernel.h>
 #include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/rows.h>
 #include <vmlight/cfem/spherical_harmonics.h>
@@ -23,6 +24,8 @@ OIIO::ImageSpec describe_cfem(const OIIO::ImageSpec& env, const CfemParams& para
     spec.attribute("vmlight:stage", kCfemStage);
     spec.attribute("vmlight:version", VMLIGHT_VERSION_STRING);
     append_params(spec, params);
+    if (params.kernel != kCosineKernel) // a map of surfaces has the metadata that it always had
+        spec.attribute(metadata_name("kernel"), params.kernel);
     spec.attribute("oiio:updirection", "y");
     for (const char* name : { "colorInteropID", "chromaticities" })
         if (const OIIO::ParamValue* value = env.find_attribute(name))
@@ -43,6 +46,9 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
     std::string error;
     if (!check_params(params, error))
         return fail_with(dst, error);
+    const FilterKernel* const kernel = find_filter_kernel(params.kernel);
+    if (!kernel)
+        return fail_with(dst, format("kernel: \"{}\" is not {}", params.kernel, allowed_text(kernel_choices())));
     error = memory_shortage(describe_cfem(env.spec(), params));
     if (!error.empty())
         return fail_with(dst, error);
@@ -55,10 +61,10 @@ bool make_cfem(OIIO::ImageBuf& dst, const Environment& env, const CfemParams& pa
     const ReadRow read = [&](int row, float* pixels) { return rows.read(row, pixels); };
     const bool exact = params.filter == "exact";
     const bool skip = color && params.skip_one_color;
-    const bool done = skip
-        ? !progress || progress(1)
-        : (exact ? filter_exact(rgb, params.resolution, rows.grid(), read, nthreads, progress)
-                 : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read, nthreads, progress));
+    const bool done = skip ? !progress || progress(1)
+                           : (exact ? kernel->filter(rgb, params.resolution, rows.grid(), read, nthreads, progress)
+                                    : filter_harmonics(rgb, params.resolution, params.order, rows.grid(), read,
+                                                       nthreads, progress, kernel->eigenvalue));
     if (!done)
         return fail_with(dst, rows.error().empty() ? "interrupted" : rows.error());
     if (color)

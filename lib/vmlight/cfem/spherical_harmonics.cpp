@@ -17,9 +17,10 @@ namespace {
 
 // Rows read before they are projected on threads.
 constexpr int kBlockRows = 64;
-// Four nodes per band follow P_lm of the highest band, 63, in the coarsest bands, 1/128 of pi, to 1e-6.
+// Four nodes per strip of latitude follow P_lm of the highest band in the coarsest strips to 1e-6: band 63 in 1/128 of
+// pi.
 constexpr int kNodes = 4;
-constexpr int kLeastBands = 128;
+constexpr int kLeastStrips = 128;
 
 // Normalised associated Legendre functions of one m, for l = m, m + 1, ...: Int P_lm^2 over the sphere is 1.
 // The recurrence in l at fixed m is stable upwards.
@@ -111,7 +112,8 @@ bool project_harmonics(std::vector<double>& coefficients, int order, const Envir
     }
 
     const LatitudeRule rule(kNodes);
-    const int parts = (kLeastBands + grid.height - 1) / grid.height;
+    const int strips = std::max(kLeastStrips, 2 * order);
+    const int parts = (strips + grid.height - 1) / grid.height;
     std::vector<LatitudeNode> nodes;
     for (int r = 0; r < grid.height; ++r) {
         const double theta = grid.row_edge(r), step = (grid.row_edge(r + 1) - theta) / parts;
@@ -172,14 +174,14 @@ void evaluate_harmonics(std::vector<double>& rgb, const Size& resolution, const 
 }
 
 bool filter_harmonics(std::vector<double>& rgb, const Size& resolution, int order, const EnvironmentGrid& grid,
-                      const ReadRow& read, int nthreads, const Progress& progress)
+                      const ReadRow& read, int nthreads, const Progress& progress, double (*eigenvalue)(int band))
 {
     std::vector<double> coefficients;
     if (!project_harmonics(coefficients, order, grid, read, nthreads, progress))
         return false;
     for (int l = 0; l < order; ++l)
         for (int i = 0; i < 3 * (2 * l + 1); ++i)
-            coefficients[place(l, -l) + i] *= cosine_eigenvalue(l);
+            coefficients[place(l, -l) + i] *= eigenvalue(l);
     evaluate_harmonics(rgb, resolution, coefficients, order, nthreads);
     return true;
 }

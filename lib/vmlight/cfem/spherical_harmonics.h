@@ -5,6 +5,7 @@
 #pragma once
 
 #include <vmlight/cfem/exact.h>
+#include <vmlight/math/harmonics.h>
 
 #include <vector>
 
@@ -23,8 +24,10 @@ bool project_harmonics(std::vector<double>& coefficients, int order, const Envir
 void evaluate_harmonics(std::vector<double>& rgb, const Size& resolution, const std::vector<double>& coefficients,
                         int order, int nthreads);
 
-/// Filter the rows of `read` with l < order. False if `read` or `progress` stopped it.
+/// Filter the rows of `read` with l < order, by a kernel that multiplies band l by `eigenvalue`. False if `read` or
+/// `progress` stopped it.
 bool filter_harmonics(std::vector<double>& rgb, const Size& resolution, int order, const EnvironmentGrid& grid,
-                      const ReadRow& read, int nthreads, const Progress& progress);
+                      const ReadRow& read, int nthreads, const Progress& progress,
+                      double (*eigenvalue)(int band) = cosine_eigenvalue);
 
 } // namespace vmlight

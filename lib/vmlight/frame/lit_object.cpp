@@ -126,6 +126,10 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
         std::vector<OIIO::ImageBuf> images;
         if (!source || !make_input(images, *source, {}, recipe, "vismap", recipe.vismap, options, error))
             return false;
+        if (kernel_of(images[0].spec()) == kStrandKernel) {
+            error = format("\"{}\": a visibility map of strands, not of a mesh", recipe.vismap);
+            return false;
+        }
         // Of a mesh that was changed since, a map may still be meant.
         const std::string hash = images[0].spec().get_string_attribute("vmlight:meshHash");
         if (!hash.empty() && hash != mesh_hash(*m_mesh))

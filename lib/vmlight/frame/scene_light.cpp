@@ -36,6 +36,11 @@ bool read_cfem(SceneLight& dst, const std::string& name, const CfemRecipe& recip
             return false;
         }
     }
+    if (kernel_of(dst.filtered[0].spec()) != kCosineKernel) {
+        error = format("\"{}\": filtered by the kernel {}: the light of strands, not of meshes", name,
+                       kernel_of(dst.filtered[0].spec()));
+        return false;
+    }
     color.convert(dst.filtered, options.threads);
     color.convert(dst.suns);
     for (const std::string& warning : color.warnings)

@@ -40,6 +40,11 @@ std::vector<std::string> numbered_channels(const std::string& basis, int first, 
     return names;
 }
 
+std::string kernel_of(const OIIO::ImageSpec& spec)
+{
+    return spec.get_string_attribute("vmlight:kernel", kCosineKernel);
+}
+
 bool find_vismap_channels(const OIIO::ImageSpec& spec, std::array<int, 4>& index, std::string& error)
 {
     const std::string stage = spec.get_string_attribute("vmlight:stage");

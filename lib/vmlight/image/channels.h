@@ -29,6 +29,16 @@ constexpr const char* kErrorChannel = "error";
 /// Optional channel of a visibility map: 1 where a triangle covers the texel, 0 in the margin and outside.
 constexpr const char* kCoverageChannel = "coverage";
 
+/// Channels of a visibility map of strands: the tangent t in object space, of unit length, from root to tip; 0 where
+/// there is no strand.
+constexpr std::array<const char*, 3> kTangentChannels { "tangent.x", "tangent.y", "tangent.z" };
+
+/// `vmlight:kernel`: how light is weighted by its direction w. Images without it have the first.
+constexpr const char* kCosineKernel = "cosine"; ///< (1/pi) max(0, n.w), of a diffuse surface with the normal n
+constexpr const char* kStrandKernel = "strand"; ///< (1/pi^2) sin(t, w), of a strand with the tangent t
+/// The kernel of a visibility map or a filtered environment.
+VMLIGHT_API std::string kernel_of(const OIIO::ImageSpec& spec);
+
 /// Optional channels of a visibility map that a basis adds (VismapParams::basis): `<basis>.<first>` up to
 /// `<basis>.<end - 1>`.
 VMLIGHT_API std::vector<std::string> numbered_channels(const std::string& basis, int first, int end);

@@ -76,8 +76,14 @@ bool make(ImageBuf& dst, const ImageBuf& vismap, OIIO::cspan<ImageBuf> cfem, con
         shader.use_suns({ std::shared_ptr<const SunLight>(), suns });
     if (bounce)
         shader.use_bounce({ std::shared_ptr<const BounceLight>(), bounce });
-    if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, has_all_light(cfem), model, error)
-        || !shader.prepare(cfem, params, model, error))
+    if (!lightmap_rotation(rotation, params, error) || !reader.open(vismap, params, has_all_light(cfem), model, error))
+        return false;
+    if (const std::string fault = cfem.empty() ? "" : kernel_fault(model, vismap.spec(), cfem[0].spec());
+        !fault.empty()) {
+        error = named(cfem[0], fault);
+        return false;
+    }
+    if (!shader.prepare(cfem, params, model, error))
         return false;
     if (albedo) {
         const auto opened = std::make_shared<AlbedoReader>();

@@ -32,6 +32,8 @@ struct ModelEntry
     ModelLight light;
     /// `auto` takes the model of the highest rank that map and light allow. 0: never chosen by `auto`.
     int rank;
+    /// The same for maps of strands; 0: the model is of surfaces alone.
+    int strand_rank;
     /// The bake that stores its channels: VismapParams::basis, and the word to add to VismapParams::channels; or "".
     const char *basis, *added_channel;
     /// How many of its channels, counted from the last, hold whole numbers below 2^24.
@@ -71,9 +73,13 @@ struct ShadingModel
 /// Find the model that `params` asks for; for `auto` the best that `vismap` has channels for, or, unless `has_stack` (a
 /// stack is at hand, or an environment to filter into one), the best that needs only a CFEM.
 ///
-/// @returns false, with the reason in `error`, if `vismap` is not a visibility map or lacks a channel that the model
-///          reads.
+/// @returns false, with the reason in `error`, if `vismap` is not a visibility map, is of strands and the model is not,
+///          or lacks a channel that the model reads.
 bool choose_model(ShadingModel& dst, const LightmapParams& params, const OIIO::ImageSpec& vismap, bool has_stack,
                   std::string& error);
+
+/// Why `light`, of which the model of a map reads ModelEntry::light, is not what the map needs, or "": it was filtered
+/// by another kernel.
+std::string kernel_fault(const ShadingModel& model, const OIIO::ImageSpec& vismap, const OIIO::ImageSpec& light);
 
 } // namespace vmlight

@@ -133,9 +133,10 @@ std::vector<std::string> paper_model_channels(const OIIO::ImageSpec&)
     return { kVismapChannels.begin(), kVismapChannels.end() };
 }
 
-std::vector<std::string> ao_model_channels(const OIIO::ImageSpec&)
+std::vector<std::string> ao_model_channels(const OIIO::ImageSpec& vismap)
 {
-    return { kVismapChannels[0], kNormalChannels[0], kNormalChannels[1], kNormalChannels[2] };
+    const auto& axis = kernel_of(vismap) == kStrandKernel ? kTangentChannels : kNormalChannels;
+    return { kVismapChannels[0], axis[0], axis[1], axis[2] };
 }
 
 std::unique_ptr<ModelShader> prepare_paper(const ModelInput& input, std::string& error)

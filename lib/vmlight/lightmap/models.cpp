@@ -15,28 +15,48 @@
 namespace vmlight {
 namespace {
 
-// Name, phrase, light, rank, basis, added channel, whole numbers, unread, channels, is_baked, prepare.
+// Name, phrase, light, rank, strand rank, basis, added channel, whole numbers, unread, channels, is_baked, prepare.
 constexpr ModelEntry kModels[] = {
-    { "ao", "ambient occlusion: V times the light around the normal", ModelLight::cfem, 0, "", "normal", 0, 0,
+    { "ao", "ambient occlusion: V times the light around the normal", ModelLight::cfem, 0, 1, "", "normal", 0, 0,
       ao_model_channels, nullptr, prepare_paper },
-    { "paper", "V times the light around the mean visible direction", ModelLight::cfem, 1, "", "", 0, 0,
+    { "paper", "V times the light around the mean visible direction", ModelLight::cfem, 1, 0, "", "", 0, 0,
       paper_model_channels, nullptr, prepare_paper },
-    { "lobe", "like paper, with a lobe as wide as the visible part of the sky", ModelLight::lobes, 2, "", "", 0, 0,
+    { "lobe", "like paper, with a lobe as wide as the visible part of the sky", ModelLight::lobes, 2, 0, "", "", 0, 0,
       paper_model_channels, nullptr, prepare_lobe },
-    { "sh", "light and visibility in spherical harmonics", ModelLight::radiance, 3, "sh", "", 0, 0, sh_model_channels,
-      has_sh, prepare_sh },
-    { "mask", "light within the visible range of heights in each of 16 longitudes", ModelLight::radiance, 4, "mask", "",
-      kMaskFloats, 3, mask_model_channels, has_mask, prepare_mask },
-    { "cells", "light of 144 cells of the sphere, each weighted by visibility", ModelLight::radiance, 5, "cells", "",
+    { "sh", "light and visibility in spherical harmonics", ModelLight::radiance, 3, 3, "sh", "", 0, 0,
+      sh_model_channels, has_sh, prepare_sh },
+    { "mask", "light within the visible range of heights in each of 16 longitudes", ModelLight::radiance, 4, 0, "mask",
+      "", kMaskFloats, 3, mask_model_channels, has_mask, prepare_mask },
+    { "cells", "light of 144 cells of the sphere, each weighted by visibility", ModelLight::radiance, 5, 0, "cells", "",
       kCellsFloats, 3, cells_model_channels, has_cells, prepare_cells },
 };
+
+bool is_of_strands(const OIIO::ImageSpec& vismap)
+{
+    return kernel_of(vismap) == kStrandKernel;
+}
+
+int rank_of(const ModelEntry& entry, const OIIO::ImageSpec& vismap)
+{
+    return is_of_strands(vismap) ? entry.strand_rank : entry.rank;
+}
+
+std::string strand_models()
+{
+    std::vector<std::string> names;
+    for (const ModelEntry& entry : kModels)
+        if (entry.strand_rank > 0)
+            names.emplace_back(entry.name);
+    return OIIO::Strutil::join(names, ", ");
+}
 
 const ModelEntry& best_entry(const OIIO::ImageSpec& vismap, bool has_stack)
 {
     const ModelEntry* best = nullptr;
     for (const ModelEntry& entry : kModels) {
         const bool has_light = has_stack || entry.light == ModelLight::cfem;
-        if (entry.rank > (best ? best->rank : 0) && has_light && (!entry.is_baked || entry.is_baked(vismap)))
+        if (rank_of(entry, vismap) > (best ? rank_of(*best, vismap) : 0) && has_light
+            && (!entry.is_baked || entry.is_baked(vismap)))
             best = &entry;
     }
     return *best;
@@ -89,6 +109,11 @@ bool choose_model(ShadingModel& dst, const LightmapParams& params, const OIIO::I
         return false;
     const ModelEntry* named = find_model_entry(params.model);
     const ModelEntry& entry = named ? *named : best_entry(vismap, has_stack);
+    if (is_of_strands(vismap) && entry.strand_rank == 0) {
+        error = format("model {} is of surfaces, and the visibility map of strands: use one of {}", entry.name,
+                       strand_models());
+        return false;
+    }
     dst = { entry.name, entry.light, entry.channels(vismap), &entry };
     for (const std::string& name : dst.channels)
         if (vismap.channelindex(name) < 0) {
@@ -97,6 +122,16 @@ bool choose_model(ShadingModel& dst, const LightmapParams& params, const OIIO::I
             return false;
         }
     return true;
+}
+
+std::string kernel_fault(const ShadingModel& model, const OIIO::ImageSpec& vismap, const OIIO::ImageSpec& light)
+{
+    const std::string map = kernel_of(vismap), filtered = kernel_of(light);
+    return model.light == ModelLight::radiance || map == filtered
+        ? ""
+        : format("filtered by the kernel {}, and the visibility map needs {}: filter the environment by makecfem "
+                 "--kernel {}",
+                 filtered, map, map);
 }
 
 } // namespace vmlight

@@ -107,4 +107,15 @@ double cosine_eigenvalue(int l)
     return value;
 }
 
+double sine_eigenvalue(int l)
+{
+    if (l % 2 == 1)
+        return 0;
+    double a = 1;
+    for (int k = 1; 2 * k <= l; ++k)
+        a *= (2 * k - 1) / (2.0 * k);
+    const int n = l / 2;
+    return -a * a / ((2 * n - 1.0) * (n + 1));
+}
+
 } // namespace vmlight

@@ -48,4 +48,8 @@ std::vector<double> rotate_harmonics(const std::vector<double>& coefficients, in
 /// The factor A_l / pi of band l in a cosine filter: 1, 2/3, 1/4, 0, -1/24, 0, 1/64, ...
 double cosine_eigenvalue(int l);
 
+/// The same of the filter of strands, (1/pi^2) sin(t, w): 1, 0, -1/8, 0, -1/64, 0, -5/1024, ... From P_l(cos theta) as
+/// a sum of cosines of multiples of theta: with a_n = (2n - 1)!! / (2n)!! it is a_n^2 - a_(n-1) a_(n+1) for l = 2n.
+double sine_eigenvalue(int l);
+
 } // namespace vmlight

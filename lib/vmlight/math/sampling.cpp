@@ -63,6 +63,12 @@ Point32 fibonacci_point(uint32_t index, uint32_t count)
     return { uint32_t((uint64_t(index) << 32) / count), index * 0x9e3779b9u };
 }
 
+void sort_for_packets(std::vector<Point32>& points)
+{
+    std::stable_sort(points.begin(), points.end(),
+                     [](const Point32& a, const Point32& b) { return morton(a) < morton(b); });
+}
+
 uint32_t owen_scramble(uint32_t fraction, uint32_t seed)
 {
     return reverse_bits(kernel::scramble_reversed(reverse_bits(fraction), seed));
@@ -98,8 +104,7 @@ SamplePattern::SamplePattern(const std::string& sampler, int count, bool uniform
         points[i] = sampler == "halton" ? halton_point(uint32_t(i))
             : sampler == "sobol"        ? sobol_point(uint32_t(i))
                                         : fibonacci_point(uint32_t(i), uint32_t(count));
-    std::stable_sort(points.begin(), points.end(),
-                     [](const Point32& a, const Point32& b) { return morton(a) < morton(b); });
+    sort_for_packets(points);
     const size_t padded = size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize;
     points.resize(padded, points.back());
     for (const Point32& p : points) {

@@ -29,6 +29,9 @@ Point32 fibonacci_point(uint32_t index, uint32_t count);
 /// (the same hash).
 uint32_t owen_scramble(uint32_t fraction, uint32_t seed);
 
+/// Order points along a space-filling curve, so that the eight rays of a packet are coherent, also after scrambling.
+void sort_for_packets(std::vector<Point32>& points);
+
 /// Two independent 32-bit numbers for a texel.
 Point32 texel_hash(uint32_t x, uint32_t y, uint32_t seed);
 
@@ -40,8 +43,7 @@ struct TangentFrame
     explicit TangentFrame(const Imath::V3f& n);
 };
 
-/// The directions of all texels: `count` points, sorted along a space-filling curve so that the eight rays of a packet
-/// are coherent, also after scrambling.
+/// The directions of all texels: `count` points, in the order of sort_for_packets().
 class SamplePattern
 {
 public:

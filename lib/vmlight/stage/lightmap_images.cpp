@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/lightmap_images.h>
 
+#include <vmlight/base/format.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/lightmap/model.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/output_color.h>
@@ -31,9 +33,21 @@ PixelSourcePointer open_light(PixelSourcePointer& environment, const LightmapRec
     filter.layer = recipe.layer;
     filter.layout = recipe.layout;
     filter.cfem_params = recipe.cfem_params;
+    filter.cfem_params.kernel = kernel_of(vismap);
     filter.stack = model.light != ModelLight::cfem;
     filter.suns = recipe.suns == "off" ? "off" : "auto";
     return open_source(filter, error);
+}
+
+// Suns and the bounce are traced from the mesh of a map.
+std::string surface_light_fault(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const RecipeChain& chain)
+{
+    const std::string key = recipe.suns != "off" ? "suns" : recipe.bounce_params.bounce != "off" ? "bounce" : "";
+    return key.empty() || kernel_of(vismap) != kStrandKernel
+        ? ""
+        : with_location(
+            recipe, key, chain,
+            format("{}not with \"{}\", a visibility map of strands", chain.empty() ? key + ": " : "", recipe.vismap));
 }
 
 std::shared_ptr<AlbedoSource> open_albedo(const LightmapRecipe& recipe, OIIO::ROI size, const std::string& working,
@@ -77,6 +91,10 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
 {
     LightmapRecipe recipe = given;
     dst.vismap = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, chain);
+    if (dst.vismap)
+        error = surface_light_fault(recipe, dst.vismap->spec(), chain);
+    if (!error.empty())
+        return false;
     if (dst.vismap && recipe.suns == "auto" && recipe.cfem.empty()) { // without its suns, a CFEM is too dark
         dst.no_suns = why_no_suns(recipe, dst.vismap->spec(), recipe.vismap);
         recipe.suns = dst.no_suns.empty() ? "auto" : "off";

@@ -60,6 +60,8 @@ public:
         if (!choose_model(m_model, m_recipe.lightmap_params, vismap, has_all, error)
             || !find_vismap_channels(vismap, m_vismap_channels, error))
             error = with_location(m_recipe, "vismap", chain, format("\"{}\": {}", m_recipe.vismap, error));
+        else if (const std::string fault = kernel_fault(m_model, vismap, m_images.cfem->spec()); !fault.empty())
+            error = with_location(m_recipe, "cfem", chain, format("\"{}\": {}", m_recipe.cfem, fault));
         Rotation rotation;
         if (!error.empty())
             return false;

@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/uv_sets.h>
 #include <vmlight/uv/raster.h>
@@ -56,6 +57,8 @@ bool list_mesh(std::string& dst, const VismapRecipe& given, std::string& error)
     Mesh mesh;
     if (recipe.mesh.empty())
         error = "mesh is missing";
+    else if (bakes_strands(recipe))
+        error = format("\"{}\": strands have no UV sets, materials or nodes to list", printable_line(recipe.mesh));
     if (!error.empty() || !read_mesh(mesh, recipe.mesh, recipe.mesh_params, error))
         return false;
     dst = line_of(format("\"{}\"", printable_line(recipe.mesh)), int64_t(mesh.triangles.size()));

@@ -75,32 +75,6 @@ const char* key_of(size_t index)
 // A part with its scale this many times that of the whole gets a scene of its own.
 constexpr double kSmallPart = 64;
 
-// Read one of the recipe's files, and note all that it opens in `files`.
-bool read_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& recipe, const SceneStamps& stamps,
-               size_t index, const StepListener& at_step, std::string& at, std::string& error)
-{
-    at = key_of(index);
-    begin_step(at_step, "read");
-    const std::string& mesh_path = path_of(recipe, index);
-    ++work_counts().meshes_read;
-    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error, [&](const std::string& path) { note_file(files, path); })
-        || !check_stamp(stamps.files[index], mesh_path, error))
-        return false;
-    if (recipe.cutout_params.cutouts == "off")
-        return true;
-    const auto read_again = [&](Mesh& again, int uv_set) {
-        MeshParams params = recipe.mesh_params;
-        params.uv_set = uv_set;
-        std::string ignored;
-        ++work_counts().meshes_read;
-        return read_mesh(again, mesh_path, params, ignored);
-    };
-    if (std::any_of(dst.materials.begin(), dst.materials.end(),
-                    [](const Material& material) { return material.alpha_mode != AlphaMode::opaque; }))
-        begin_step(at_step, "read cut-outs");
-    return read_cutouts(dst, { recipe.mesh_params.uv_set, recipe.unwrap && index == 0, read_again }, &files, error);
-}
-
 UnwrapParams unwrap_params(const VismapRecipe& recipe, int nthreads)
 {
     const Size size = recipe.vismap_params.size();
@@ -126,7 +100,7 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     std::vector<Mesh> occluders(recipe.occluder.size());
     auto scene = std::make_shared<BakeScene>();
     for (size_t i = 0; i < stamps.files.size(); ++i)
-        if (!read_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at_step, at, error))
+        if (!read_scene_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at_step, at, error))
             return false;
     at = recipe.unwrap ? "unwrap" : key_of(0);
     if (recipe.unwrap)
@@ -156,7 +130,7 @@ bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<co
     std::vector<FileStamp> again;
     occluders[0] = std::move(rest);
     for (size_t i = 1; i < stamps.files.size(); ++i)
-        if (!read_file(occluders[i], again, recipe, stamps, i, at_step, at, error))
+        if (!read_scene_file(occluders[i], again, recipe, stamps, i, at_step, at, error))
             return false;
     at = key_of(0);
     dst.files = whole.files;
@@ -231,6 +205,31 @@ std::string selection_key(MeshSelection selection)
 }
 
 } // namespace
+
+bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& recipe, const SceneStamps& stamps,
+                     size_t index, const StepListener& at_step, std::string& at, std::string& error)
+{
+    at = key_of(index);
+    begin_step(at_step, "read");
+    const std::string& mesh_path = path_of(recipe, index);
+    ++work_counts().meshes_read;
+    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error, [&](const std::string& path) { note_file(files, path); })
+        || !check_stamp(stamps.files[index], mesh_path, error))
+        return false;
+    if (recipe.cutout_params.cutouts == "off")
+        return true;
+    const auto read_again = [&](Mesh& again, int uv_set) {
+        MeshParams params = recipe.mesh_params;
+        params.uv_set = uv_set;
+        std::string ignored;
+        ++work_counts().meshes_read;
+        return read_mesh(again, mesh_path, params, ignored);
+    };
+    if (std::any_of(dst.materials.begin(), dst.materials.end(),
+                    [](const Material& material) { return material.alpha_mode != AlphaMode::opaque; }))
+        begin_step(at_step, "read cut-outs");
+    return read_cutouts(dst, { recipe.mesh_params.uv_set, recipe.unwrap && index == 0, read_again }, &files, error);
+}
 
 bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error)
 {

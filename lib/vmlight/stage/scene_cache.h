@@ -22,6 +22,11 @@ struct SceneStamps
 /// False if a file is missing: `at` is the recipe key that names it, `error` the reason.
 bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error);
 
+/// Read file `index` of a recipe with its cut-outs: the mesh if 0, else an occluder. Notes all that it opens in
+/// `files`. False if it has changed since `stamps` or cannot be read: `at` and `error` as for stamp_scene().
+bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& recipe, const SceneStamps& stamps,
+                     size_t index, const StepListener& at_step, std::string& at, std::string& error);
+
 /// Get the scene of a recipe whose paths contain no "<UDIM>": shared while anyone holds it, whatever their UDIM tile,
 /// samples and, unless the mesh is unwrapped, resolution; otherwise read and built. Callable from any thread;
 /// concurrent callers wait for one build.

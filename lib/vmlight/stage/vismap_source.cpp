@@ -13,9 +13,11 @@
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/pose_report.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/scene_cache.h>
 #include <vmlight/stage/source_cache.h>
+#include <vmlight/stage/strand_source.h>
 #include <vmlight/stage/vismap_metadata.h>
 #include <vmlight/vismap/bake_parts.h>
 #include <vmlight/vismap/baker.h>
@@ -28,6 +30,7 @@
 #include <algorithm>
 #include <atomic>
 #include <ctime>
+#include <iterator>
 #include <memory>
 
 namespace vmlight {
@@ -261,6 +264,26 @@ private:
     std::atomic<size_t> m_bytes { 0 }; // set last: nonzero means that everything else is ready
 };
 
+PixelSourcePointer open_mesh_map(const VismapRecipe& recipe, const std::string& key, SceneStamps stamps,
+                                 const RecipeChain&, std::string&)
+{
+    return std::make_shared<VismapSource>(key, recipe, std::move(stamps));
+}
+
+bool bakes_mesh(const VismapRecipe&)
+{
+    return true;
+}
+
+/// What a recipe can bake: the first entry that says so.
+struct BakedKind
+{
+    bool (*bakes)(const VismapRecipe& recipe);
+    PixelSourcePointer (*open)(const VismapRecipe& recipe, const std::string& key, SceneStamps stamps,
+                               const RecipeChain& chain, std::string& error);
+};
+constexpr BakedKind kBakedKinds[] = { { bakes_strands, open_strand_map }, { bakes_mesh, open_mesh_map } };
+
 } // namespace
 
 PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, const RecipeChain& chain, Sharing sharing)
@@ -282,17 +305,21 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
         return nullptr;
     }
     const std::string key = recipe_key(recipe) + stamps.key + normal_map;
-    if (sharing == Sharing::none)
-        return std::make_shared<VismapSource>(key, recipe, std::move(stamps));
-    if (PixelSourcePointer known = find_source(key))
+    const bool shared = sharing == Sharing::process;
+    if (PixelSourcePointer known = shared ? find_source(key) : nullptr)
         return known;
-    return keep_source(std::make_shared<VismapSource>(key, recipe, std::move(stamps)));
+    const auto kind = std::find_if(std::begin(kBakedKinds), std::end(kBakedKinds),
+                                   [&](const BakedKind& entry) { return entry.bakes(recipe); });
+    const PixelSourcePointer source = kind->open(recipe, key, std::move(stamps), chain, error);
+    return source && shared ? keep_source(source) : source;
 }
 
 bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
     const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
+    if (source && !vismap)
+        error = "--dry-run: only bakes of meshes are forecast, not of strands";
     return vismap && vismap->report_plan(options, error);
 }
 

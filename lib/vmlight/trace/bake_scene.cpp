@@ -16,21 +16,6 @@ namespace {
 // Embree silently ignores geometry farther away than 1.8e18.
 constexpr double kFarthestCaster = 1e18;
 
-bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
-{
-    for (const auto& triangle : mesh.triangles)
-        for (uint32_t vertex : triangle) {
-            const double reach = ((mesh.positions[vertex] - frame.centre) * frame.scale).length();
-            if (reach <= kFarthestCaster)
-                continue;
-            error = format(
-                "\"{}\": vertex {} is {:.2g} times the size of the baked mesh away; rays reach at most {:g} times",
-                mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
-            return false;
-        }
-    return true;
-}
-
 int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
 {
     int64_t count = 0;
@@ -72,6 +57,21 @@ std::string bake_fault(const Mesh& mesh)
 }
 
 } // namespace
+
+bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
+{
+    for (const auto& triangle : mesh.triangles)
+        for (uint32_t vertex : triangle) {
+            const double reach = ((mesh.positions[vertex] - frame.centre) * frame.scale).length();
+            if (reach <= kFarthestCaster)
+                continue;
+            error = format(
+                "\"{}\": vertex {} is {:.2g} times the size of the baked mesh away; rays reach at most {:g} times",
+                mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
+            return false;
+        }
+    return true;
+}
 
 void BakeScene::measure()
 {

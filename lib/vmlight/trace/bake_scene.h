@@ -95,6 +95,9 @@ private:
     std::vector<CasterReach> m_reach;
 };
 
+/// False, with the reason in `error`, if a vertex of `mesh` is too far away to be traced in this frame.
+bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error);
+
 /// A non-owning pointer to `mesh`, which must outlive it.
 inline std::shared_ptr<const Mesh> non_owning(const Mesh& mesh)
 {

@@ -10,11 +10,16 @@
 
 #include <vmlight/trace/cutouts.h>
 
+#include <cstdint>
+
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
 namespace vmlight::embree {
+
+/// Of a query whose rays pass no strand.
+constexpr uint32_t kNoStrand = ~0u;
 
 #if RTC_VERSION_MAJOR >= 4
 /// Required by a scene whose queries have a filter.
@@ -24,6 +29,7 @@ constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARG
 struct QueryContext : RTCRayQueryContext
 {
     CutoutWork cutouts;
+    uint32_t own_strand = kNoStrand;
 };
 
 /// The arguments of a query besides its rays, which are marked incoherent.
@@ -53,6 +59,8 @@ public:
         rtcIntersect8(valid, scene, &rays, &arguments);
     }
     const CutoutWork& cutouts() const { return m_context.cutouts; }
+    /// Rays pass this strand: see StrandScene.
+    void pass_strand(uint32_t strand) { m_context.own_strand = strand; }
 
 private:
     QueryContext m_context;
@@ -73,6 +81,7 @@ constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTIO
 struct QueryContext : RTCIntersectContext
 {
     CutoutWork cutouts;
+    uint32_t own_strand = kNoStrand;
 };
 
 class Query
@@ -90,6 +99,8 @@ public:
         rtcIntersect8(valid, scene, &m_context, &rays);
     }
     const CutoutWork& cutouts() const { return m_context.cutouts; }
+    /// Rays pass this strand: see StrandScene.
+    void pass_strand(uint32_t strand) { m_context.own_strand = strand; }
 
 private:
     QueryContext m_context;

@@ -23,10 +23,15 @@ SceneFrame SceneFrame::around(const Mesh& mesh)
                 low[axis] = std::min(low[axis], mesh.positions[vertex][axis]);
                 high[axis] = std::max(high[axis], mesh.positions[vertex][axis]);
             }
+    return around(low, high);
+}
+
+SceneFrame SceneFrame::around(const V3d& low, const V3d& high)
+{
     SceneFrame frame;
     const V3d half = (high - low) * 0.5;
     const double reach = std::max({ half.x, half.y, half.z });
-    if (!(reach < std::numeric_limits<double>::infinity())) // no triangle
+    if (!(reach < std::numeric_limits<double>::infinity())) // nothing in it
         return frame;
     frame.centre = low + half;
     if (reach > 0)

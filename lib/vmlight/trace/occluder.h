@@ -30,6 +30,8 @@ struct SceneFrame
     double scale = 1;
 
     static SceneFrame around(const Mesh& mesh);
+    /// The box need not be one: without a point in it the frame is that of object space.
+    static SceneFrame around(const Imath::V3d& low, const Imath::V3d& high);
     Imath::V3f to_scene(const Imath::V3d& p) const { return Imath::V3f((p - centre) * scale); }
 };
 

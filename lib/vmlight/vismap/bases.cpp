@@ -16,14 +16,14 @@ std::vector<std::string> no_channels(const VismapParams&)
     return {};
 }
 
-// Name, phrase, own parameter, needs_normal, whole_numbers, channels, accumulator.
+// Name, phrase, own parameter, needs_normal, whole_numbers, has_strands, channels, accumulator.
 constexpr VisibilityBasis kBases[] = {
-    { "vector", "only visibility and mean direction", "", false, false, no_channels, nullptr },
-    { "sh", "spherical harmonics of the visible cosine lobe, --order bands", "order", false, false, sh_channels,
+    { "vector", "only visibility and mean direction", "", false, false, true, no_channels, nullptr },
+    { "sh", "spherical harmonics of the visible cosine lobe, --order bands", "order", false, false, true, sh_channels,
       make_sh_accumulator },
-    { "mask", "for each of 16 longitudes, the visible range of heights and its density", "", true, true, mask_channels,
-      make_mask_accumulator },
-    { "cells", "how much of each of 144 cells of the sphere is visible", "", true, true, cells_channels,
+    { "mask", "for each of 16 longitudes, the visible range of heights and its density", "", true, true, false,
+      mask_channels, make_mask_accumulator },
+    { "cells", "how much of each of 144 cells of the sphere is visible", "", true, true, false, cells_channels,
       make_cells_accumulator },
 };
 

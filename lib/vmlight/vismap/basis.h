@@ -3,6 +3,7 @@
 /// is visible. A basis is one row of the table in bases.cpp; everything else asks the table.
 #pragma once
 
+#include <vmlight/math/harmonics.h>
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/vismap/vismap.h>
 
@@ -31,6 +32,9 @@ struct TexelRays
     double visibility;
     /// The factor by which B was shortened to what a surface of that V can see, 1 for most texels.
     double narrowed = 1;
+    /// Of the density of the directions around `normal`, which need not be the cosine's: its harmonics are those of
+    /// `normal` times this.
+    double (*eigenvalue)(int band) = cosine_eigenvalue;
 };
 
 /// Turns the rays of a texel into the numbers of a basis. One per thread.
@@ -54,6 +58,8 @@ struct VisibilityBasis
     bool needs_normal;
     /// Whether the channels hold whole numbers below 2^24, so that half floats, filters and mipmaps would corrupt them.
     bool whole_numbers;
+    /// Whether maps of strands can store it.
+    bool has_strands;
     /// Names of the channels, in order.
     std::vector<std::string> (*channels)(const VismapParams& params);
     std::unique_ptr<BasisAccumulator> (*accumulator)(const VismapParams& params);

@@ -67,8 +67,8 @@ void HarmonicAccumulator::project(const TexelRays& rays, float* dst)
                 m_seen[size_t(k)] += double(m_seen_lanes[size_t(k * kLanes + i)]);
             }
     }
-    // A control variate, as for B: the harmonics of the whole cosine lobe are known (those of the normal times the
-    // cosine's eigenvalue), and the rays' error in them is removed from the visible part in proportion. Exact where
+    // A control variate, as for B: the harmonics of the whole lobe are known (those of the normal times the
+    // lobe's eigenvalue), and the rays' error in them is removed from the visible part in proportion. Exact where
     // all or nothing is visible.
     std::array<float, kLanes> x, y, z;
     x.fill(rays.normal.x), y.fill(rays.normal.y), z.fill(rays.normal.z);
@@ -80,8 +80,7 @@ void HarmonicAccumulator::project(const TexelRays& rays, float* dst)
         for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
             double value = m_seen[size_t(k)] / double(traced);
             if (rays.complete)
-                value
-                    += (cosine_eigenvalue(l) * double(m_values[size_t(k * kLanes)]) - m_all[size_t(k)] / double(traced))
+                value += (rays.eigenvalue(l) * double(m_values[size_t(k * kLanes)]) - m_all[size_t(k)] / double(traced))
                     * rays.visibility;
             dst[k - 4] = rays.visibility > 0 ? float(value * blur) : 0.0f;
         }

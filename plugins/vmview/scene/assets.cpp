@@ -66,6 +66,10 @@ bool read_map_image(OIIO::ImageBuf& dst, const std::string& path, const MakeOpti
         error = format("\"{}\": {}", path, error);
         return false;
     }
+    if (kernel_of(images[0].spec()) == kStrandKernel) {
+        error = format("\"{}\": a visibility map of strands, not of a mesh", path);
+        return false;
+    }
     dst = std::move(images[0]);
     return true;
 }

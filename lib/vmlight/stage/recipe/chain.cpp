@@ -2,8 +2,10 @@
 #include <vmlight/stage/recipe/chain.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/cfem/filter_kernel.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/recipe/udim.h>
 
 #include <algorithm>
@@ -83,6 +85,10 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
 {
     if (recipe.mesh.empty())
         return missing("mesh", chain);
+    if (std::string key; bakes_strands(recipe)) {
+        const std::string fault = strand_fault(recipe, key);
+        return fault.empty() ? "" : with_location(recipe, key, chain, (chain.empty() ? key + ": " : "") + fault);
+    }
     if (recipe.unwrap && recipe.vismap_params.udim != kFirstUdim)
         return with_location(recipe, "unwrap", chain,
                              format("{}the atlas is tile {}, and tile {} is empty", chain.empty() ? "unwrap: " : "",
@@ -102,7 +108,15 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
 
 std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)
 {
-    return recipe.environment.empty() ? missing("environment", chain) : "";
+    if (recipe.environment.empty())
+        return missing("environment", chain);
+    const FilterKernel* const kernel = find_filter_kernel(recipe.cfem_params.kernel);
+    const char* const key = recipe.stack ? "stack" : recipe.suns != "off" ? "suns" : "";
+    return !*key || !kernel || kernel->has_stack
+        ? ""
+        : with_location(recipe, key, chain,
+                        format("{}not with the kernel {}", chain.empty() ? std::string(key) + ": " : "",
+                               recipe.cfem_params.kernel));
 }
 
 std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)

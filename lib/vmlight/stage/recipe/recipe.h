@@ -18,6 +18,7 @@
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/mesh/selection.h>
+#include <vmlight/mesh/strands.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/normal_map_params.h>
 #include <vmlight/vismap/transport_params.h>
@@ -70,6 +71,8 @@ struct VismapRecipe
     VismapParams vismap_params;
     /// Of the mesh and its occluders.
     CutoutParams cutout_params;
+    /// If `mesh` is a file of strands: see bakes_strands().
+    StrandParams strand_params;
     /// Switches of effects: see effects/switches.h. "auto" is what the scene calls for.
     std::string effects = "auto";
     /// Whether occluders are left out of the scene that no ray of the mesh's texels can meet. Changes no visibility,
@@ -97,6 +100,7 @@ struct VismapRecipe
                                "--explain lists them"));
         mesh_params.visit(field);
         cutout_params.visit(field);
+        strand_params.visit(field);
     }
 };
 
@@ -162,6 +166,7 @@ struct CfemRecipe
         field("stack", stack, Flag {},
               "Write a stack: filters of several widths and the environment itself, for all models");
         field("suns", suns, suns_choices(false), "Suns to split off, for makelightmap --suns auto");
+        field("kernel", cfem_params.kernel, kernel_choices(), "What to light: surfaces or strands");
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         cfem_params.visit(field);
     }

@@ -5,6 +5,7 @@
 #include <vmlight/lightmap/model.h>
 #include <vmlight/mesh/import/importer.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/vismap/basis.h>
 
 #include <OpenImageIO/strutil.h>
@@ -15,6 +16,8 @@ namespace vmlight {
 
 std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
 {
+    if (const std::string reason = unused_by_strands(recipe, key); !reason.empty())
+        return reason;
     if (key == "crease_angle" && recipe.mesh_params.normals == "flat")
         return "flat normals ignore it";
     if (key == "frame" && !has_time(recipe.mesh)

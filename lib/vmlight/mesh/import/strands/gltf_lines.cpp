@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
+#include <vmlight/mesh/import/gltf/accessor.h>
+#include <vmlight/mesh/import/gltf/document.h>
+#include <vmlight/mesh/import/gltf/error.h>
+#include <vmlight/mesh/import/gltf/hierarchy.h>
+#include <vmlight/mesh/import/gltf/instances.h>
+#include <vmlight/mesh/import/strands/strand_format.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <numeric>
+
+namespace vmlight {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+
+// Appends the line strips that the nodes of a document show.
+class LineWalk
+{
+public:
+    LineWalk(Strands& dst, gltf::Document& document)
+        : m_strands(dst)
+        , m_document(document)
+        , m_model(document.model())
+    {
+    }
+
+    void append_all()
+    {
+        const std::vector<int> roots = gltf::root_nodes(m_model);
+        gltf::check_hierarchy(m_model, roots);
+        m_transforms = gltf::node_transforms(m_model);
+        for (const int root : roots)
+            append_node(root);
+        if (m_model.nodes.empty()) // a library of meshes
+            for (const tinygltf::Mesh& mesh : m_model.meshes)
+                append_mesh(mesh, mesh.weights, false, { M44d() });
+        if (m_strands.ends.empty())
+            throw gltf::Error("no strands: it shows no primitive of mode LINE_STRIP");
+    }
+
+private:
+    // Recurses as deep as the hierarchy.
+    void append_node(int index)
+    {
+        if (!gltf::is_node_visible(m_model, index))
+            return;
+        const tinygltf::Node& node = m_model.nodes[size_t(index)];
+        if (node.mesh >= 0) {
+            if (size_t(node.mesh) >= m_model.meshes.size())
+                throw gltf::Error(
+                    format("node {} has mesh {}, but there are only {}", index, node.mesh, m_model.meshes.size()));
+            const tinygltf::Mesh& mesh = m_model.meshes[size_t(node.mesh)];
+            std::vector<M44d> places;
+            for (const M44d& instance : gltf::read_instances(m_document, node))
+                places.push_back(instance * m_transforms[size_t(index)]);
+            append_mesh(mesh, node.weights.empty() ? mesh.weights : node.weights, node.skin >= 0, places);
+        }
+        for (const int child : node.children)
+            append_node(child);
+    }
+
+    void append_mesh(const tinygltf::Mesh& mesh, const std::vector<double>& weights, bool is_skinned,
+                     const std::vector<M44d>& places)
+    {
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            if (primitive.mode != TINYGLTF_MODE_LINE_STRIP || primitive.attributes.count("POSITION") == 0)
+                continue;
+            const bool is_morphed = !primitive.targets.empty()
+                && std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; });
+            if (is_skinned || is_morphed)
+                throw gltf::Error(format("strands of mesh \"{}\" are {}, which is not read", mesh.name,
+                                         is_skinned ? "skinned" : "morphed"));
+            const gltf::Numbers numbers = gltf::read_accessor(m_document, primitive.attributes.at("POSITION"),
+                                                              TINYGLTF_TYPE_VEC3, 0, "POSITION");
+            std::vector<uint32_t> indices(numbers.count);
+            std::iota(indices.begin(), indices.end(), 0u);
+            if (primitive.indices >= 0)
+                indices = gltf::read_indices(m_document, primitive.indices);
+            for (const uint32_t index : indices)
+                if (index >= numbers.count)
+                    throw gltf::Error(format("a line of mesh \"{}\" uses vertex {}, but there are only {}", mesh.name,
+                                             index, numbers.count));
+            if (m_strands.points.size() + double(places.size()) * double(indices.size()) > UINT32_MAX)
+                throw gltf::Error("more than 2^32 points");
+            for (const M44d& place : places) {
+                for (const uint32_t index : indices)
+                    m_strands.points.push_back(V3d(numbers[index][0], numbers[index][1], numbers[index][2]) * place);
+                end_strand(m_strands);
+            }
+        }
+    }
+
+    Strands& m_strands;
+    gltf::Document& m_document;
+    const tinygltf::Model& m_model;
+    std::vector<M44d> m_transforms;
+};
+
+} // namespace
+
+bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& error)
+{
+    try {
+        Mesh ignored; // takes the warnings of what a document has beside its lines
+        MeshBuilder builder(ignored, request.params);
+        const MeshFormat* const mesh_format = find_mesh_format(mesh_formats(), request.path, request.head);
+        const ImportRequest whole { request.path, *mesh_format, request.head, {}, request.before_open };
+        gltf::Document document(whole, builder);
+        LineWalk(dst, document).append_all();
+        return true;
+    } catch (const gltf::Error& reason) {
+        error = shortened_line(OIIO::Strutil::strip(reason.what()));
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) { // of the libraries that the room uses
+        error = format("cannot read as glTF 2.0: {}", shortened_line(exception.what()));
+    }
+    return false;
+}
+
+} // namespace vmlight

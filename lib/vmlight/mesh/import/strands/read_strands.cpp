@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vmlight/mesh/import/strands/read_strands.h>
+
+#include <vmlight/base/deep_stack.h>
+#include <vmlight/base/format.h>
+#include <vmlight/mesh/import/gltf.h>
+#include <vmlight/mesh/import/obj.h>
+#include <vmlight/mesh/import/strands/strand_format.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace vmlight {
+namespace {
+
+FileHead strand_head(const std::string& path)
+{
+    FileHead head { std::string(FileHead::kBytes, '\0'), 0 };
+    if (!OIIO::Filesystem::is_regular(path))
+        return {};
+    head.bytes.resize(OIIO::Filesystem::read_bytes(path, head.bytes.data(), head.bytes.size()));
+    head.size = OIIO::Filesystem::file_size(path);
+    return head;
+}
+
+const StrandFormat* find_strand_format(const std::string& path, const FileHead& head)
+{
+    const auto& formats = strand_formats();
+    const auto has_content = [&](const StrandFormat& format) { return format.has_content && format.has_content(head); };
+    const auto has_extension = [&](const StrandFormat& format) {
+        const std::vector<std::string> extensions = OIIO::Strutil::splits(format.extensions);
+        return std::any_of(extensions.begin(), extensions.end(),
+                           [&](const std::string& e) { return OIIO::Strutil::iends_with(path, "." + e); });
+    };
+    auto found = std::find_if(formats.begin(), formats.end(), has_content);
+    if (found == formats.end())
+        found = std::find_if(formats.begin(), formats.end(), has_extension);
+    return found == formats.end() ? nullptr : &*found;
+}
+
+std::string unknown_strand_format()
+{
+    std::vector<std::string> names;
+    for (const StrandFormat& format : strand_formats())
+        names.emplace_back(format.name);
+    return "unknown format of strands; supported: " + OIIO::Strutil::join(names, ", ");
+}
+
+} // namespace
+
+const std::vector<StrandFormat>& strand_formats()
+{
+    static const std::vector<StrandFormat> formats {
+        { "HAIR", "hair", is_hair, false, read_hair },
+        { "OBJ", "obj", is_obj, true, read_obj_lines },
+        { "glTF 2.0", "gltf glb", is_gltf, true, read_gltf_lines },
+        { "TressFX", "tfx", nullptr, false, read_tfx },
+    };
+    return formats;
+}
+
+bool is_strand_file(const std::string& path)
+{
+    const StrandFormat* format = find_strand_format(path, strand_head(path));
+    return format && !format->has_meshes;
+}
+
+bool read_strands(Strands& dst, const std::string& path, const MeshParams& params, const std::string& radius,
+                  std::string& error, const BeforeOpen& before_open)
+{
+    dst = Strands();
+    dst.name = OIIO::Filesystem::filename(path);
+    dst.path = path;
+    if (!OIIO::Filesystem::is_regular(path)) {
+        error = format("\"{}\": {}", path, OIIO::Filesystem::exists(path) ? "not a file" : "no such file");
+        return false;
+    }
+    if (before_open)
+        before_open(path);
+    const StrandRequest request { path, strand_head(path), params, before_open };
+    const StrandFormat* const format_of_file = find_strand_format(path, request.head);
+    error.clear();
+    if (!format_of_file)
+        error = unknown_strand_format();
+    else
+        run_on_deep_stack([&] { format_of_file->read(dst, request, error); }); // glTF recurses down its nodes
+    if (!error.empty()) {
+        error = format("\"{}\": {}", path, error);
+        return false;
+    }
+    if (params.up == "z")
+        for (Imath::V3d& p : dst.points)
+            p = Imath::V3d(p.x, p.z, -p.y);
+    return set_radius(dst, radius, error) && check_strands(dst, error);
+}
+
+} // namespace vmlight

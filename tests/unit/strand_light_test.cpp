@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfem_maps.h"
+#include "scenes.h"
+#include "stage_scene.h"
+#include "strand_bake.h"
+
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/image/channels.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/lightmap/model.h>
+#include <vmlight/stage/make_stage.h>
+
+#include <cstring>
+
+using namespace cfem_maps;
+using namespace vmlight::strand_files;
+using strand_bake::rays;
+using strand_bake::strand_map;
+
+namespace {
+
+CfemParams of_strands(int width, int height)
+{
+    CfemParams params = exact(width, height);
+    params.kernel = "strand";
+    return params;
+}
+
+// (1/pi^2) Int L sin(t, w) dw, pixel by pixel, each in parts.
+double gathered(const Map& sky, const V3d& tangent)
+{
+    constexpr int kParts = 8;
+    double sum = 0;
+    const int width = sky.width * kParts, height = sky.height * kParts;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float light = sky.at(x / kParts, y / kParts)[0];
+            if (light != 0)
+                sum += light * center(x, y, width, height).cross(tangent).length()
+                    * brute::solid_angle(y, width, height);
+        }
+    return sum / (pi * pi);
+}
+
+Map uneven_sky()
+{
+    Map sky(32, 16);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x)
+            for (int c = 0; c < 3; ++c)
+                sky.at(x, y)[c] = .2f + float((x * 7 + y * 13) % 11) + (y < 8 ? 4.f : 0.f);
+    return sky;
+}
+
+// Two crossing strands above a floor.
+Strands crossing()
+{
+    return straight({ { V3d(-1, 0, 0), V3d(1, .3, 0) }, { V3d(0, .4, -1), V3d(0, .4, 1) } }, .05);
+}
+std::vector<Mesh> low_floor()
+{
+    return { scenes::quad(V3d(-3, -.5, 3), V3d(3, -.5, 3), V3d(3, -.5, -3), V3d(-3, -.5, -3)) };
+}
+
+OIIO::ImageBuf map_with(const char* basis, const Strands& strands, const std::vector<Mesh>& occluders)
+{
+    VismapParams params = rays(64);
+    params.basis = basis;
+    return strand_map(strands, occluders, params);
+}
+
+/// The environment itself, as the model sh takes it.
+OIIO::ImageBuf unfiltered(const Map& sky)
+{
+    OIIO::ImageBuf light;
+    std::string error;
+    EXPECT_TRUE(make_radiance(light, image(sky), exact(sky.width, sky.height), error)) << error;
+    return light;
+}
+
+LightmapParams model(const char* name)
+{
+    LightmapParams params;
+    params.model = name;
+    return params;
+}
+
+std::string refusal(const OIIO::ImageBuf& map, const OIIO::ImageBuf& light, const char* name)
+{
+    OIIO::ImageBuf lit;
+    EXPECT_FALSE(make_lightmap(lit, map, light, model(name))) << name;
+    return lit.geterror();
+}
+
+} // namespace
+
+TEST(StrandCfem, AConstantLightStaysAsItIs)
+{
+    CfemParams params = of_strands(32, 16);
+    for (const bool skip : { true, false }) {
+        params.skip_one_color = skip;
+        const Map filtered = cfem_maps::filtered(image(Map(64, 32, .75f)), params);
+        for (const float value : filtered.rgb)
+            EXPECT_NEAR(value, .75f, 2e-7);
+    }
+}
+
+TEST(StrandCfem, IsTheSumOverThePixelsTimesTheSine)
+{
+    const Map sky = uneven_sky(), filtered = cfem_maps::filtered(image(sky), of_strands(16, 8));
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const double truth = gathered(sky, center(x, y, 16, 8));
+            EXPECT_NEAR(filtered.at(x, y)[0], truth, 5e-4 * truth) << x << " " << y;
+        }
+}
+
+TEST(StrandCfem, APointOfLightIsTheSineItself)
+{
+    Map sky(128, 64);
+    sky.at(40, 20)[0] = 1000;
+    const Map filtered = cfem_maps::filtered(image(sky), of_strands(64, 32));
+    double peak = 0, worst = 0;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const double truth = gathered(sky, center(x, y, 64, 32));
+            peak = std::max(peak, truth);
+            worst = std::max(worst, std::abs(filtered.at(x, y)[0] - truth));
+            EXPECT_GE(filtered.at(x, y)[0], 0);
+        }
+    EXPECT_LT(worst, .008 * peak);
+}
+
+TEST(StrandCfem, ItsKernelIsInTheMetadata)
+{
+    OIIO::ImageBuf strands, surfaces;
+    ASSERT_TRUE(make_cfem(strands, image(uneven_sky()), of_strands(8, 4)));
+    EXPECT_EQ(strands.spec().get_string_attribute("vmlight:kernel"), "strand");
+    ASSERT_TRUE(make_cfem(surfaces, image(uneven_sky()), exact(8, 4)));
+    EXPECT_EQ(surfaces.spec().find_attribute("vmlight:kernel"), nullptr);
+    CfemParams wrong = exact(8, 4);
+    wrong.kernel = "sine";
+    EXPECT_FALSE(make_cfem(strands, image(uneven_sky()), wrong));
+    EXPECT_NE(strands.geterror().find("\"sine\""), std::string::npos);
+}
+
+TEST(StrandLight, AConstantEnvironmentGivesV)
+{
+    const OIIO::ImageBuf map = map_with("sh", crossing(), low_floor()), sky = unfiltered(Map(16, 8, .5f));
+    OIIO::ImageBuf light;
+    ASSERT_TRUE(make_cfem(light, image(Map(16, 8, .5f)), of_strands(16, 8)));
+    for (const char* name : { "ao", "sh" }) {
+        OIIO::ImageBuf lit;
+        ASSERT_TRUE(make_lightmap(lit, map, *name == 'a' ? light : sky, model(name))) << lit.geterror();
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 8; ++x)
+                EXPECT_NEAR(lit.getchannel(x, y, 0, 0), .5f * map.getchannel(x, y, 0, 0), 1e-6) << name;
+    }
+}
+
+TEST(StrandLight, AnOpenStrandHasTheLightAroundItsTangent)
+{
+    const Strands oblique = straight({ { V3d(0), V3d(1, 2, 2) } }, .01);
+    const Map sky = uneven_sky();
+    const double truth = gathered(sky, V3d(1, 2, 2) / 3.0);
+    OIIO::ImageBuf light, ao, sh;
+    ASSERT_TRUE(make_cfem(light, image(sky), of_strands(128, 64)));
+    const OIIO::ImageBuf map = map_with("sh", oblique, {});
+    ASSERT_TRUE(make_lightmap(ao, map, light, model("ao"))) << ao.geterror();
+    EXPECT_NEAR(ao.getchannel(3, 0, 0, 0), truth, 1e-3 * truth);
+    // Without the bands from 6 on, where the sine has less than .005.
+    ASSERT_TRUE(make_lightmap(sh, map, unfiltered(sky), model("sh"))) << sh.geterror();
+    EXPECT_NEAR(sh.getchannel(3, 0, 0, 0), truth, .01 * truth);
+}
+
+TEST(StrandLight, ModelsAndLightOfSurfacesAreRefused)
+{
+    OIIO::ImageBuf strands, surfaces, lit;
+    const OIIO::ImageBuf sky = image(uneven_sky());
+    ASSERT_TRUE(make_cfem(strands, sky, of_strands(16, 8)));
+    ASSERT_TRUE(make_cfem(surfaces, sky, exact(16, 8)));
+    const OIIO::ImageBuf map = map_with("vector", crossing(), {});
+    for (const ModelEntry& entry : model_entries())
+        if (entry.strand_rank == 0)
+            EXPECT_NE(refusal(map, strands, entry.name).find("use one of ao, sh"), std::string::npos) << entry.name;
+    EXPECT_NE(refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
+    EXPECT_NE(refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
+    // And the other way round.
+    OIIO::ImageBuf wall;
+    VismapParams params = rays(4);
+    params.resolution = { 4, 4 };
+    ASSERT_TRUE(make_vismap(wall, scenes::floor_facing_z(1), {}, params));
+    EXPECT_NE(refusal(wall, strands, "paper").find("makecfem --kernel cosine"), std::string::npos);
+    // What is left is chosen.
+    ASSERT_TRUE(make_lightmap(lit, map, strands, model("auto"))) << lit.geterror();
+    EXPECT_EQ(lit.spec().get_string_attribute("vmlight:model"), "ao");
+    std::vector<OIIO::ImageBuf> stack;
+    std::string error;
+    ShadingModel chosen;
+    ASSERT_TRUE(choose_model(chosen, model("auto"), map_with("sh", crossing(), {}).spec(), true, error)) << error;
+    EXPECT_EQ(chosen.name, "sh");
+}
+
+namespace {
+
+class StrandStage : public testing::Test
+{
+protected:
+    StrandStage()
+    {
+        folder.write("hair.tfx", tfx(5, 4));
+        recipe.mesh = folder / "hair.tfx";
+        recipe.strand_params.radius = "0.05:0.01";
+        recipe.vismap_params.samples = 16;
+    }
+    std::string refused(const VismapRecipe& given)
+    {
+        OIIO::ImageBuf map;
+        EXPECT_FALSE(make_image(map, given));
+        return map.geterror();
+    }
+    stage_scene::Folder folder;
+    VismapRecipe recipe;
+};
+
+} // namespace
+
+TEST_F(StrandStage, AFileOfStrandsBakesToAMapOfStrands)
+{
+    recipe.vismap_params.basis = "sh";
+    recipe.occluder = { folder / "spot.obj" };
+    OIIO::ImageBuf map;
+    ASSERT_TRUE(make_image(map, recipe)) << map.geterror();
+    const OIIO::ImageSpec& spec = map.spec();
+    EXPECT_EQ(spec.width, 16);
+    EXPECT_EQ(spec.height, 5);
+    EXPECT_GE(spec.channelindex("tangent.x"), 0);
+    EXPECT_GE(spec.channelindex("sh.24"), 0);
+    for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>> { { "stage", "vismap" },
+                                                                                        { "kernel", "strand" },
+                                                                                        { "mesh", "hair.tfx" },
+                                                                                        { "radius", "0.05:0.01" },
+                                                                                        { "strand_texels", "16" },
+                                                                                        { "strands", "5" },
+                                                                                        { "samples", "16" } })
+        EXPECT_EQ(spec.get_string_attribute("vmlight:" + name), value) << name;
+    for (const char* absent : { "resolution", "margin", "measure" })
+        EXPECT_EQ(spec.find_attribute(std::string("vmlight:") + absent), nullptr) << absent;
+    EXPECT_FALSE(spec.get_string_attribute("vmlight:occluderHash").empty());
+}
+
+TEST_F(StrandStage, AReaderHasTheSamePixels)
+{
+    folder.write("hair.vismap", "mesh = \"hair.tfx\"\nradius = \"0.05:0.01\"\nsamples = 16\n");
+    OIIO::ImageBuf map, read(folder / "hair.vismap");
+    ASSERT_TRUE(make_image(map, recipe)) << map.geterror();
+    ASSERT_TRUE(read.read(0, 0, true, OIIO::TypeFloat)) << read.geterror();
+    ASSERT_EQ(map.spec().image_bytes(), read.spec().image_bytes());
+    EXPECT_EQ(std::memcmp(map.localpixels(), read.localpixels(), map.spec().image_bytes()), 0);
+}
+
+TEST_F(StrandStage, WhatIsOfMeshesAloneIsRefused)
+{
+    const auto with = [&](const char* key, const char* value) {
+        VismapRecipe given = recipe;
+        std::string error;
+        EXPECT_TRUE(set_param(given, key, value, error)) << error;
+        return refused(given);
+    };
+    for (const auto& [key, value] : std::vector<std::pair<const char*, const char*>> { { "resolution", "64" },
+                                                                                       { "unwrap", "true" },
+                                                                                       { "material", "Body" },
+                                                                                       { "ground", "true" },
+                                                                                       { "target_error", "0.1" },
+                                                                                       { "reconstruct", "auto" },
+                                                                                       { "measure", "uniform" },
+                                                                                       { "margin", "2" },
+                                                                                       { "channels", "normal" },
+                                                                                       { "sun_directions", "0,1,0" },
+                                                                                       { "effects", "all" },
+                                                                                       { "udim", "1002" } })
+        EXPECT_EQ(with(key, value), std::string(key) + ": a map of strands does not use it");
+    EXPECT_NE(with("basis", "cells").find("strands have no basis cells"), std::string::npos);
+    VismapRecipe timed = recipe;
+    timed.time_budget = 1;
+    EXPECT_EQ(refused(timed), "time_budget: a map of strands does not use it");
+    VismapRecipe bare = recipe;
+    bare.strand_params.radius.clear();
+    EXPECT_NE(refused(bare).find("--radius ROOT:TIP"), std::string::npos);
+    VismapRecipe lost = recipe;
+    lost.occluder = { folder / "none.obj" };
+    EXPECT_NE(refused(lost).find("none.obj"), std::string::npos);
+}
+
+TEST_F(StrandStage, ALightmapFiltersTheEnvironmentByTheKernelOfItsMap)
+{
+    folder.write("hair.vismap", "mesh = \"hair.tfx\"\nradius = \"0.05:0.01\"\nsamples = 16\n");
+    LightmapRecipe light;
+    light.vismap = folder / "hair.vismap";
+    light.environment = folder / "studio.exr";
+    OIIO::ImageBuf own, given;
+    ASSERT_TRUE(make_image(own, light)) << own.geterror();
+    EXPECT_EQ(own.spec().get_string_attribute("vmlight:model"), "ao");
+    folder.write("strand.cfem", "environment = \"studio.exr\"\nkernel = \"strand\"\n");
+    light.environment.clear();
+    light.cfem = folder / "strand.cfem";
+    ASSERT_TRUE(make_image(given, light)) << given.geterror();
+    EXPECT_EQ(std::memcmp(own.localpixels(), given.localpixels(), own.spec().image_bytes()), 0);
+
+    light.cfem = folder / "studio.cfem";
+    EXPECT_FALSE(make_image(given, light));
+    EXPECT_NE(given.geterror().find("makecfem --kernel strand"), std::string::npos);
+    light.cfem = folder / "strand.cfem";
+    for (const char* key : { "suns", "bounce" }) {
+        LightmapRecipe traced = light;
+        std::string error;
+        ASSERT_TRUE(set_param(traced, key, "auto", error)) << error;
+        EXPECT_FALSE(make_image(given, traced));
+        EXPECT_NE(given.geterror().find("a visibility map of strands"), std::string::npos) << given.geterror();
+    }
+}
+
+TEST_F(StrandStage, StacksAndSunsAreOfSurfaces)
+{
+    CfemRecipe filter;
+    filter.environment = folder / "studio.exr";
+    filter.cfem_params.kernel = "strand";
+    OIIO::ImageBuf light;
+    filter.stack = true;
+    EXPECT_FALSE(make_image(light, filter));
+    EXPECT_EQ(light.geterror(), "stack: not with the kernel strand");
+    filter.stack = false;
+    filter.suns = "auto";
+    EXPECT_FALSE(make_image(light, filter));
+    EXPECT_EQ(light.geterror(), "suns: not with the kernel strand");
+}
