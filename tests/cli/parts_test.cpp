@@ -161,6 +161,26 @@ TEST_F(MapFiles, WhatIsMissingOrDoesNotFitIsNamed)
     refused(1, "vismap part", "makelightmap vm.part1of8.exr sky.exr -o x.exr");
 }
 
+// Its metadata have the name alone.
+TEST_F(MapFiles, ANormalMapOfTheSameNameMustBeTheSame)
+{
+    const auto write_normals = [&](float x) {
+        OIIO::ImageBuf image(OIIO::ImageSpec(16, 16, 3, OIIO::TypeUInt8));
+        const float normal[] = { x, .5f, .9f };
+        OIIO::ImageBufAlgo::fill(image, normal);
+        EXPECT_TRUE(image.write(path("fresh.png"))) << image.geterror();
+        std::filesystem::rename("fresh.png", "normals.png");
+    };
+    const std::string bake_normals = bake + "--normal-map normals.png -o vm.exr ";
+    write_normals(.6f);
+    done(bake_normals + "--part 1/2");
+    write_normals(.7f);
+    done(bake_normals + "--part 2/2");
+    refused(1, "\"vm.part2of2.exr\" does not fit \"vm.part1of2.exr\": its hash of the textures is ",
+            "makevismap --join vm.part1of2.exr vm.part2of2.exr -o x.exr");
+    EXPECT_THAT(done(bake_normals + "--part 1-2/2 --resume"), HasSubstr("resume: 1 of 2 parts was there already"));
+}
+
 TEST_F(MapFiles, ABakeGoesOnWhereItWasKilled)
 {
     done(bake + "-o whole.exr");

@@ -9,6 +9,9 @@ import time
 
 PROGRAMS = "munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol"
 
+# Seconds, on a machine that may be busy.
+PATIENCE = 300
+
 CONFIG = """\
 ClusterName=vmlight
 SlurmctldHost={host}(127.0.0.1)
@@ -70,7 +73,7 @@ class Cluster:
         self.run("slurmctld", "-c")
         for node in "n1", "n2":
             self.start(node)
-        self.wait(lambda: self.run("sinfo", "-h", "-o", "%T").split() == ["idle"], 30)
+        self.wait(lambda: self.run("sinfo", "-h", "-o", "%T").split() == ["idle"])
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -79,8 +82,8 @@ class Cluster:
         return subprocess.run(words, check=True, text=True, env=self.environment, stdout=subprocess.PIPE,
                               timeout=60).stdout
 
-    def wait(self, condition, seconds):
-        until = time.monotonic() + seconds
+    def wait(self, condition):
+        until = time.monotonic() + PATIENCE
         while not condition():
             if time.monotonic() > until:
                 raise TimeoutError(self.run("squeue") + self.run("sinfo"))
@@ -113,7 +116,7 @@ class Cluster:
     def crash(self, node):
         """As if it lost its power: all that runs on it is gone. Slurm hears of it at once."""
         tasks = self.processes(node)
-        parents = {parent(number) for number in tasks} - set(tasks)  # which would report how their tasks ended
+        parents = {parent(number) for number in tasks} - {0, *tasks}  # which would report how their tasks ended
         for number in [self.pid(node), *parents, *tasks]:
             kill(number)
         self.run("scontrol", "update", f"nodename={node}", "state=down", "reason=crashed")
@@ -130,8 +133,12 @@ class Cluster:
 
 
 def parent(number):
-    with open(f"/proc/{number}/stat") as file:
-        return int(file.read().rpartition(")")[2].split()[1])
+    """The number of its parent; 0 if it has ended."""
+    try:
+        with open(f"/proc/{number}/stat") as file:
+            return int(file.read().rpartition(")")[2].split()[1])
+    except OSError:
+        return 0
 
 
 def kill(number):

@@ -15,6 +15,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <map>
 #include <numeric>
 #include <random>
@@ -30,7 +32,7 @@ namespace {
 
 using Parts = std::map<int, OIIO::ImageBuf>;
 
-VismapParams quick(int width, int height)
+VismapParams part_params(int width, int height)
 {
     VismapParams params;
     params.resolution = { width, height };
@@ -38,7 +40,7 @@ VismapParams quick(int width, int height)
     return params;
 }
 
-BakeScenePointer parted_scene(const Mesh& mesh, const std::vector<Mesh>& occluders = {})
+BakeScenePointer part_scene(const Mesh& mesh, const std::vector<Mesh>& occluders = {})
 {
     auto scene = std::make_shared<BakeScene>();
     std::string error;
@@ -47,8 +49,8 @@ BakeScenePointer parted_scene(const Mesh& mesh, const std::vector<Mesh>& occlude
 }
 
 // As one machine bakes them.
-Parts baked(const BakeScenePointer& scene, const VismapParams& params, int count, const std::vector<int>& which,
-            int threads = 2, VismapReport* report = nullptr)
+Parts baked_parts(const BakeScenePointer& scene, const VismapParams& params, int count, const std::vector<int>& which,
+                  int threads = 2, VismapReport* report = nullptr)
 {
     Parts parts;
     PartsJob job { { scene, params, threads, {}, 0, nullptr }, count, which, {}, {}, {} };
@@ -72,7 +74,7 @@ std::string join_fault(OIIO::ImageBuf& dst, const Parts& parts, int count)
     return join_parts(dst, count, read, report, error) ? "" : error;
 }
 
-std::map<std::string, std::string> metadata(const OIIO::ImageSpec& spec)
+std::map<std::string, std::string> metadata_texts(const OIIO::ImageSpec& spec)
 {
     std::map<std::string, std::string> found;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs)
@@ -80,10 +82,10 @@ std::map<std::string, std::string> metadata(const OIIO::ImageSpec& spec)
     return found;
 }
 
-void expect_same(const OIIO::ImageBuf& joined, const OIIO::ImageBuf& whole)
+void expect_same_map(const OIIO::ImageBuf& joined, const OIIO::ImageBuf& whole)
 {
     EXPECT_EQ(joined.spec().channelnames, whole.spec().channelnames);
-    EXPECT_EQ(metadata(joined.spec()), metadata(whole.spec()));
+    EXPECT_EQ(metadata_texts(joined.spec()), metadata_texts(whole.spec()));
     ASSERT_EQ(OIIO::get_roi(joined.spec()), OIIO::get_roi(whole.spec()));
     ASSERT_EQ(OIIO::get_roi_full(joined.spec()), OIIO::get_roi_full(whole.spec()));
     EXPECT_EQ(joined.spec().tile_width, whole.spec().tile_width);
@@ -115,7 +117,7 @@ Mesh random_mesh(std::mt19937& random)
 VismapParams random_params(std::mt19937& random)
 {
     const auto number = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
-    VismapParams params = quick(number(1, 300), number(1, 300));
+    VismapParams params = part_params(number(1, 300), number(1, 300));
     params.samples = number(2, 9);
     params.seed = number(0, 3);
     params.margin = std::array { 0, 3, 16, 70, -1 }[size_t(number(0, 4))];
@@ -142,7 +144,7 @@ TEST(MapParts, JoinedTheyAreTheWholeMapWhateverTheMeshAndTheirNumber)
     for (int turn = 0; turn < 24; ++turn) {
         const Mesh mesh = random_mesh(random);
         const VismapParams params = random_params(random);
-        const auto scene = parted_scene(mesh, { scenes::rectangle(V3d(-1, 3, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
+        const auto scene = part_scene(mesh, { scenes::rectangle(V3d(-1, 3, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
         const int count = std::array { 1, 2, 3, 7, 16, 40 }[random() % 6];
         SCOPED_TRACE(testing::Message() << turn << ": " << mesh.name << ", " << params.size().width << "x"
                                         << params.size().height << " " << params.basis << " " << params.reconstruct
@@ -159,19 +161,19 @@ TEST(MapParts, JoinedTheyAreTheWholeMapWhateverTheMeshAndTheirNumber)
             std::vector<int> which(left.end() - long(some), left.end());
             std::sort(which.begin(), which.end());
             left.resize(left.size() - some);
-            Parts more = baked(scene, params, count, which, int(1 + random() % 3));
+            Parts more = baked_parts(scene, params, count, which, int(1 + random() % 3));
             EXPECT_EQ(more.size(), some);
             parts.merge(more);
         }
         ASSERT_EQ(join_fault(joined, parts, count), "");
-        expect_same(joined, whole);
+        expect_same_map(joined, whole);
     }
 }
 
 TEST(MapParts, APartIsCroppedToItsTiles)
 {
-    const auto scene = parted_scene(scenes::floor_facing_z(1)); // 16 tiles alike
-    const Parts parts = baked(scene, quick(256, 256), 16, { 1, 16 });
+    const auto scene = part_scene(scenes::floor_facing_z(1)); // 16 tiles alike
+    const Parts parts = baked_parts(scene, part_params(256, 256), 16, { 1, 16 });
     const OIIO::ImageSpec& first = parts.at(1).spec();
     EXPECT_EQ(OIIO::get_roi_full(first), OIIO::ROI(0, 256, 0, 256, 0, 1, 0, first.nchannels));
     EXPECT_EQ(OIIO::get_roi(first), OIIO::ROI(0, 64, 0, 64, 0, 1, 0, first.nchannels));
@@ -188,10 +190,10 @@ TEST(MapParts, SharesHaveTheSameExpectedCost)
     Mesh mesh;
     mesh.name = "half";
     scenes::add_quad(mesh, V3d(-1, 0, 1), V3d(1, 0, 1), V3d(1, 0, -1), V3d(-1, 0, -1), V2f(0, 0), V2f(1, .5f));
-    const auto scene = parted_scene(mesh, { scenes::rectangle(V3d(-1, 1, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
+    const auto scene = part_scene(mesh, { scenes::rectangle(V3d(-1, 1, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
     VismapBaker baker;
     std::string error;
-    ASSERT_TRUE(baker.prepare(scene, quick(1024, 1024), error)) << error;
+    ASSERT_TRUE(baker.prepare(scene, part_params(1024, 1024), error)) << error;
     for (const int count : { 1, 2, 3, 16, 64, 1000 }) {
         TileShares shares;
         ASSERT_TRUE(share_tiles(shares, baker, count, 2, {}));
@@ -216,11 +218,11 @@ TEST(MapParts, SharesHaveTheSameExpectedCost)
 
 TEST(MapParts, APartIsNotBakedIfItIsThere)
 {
-    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
-    const VismapParams params = quick(256, 256);
+    const auto scene = part_scene(scenes::box(V3d(-1), V3d(1), true));
+    const VismapParams params = part_params(256, 256);
     PartsJob job { { scene, params, 2, {}, 0, nullptr }, 4, { 1, 2, 3, 4 }, {}, {}, {} };
     std::vector<int> written;
-    const Parts parts = baked(scene, params, 4, { 1, 3 });
+    const Parts parts = baked_parts(scene, params, 4, { 1, 3 });
     job.is_made = [&](int part, const OIIO::ImageSpec& spec) {
         const auto found = parts.find(part);
         return found != parts.end() && part_fault(found->second.spec(), spec).empty();
@@ -234,7 +236,7 @@ TEST(MapParts, APartIsNotBakedIfItIsThere)
     ASSERT_TRUE(bake_parts(job, report, error)) << error;
     EXPECT_EQ(written, (std::vector<int> { 2, 4 }));
     VismapReport all, none;
-    baked(scene, params, 4, { 1, 2, 3, 4 }, 2, &all);
+    baked_parts(scene, params, 4, { 1, 2, 3, 4 }, 2, &all);
     EXPECT_LT(report.rays, all.rays);
     EXPECT_EQ(report.covered, all.covered);
     job.is_made = [](int, const OIIO::ImageSpec&) { return true; };
@@ -245,13 +247,13 @@ TEST(MapParts, APartIsNotBakedIfItIsThere)
 TEST(MapParts, WhatDoesNotFitIsRefused)
 {
     const Mesh mesh = scenes::box(V3d(-1), V3d(1), true);
-    const VismapParams params = quick(130, 70);
-    const auto scene = parted_scene(mesh);
-    const Parts good = baked(scene, params, 3, { 1, 2, 3 });
+    const VismapParams params = part_params(130, 70);
+    const auto scene = part_scene(mesh);
+    const Parts good = baked_parts(scene, params, 3, { 1, 2, 3 });
     OIIO::ImageBuf map;
     EXPECT_EQ(join_fault(map, good, 3), "");
     const auto with_second = [&](const Mesh& other, const VismapParams& changed) {
-        Parts parts = baked(parted_scene(other), changed, 3, { 2 });
+        Parts parts = baked_parts(part_scene(other), changed, 3, { 2 });
         for (const int index : { 1, 3 })
             parts[index].copy(good.at(index));
         OIIO::ImageBuf joined;
@@ -288,8 +290,8 @@ TEST(MapParts, WhatDoesNotFitIsRefused)
 
 TEST(MapParts, DamagedMetadataAreRefused)
 {
-    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
-    const Parts good = baked(scene, quick(130, 70), 2, { 1, 2 });
+    const auto scene = part_scene(scenes::box(V3d(-1), V3d(1), true));
+    const Parts good = baked_parts(scene, part_params(130, 70), 2, { 1, 2 });
     const std::pair<const char*, const char*> damages[]
         = { { "vmlight:part", "0/2" },
             { "vmlight:part", "1-2/2" },
@@ -327,10 +329,13 @@ TEST(MapParts, DamagedMetadataAreRefused)
 
 TEST(MapParts, AnInterruptedBakeStops)
 {
-    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
-    PartsJob job {
-        { scene, quick(256, 256), 1, [](double done) { return done < 0.5; }, 0, nullptr }, 4, { 1, 2, 3, 4 }, {}, {}, {}
-    };
+    const auto scene = part_scene(scenes::box(V3d(-1), V3d(1), true));
+    PartsJob job { { scene, part_params(256, 256), 1, [](double done) { return done < 0.5; }, 0, nullptr },
+                   4,
+                   { 1, 2, 3, 4 },
+                   {},
+                   {},
+                   {} };
     int written = 0;
     job.write = [&](int, const OIIO::ImageBuf&, std::string&) { return ++written > 0; };
     VismapReport report;
@@ -343,9 +348,9 @@ TEST(MapParts, AnInterruptedBakeStops)
 
 TEST(MapParts, ProgressGoesUpToOne)
 {
-    const auto scene = parted_scene(scenes::box(V3d(-1), V3d(1), true));
+    const auto scene = part_scene(scenes::box(V3d(-1), V3d(1), true));
     for (const char* reconstruct : { "off", "auto" }) {
-        VismapParams params = quick(256, 256);
+        VismapParams params = part_params(256, 256);
         params.reconstruct = reconstruct;
         double last = 0;
         const Progress progress = [&](double done) {

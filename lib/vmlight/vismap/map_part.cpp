@@ -18,17 +18,17 @@ namespace {
 
 // More than any image has.
 constexpr int kMostTiles = 1 << 30;
-constexpr const char* kPrefix = "vmlight:";
-constexpr const char* kNumber = "vmlight:part";
-constexpr const char* kTiles = "vmlight:partTiles";
-constexpr const char* kChannels = "vmlight:partChannels";
-constexpr const char* kInputs = "vmlight:partInputs";
-constexpr const char* kEmpty = "vmlight:partEmpty";
+constexpr const char* kMetadataPrefix = "vmlight:";
+constexpr const char* kPartNumber = "vmlight:part";
+constexpr const char* kPartTiles = "vmlight:partTiles";
+constexpr const char* kPartChannels = "vmlight:partChannels";
+constexpr const char* kPartInputs = "vmlight:partInputs";
+constexpr const char* kPartEmpty = "vmlight:partEmpty";
 
-bool is_own(const std::string& name)
+bool is_of_part(const std::string& name)
 {
-    const char* const own[] = { kNumber, kTiles, kChannels, kInputs, kEmpty };
-    return std::find(std::begin(own), std::end(own), name) != std::end(own);
+    const char* const names[] = { kPartNumber, kPartTiles, kPartChannels, kPartInputs, kPartEmpty };
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
 // By name, those that two parts of a map have in common.
@@ -37,7 +37,7 @@ std::map<std::string, std::string> shared_metadata(const OIIO::ImageSpec& spec)
     std::map<std::string, std::string> found;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
-        if (OIIO::Strutil::starts_with(name, kPrefix) && name != kNumber && name != kTiles)
+        if (OIIO::Strutil::starts_with(name, kMetadataPrefix) && name != kPartNumber && name != kPartTiles)
             found[name] = attribute.get_string();
     }
     return found;
@@ -46,7 +46,7 @@ std::map<std::string, std::string> shared_metadata(const OIIO::ImageSpec& spec)
 // For messages: the parameter's name.
 std::string title_of(const std::string& name)
 {
-    return name == kInputs ? "hash of the textures" : name.substr(std::string(kPrefix).size());
+    return name == kPartInputs ? "hash of the textures" : name.substr(std::string(kMetadataPrefix).size());
 }
 
 int tiles_across(const OIIO::ImageSpec& spec)
@@ -59,7 +59,7 @@ std::string empty_metadata(const OIIO::ImageSpec& map)
 {
     std::vector<std::string> names;
     for (const OIIO::ParamValue& attribute : map.extra_attribs)
-        if (const std::string name = attribute.name().string(); OIIO::Strutil::starts_with(name, kPrefix)
+        if (const std::string name = attribute.name().string(); OIIO::Strutil::starts_with(name, kMetadataPrefix)
             && attribute.type() == OIIO::TypeDesc::STRING && attribute.get_string().empty())
             names.push_back(name);
     return OIIO::Strutil::join(names, ",");
@@ -111,8 +111,8 @@ OIIO::ROI tile_window(const OIIO::ImageSpec& spec, int tile)
 OIIO::ImageSpec describe_part(const OIIO::ImageSpec& whole, PartNumber part, TileRange tiles, const std::string& inputs)
 {
     OIIO::ImageSpec spec = whole;
-    spec.attribute(kChannels, OIIO::Strutil::join(whole.channelnames, ","));
-    spec.attribute(kEmpty, empty_metadata(whole));
+    spec.attribute(kPartChannels, OIIO::Strutil::join(whole.channelnames, ","));
+    spec.attribute(kPartEmpty, empty_metadata(whole));
     auto& names = spec.channelnames;
     if (std::find(names.begin(), names.end(), kCoverageChannel) == names.end())
         names.emplace_back(kCoverageChannel);
@@ -123,9 +123,9 @@ OIIO::ImageSpec describe_part(const OIIO::ImageSpec& whole, PartNumber part, Til
     spec.width = window.width();
     spec.height = window.height();
     spec.attribute("vmlight:stage", kPartStage);
-    spec.attribute(kNumber, part_text(part));
-    spec.attribute(kTiles, tiles.count() > 0 ? format("{}-{}", tiles.first, tiles.end - 1) : "");
-    spec.attribute(kInputs, inputs);
+    spec.attribute(kPartNumber, part_text(part));
+    spec.attribute(kPartTiles, tiles.count() > 0 ? format("{}-{}", tiles.first, tiles.end - 1) : "");
+    spec.attribute(kPartInputs, inputs);
     return spec;
 }
 
@@ -138,12 +138,12 @@ bool read_part(PartNumber& part, TileRange& tiles, const OIIO::ImageSpec& spec, 
     }
     std::vector<int> indices;
     std::string ignored;
-    const std::vector<std::string> names = OIIO::Strutil::splits(spec.get_string_attribute(kChannels), ",");
+    const std::vector<std::string> names = OIIO::Strutil::splits(spec.get_string_attribute(kPartChannels), ",");
     const auto has_channel = [&](const std::string& name) {
         return std::count(spec.channelnames.begin(), spec.channelnames.end(), name) == 1;
     };
-    if (parse_parts(indices, part.count, spec.get_string_attribute(kNumber), ignored) && indices.size() == 1
-        && read_tiles(tiles, spec.get_string_attribute(kTiles)) && spec.full_x == 0 && spec.full_y == 0
+    if (parse_parts(indices, part.count, spec.get_string_attribute(kPartNumber), ignored) && indices.size() == 1
+        && read_tiles(tiles, spec.get_string_attribute(kPartTiles)) && spec.full_x == 0 && spec.full_y == 0
         && spec.full_width > 0 && spec.full_height > 0 && tiles.end <= tile_count(spec)
         && holds(spec, window_of(spec, tiles)) && names.size() >= kVismapChannels.size()
         && std::equal(kVismapChannels.begin(), kVismapChannels.end(), names.begin())
@@ -175,7 +175,7 @@ std::string part_fault(const OIIO::ImageSpec& spec, const OIIO::ImageSpec& expec
 
 OIIO::ImageSpec whole_of_part(const OIIO::ImageSpec& part)
 {
-    const std::vector<std::string> names = OIIO::Strutil::splits(part.get_string_attribute(kChannels), ",");
+    const std::vector<std::string> names = OIIO::Strutil::splits(part.get_string_attribute(kPartChannels), ",");
     OIIO::ImageSpec spec(part.full_width, part.full_height, int(names.size()), OIIO::TypeDesc::FLOAT);
     spec.channelnames = names;
     spec.tile_width = spec.tile_height = kTileSize;
@@ -183,10 +183,10 @@ OIIO::ImageSpec whole_of_part(const OIIO::ImageSpec& part)
     tag_data(spec);
     for (const OIIO::ParamValue& attribute : part.extra_attribs)
         if (const std::string name = attribute.name().string();
-            OIIO::Strutil::starts_with(name, kPrefix) && !is_own(name))
+            OIIO::Strutil::starts_with(name, kMetadataPrefix) && !is_of_part(name))
             spec.extra_attribs.push_back(attribute);
-    for (const std::string& name : OIIO::Strutil::splits(part.get_string_attribute(kEmpty), ","))
-        if (OIIO::Strutil::starts_with(name, kPrefix))
+    for (const std::string& name : OIIO::Strutil::splits(part.get_string_attribute(kPartEmpty), ","))
+        if (OIIO::Strutil::starts_with(name, kMetadataPrefix))
             spec.attribute(name, "");
     spec.attribute("vmlight:stage", kVismapStage);
     return spec;
