@@ -129,6 +129,9 @@ TEST_F(StrandFiles, BrokenHairIsRefused)
     EXPECT_EQ(refused("a.hair", "nonsense"), "not HAIR: does not start with \"HAIR\"");
     EXPECT_EQ(refused("a.hair", hair(false), ""),
               "the file has no radius of its strands: give it by --radius ROOT:TIP, in mesh units");
+    std::string many = whole;
+    many.replace(4, 16, raw<uint32_t>({ 0xffffffff, 5, 2, 0xffffffff }));
+    EXPECT_EQ(refused("a.hair", many), "its strands have 18446744069414584320 points, its header says 5");
     std::string none = whole;
     none[12] = 1;
     EXPECT_EQ(refused("a.hair", none), "has no array of points");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/gltf/accessor.h>
@@ -88,8 +89,11 @@ private:
                 if (index >= numbers.count)
                     throw gltf::Error(format("a line of mesh \"{}\" uses vertex {}, but there are only {}", mesh.name,
                                              index, numbers.count));
-            if (m_strands.points.size() + double(places.size()) * double(indices.size()) > UINT32_MAX)
-                throw gltf::Error("more than 2^32 points");
+            // A short file may ask for a line a million times.
+            const double more = double(places.size()) * double(indices.size());
+            if (double(m_strands.points.size()) + more > UINT32_MAX
+                || more * (sizeof(V3d) + sizeof(double)) > double(available_memory()))
+                throw gltf::Error(format("its lines have {:.6g} points, more than there is memory for", more));
             for (const M44d& place : places) {
                 for (const uint32_t index : indices)
                     m_strands.points.push_back(V3d(numbers[index][0], numbers[index][1], numbers[index][2]) * place);

@@ -7,6 +7,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <numeric>
 #include <vector>
 
 namespace vmlight {
@@ -59,9 +60,9 @@ bool read_hair(Strands& dst, const StrandRequest& request, std::string& error)
         counts[0] = segments_of_all;
     }
     const auto segments_of = [&](uint64_t strand) { return counts[arrays & kSegments ? strand : 0]; };
-    uint64_t total = 0;
-    for (uint64_t strand = 0; strand < strands && total <= UINT32_MAX; ++strand)
-        total += segments_of(strand) + 1;
+    uint64_t total = uint64_t(strands) * (uint64_t(segments_of_all) + 1);
+    if (arrays & kSegments)
+        total = std::accumulate(counts.begin(), counts.end(), uint64_t(strands));
     if (total != points) {
         error = format("its strands have {} points, its header says {}", total, points);
         return false;

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the models of strands are from ray tracing: for each sky the relative root mean square error over every
+// STEP-th texel of a map of strands, single scattering, against (1/pi^2) Int L(w) vis(w) sin(t, w) dw by rays at every
+// pixel of the sky. Skies are reduced to 128x64, for models and rays alike.
+// The last figure is of a model that does not exist: the part of B lit by the cosine lobe around it, the rest by the
+// sine.
+//     strand_error HAIR RADIUS OCCLUDER STEP SKY...
+#include <vmlight/cfem/cfem.h>
+#include <vmlight/cfem/radiance.h>
+#include <vmlight/lightmap/lightmap.h>
+#include <vmlight/math/latlong.h>
+#include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/mesh/import/strands/read_strands.h>
+#include <vmlight/mesh/strand_curve.h>
+#include <vmlight/vismap/strand_map.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace vmlight;
+using Imath::V3d;
+using Imath::V3f;
+
+namespace {
+
+constexpr int kWidth = 128, kHeight = 64;
+constexpr double kRays = 16384; // beside one for each pixel, by its power
+
+[[noreturn]] void fail(const std::string& reason)
+{
+    std::fprintf(stderr, "strand_error ERROR: %s\n", reason.c_str());
+    std::exit(1);
+}
+
+double grey(const float* rgb)
+{
+    return (double(rgb[0]) + double(rgb[1]) + double(rgb[2])) / 3;
+}
+
+struct Pixel
+{
+    double light; // times its solid angle
+    int rays, x, y;
+};
+
+std::vector<Pixel> pixels_of(const OIIO::ImageBuf& sky)
+{
+    std::vector<Pixel> pixels;
+    double sum = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            float rgb[3];
+            sky.getpixel(x, y, rgb, 3);
+            pixels.push_back({ grey(rgb) * latlong::row_solid_angle(y, kHeight) / kWidth, 1, x, y });
+            sum += pixels.back().light;
+        }
+    for (Pixel& pixel : pixels)
+        pixel.rays += int(kRays * pixel.light / sum);
+    return pixels;
+}
+
+// The rays of a pixel are jittered over its area.
+double traced(const StrandScene& scene, const std::vector<Pixel>& pixels, const CurvePoint& point, int64_t strand,
+              uint32_t seed)
+{
+    const V3f origin = scene.frame().to_scene(point.position);
+    const auto radius = float(point.radius * scene.frame().scale);
+    RayFan fan(1024);
+    std::vector<double> weights;
+    double sum = 0;
+    const auto flush = [&] {
+        std::fill(fan.lanes.begin(), fan.lanes.end(), uint8_t(0));
+        for (size_t i = 0; i < weights.size(); ++i)
+            fan.lanes[i / kPacketSize] |= uint8_t(1u << i % kPacketSize);
+        scene.clear_blocked(fan, origin, radius, uint32_t(strand), std::numeric_limits<float>::infinity());
+        for (size_t i = 0; i < weights.size(); ++i)
+            sum += fan.lanes[i / kPacketSize] >> i % kPacketSize & 1 ? weights[i] : 0;
+        weights.clear();
+    };
+    for (const Pixel& pixel : pixels)
+        for (int ray = 0; ray < pixel.rays; ++ray) {
+            const Point32 random = texel_hash(uint32_t(pixel.y * kWidth + pixel.x), uint32_t(ray), seed);
+            // Even in the sine of latitude, as area is.
+            const double top = std::cos(latlong::pi * pixel.y / kHeight),
+                         bottom = std::cos(latlong::pi * (pixel.y + 1) / kHeight);
+            const double theta = std::acos(top + (bottom - top) * (random.u * 0x1p-32));
+            const V3d w = latlong::direction((pixel.x + random.v * 0x1p-32) / kWidth, theta / latlong::pi);
+            const size_t i = weights.size();
+            fan.x[i] = float(w.x), fan.y[i] = float(w.y), fan.z[i] = float(w.z);
+            weights.push_back(pixel.light / pixel.rays * w.cross(point.tangent).length() / (latlong::pi * latlong::pi));
+            if (weights.size() == 1024)
+                flush();
+        }
+    flush();
+    return sum;
+}
+
+struct Texel
+{
+    int x, y;
+    int64_t strand;
+    CurvePoint point;
+};
+
+OIIO::ImageBuf bake(const Strands& strands, const StrandScene& scene, const StrandLayout& layout, int order)
+{
+    VismapParams params;
+    params.samples = 64;
+    params.basis = order ? "sh" : "vector";
+    params.order = order ? order : 5;
+    const StrandBaker baker(strands, scene, layout, params);
+    OIIO::ImageBuf map;
+    int64_t rays = 0;
+    StrandParams own;
+    own.strand_texels = layout.texels;
+    const auto begin = std::chrono::steady_clock::now();
+    if (!make_strand_map(map, describe_strand_map(strands, layout, own, params), baker, 0, rays))
+        fail(map.geterror());
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    std::printf("bake, %d bands: %.1f M rays, %.2f M rays/s\n", order, double(rays) * 1e-6,
+                double(rays) * 1e-6 / time.count());
+    return map;
+}
+
+} // namespace
+
+int main(int argc, const char** argv)
+{
+    if (argc < 6)
+        fail("usage: strand_error HAIR RADIUS OCCLUDER STEP SKY...");
+    std::string error;
+    Strands strands;
+    std::vector<Mesh> occluders(1);
+    StrandScene scene;
+    StrandLayout layout;
+    if (!read_strands(strands, argv[1], {}, argv[2], error) || !read_mesh(occluders[0], argv[3], {}, error)
+        || !scene.build(strands, occluders, 0, error) || !StrandLayout::make(layout, strands.count(), 16, error))
+        fail(error);
+    std::vector<Texel> texels;
+    for (int64_t i = 0; i < layout.strands * layout.texels; i += std::atoi(argv[4])) {
+        const int64_t strand = i / layout.texels;
+        const int x = int(strand / layout.rows) * layout.texels + int(i % layout.texels), y = int(strand % layout.rows);
+        texels.push_back({ x, y, strand, StrandCurve(strands, size_t(strand)).at(layout.share_at(x)) });
+    }
+    const std::array<int, 4> orders { 0, 4, 5, 8 };
+    std::vector<OIIO::ImageBuf> maps;
+    for (const int order : orders)
+        maps.push_back(bake(strands, scene, layout, order));
+    std::printf(
+        "%zu texels; relative RMSE of ao, of sh with 4, 5 and 8 bands, and of V and B between two cosine lobes\n",
+        texels.size());
+    for (int k = 5; k < argc; ++k) {
+        const OIIO::ImageBuf sky = OIIO::ImageBufAlgo::resize(OIIO::ImageBuf(argv[k]), "box", 0,
+                                                              OIIO::ROI(0, kWidth, 0, kHeight, 0, 1, 0, 3));
+        const std::vector<Pixel> pixels = pixels_of(sky);
+        CfemParams filter;
+        OIIO::ImageBuf cosine, sine, whole;
+        filter.resolution = { kWidth, kHeight };
+        if (!make_radiance(whole, sky, filter, error))
+            fail(error);
+        if (!make_cfem(cosine, sky, filter))
+            fail(cosine.geterror());
+        filter.kernel = "strand";
+        if (!make_cfem(sine, sky, filter))
+            fail(sine.geterror());
+        std::vector<OIIO::ImageBuf> lit(orders.size());
+        for (size_t m = 0; m < orders.size(); ++m) {
+            LightmapParams params;
+            params.model = orders[m] ? "sh" : "ao";
+            if (!make_lightmap(lit[m], maps[m], orders[m] ? whole : sine, params))
+                fail(lit[m].geterror());
+        }
+        std::array<double, 5> squares {};
+        double mean = 0, noise = 0;
+        for (const Texel& texel : texels) {
+            // Two truths of their own noise: the product of the errors against them has none, on average.
+            const double first = traced(scene, pixels, texel.point, texel.strand, uint32_t(2 * texel.strand + 1)),
+                         second = traced(scene, pixels, texel.point, texel.strand, uint32_t(2 * texel.strand + 2));
+            mean += (first + second) / 2;
+            noise += (first - second) * (first - second) / 4;
+            float rgb[3], map[7], around[3];
+            for (size_t m = 0; m < orders.size(); ++m) {
+                lit[m].getpixel(texel.x, texel.y, rgb, 3);
+                squares[m] += (grey(rgb) - first) * (grey(rgb) - second);
+            }
+            // The part of B goes to the cosine lobe around it, which has a mean of 2/3, the rest to the sine.
+            maps[0].getpixel(texel.x, texel.y, map, 7);
+            const V3d b(map[1], map[2], map[3]);
+            const double share = std::min(1.5 * b.length(), double(map[0]));
+            float s[3] = {};
+            const auto look_up = [](const OIIO::ImageBuf& image, const V3d& w, float* color) {
+                const Imath::V2d at = latlong::position(w);
+                image.interppixel_NDC(float(at.x), float(at.y), color, OIIO::ImageBuf::WrapPeriodic);
+            };
+            look_up(sine, V3d(map[4], map[5], map[6]), s);
+            look_up(cosine, b.length() > 0 ? b.normalized() : V3d(0, 1, 0), around);
+            const double mixed = (map[0] - share) * grey(s) + share * grey(around);
+            squares[4] += (mixed - first) * (mixed - second);
+        }
+        const double count = double(texels.size());
+        mean /= count;
+        std::printf("%-28s", OIIO::Filesystem::filename(argv[k]).c_str());
+        for (const double square : squares)
+            std::printf(" %.3f", std::sqrt(std::max(0.0, square / count)) / mean);
+        std::printf("   (noise of the truth %.3f)\n", std::sqrt(noise / count) / mean);
+    }
+    return 0;
+}
