@@ -70,7 +70,7 @@ struct Header
     }
 };
 
-std::string claims_fault(const std::string& bytes)
+std::string fault_of_bytes(const std::string& bytes)
 {
     const TemporaryFolder folder;
     return claims_fault(folder.write("a.exr", bytes));
@@ -143,27 +143,28 @@ TEST(FileClaims, AFileMayBeExactlyAsLongAsItsHeaderSays)
     Header header;
     header.window = box_bytes(4096, 2049); // of half floats
     header.rest = 2049 * (8 + 8 + 8192);
-    EXPECT_EQ(claims_fault(header.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(header.bytes()), "");
     --header.rest;
-    EXPECT_EQ(claims_fault(header.bytes()),
+    EXPECT_EQ(fault_of_bytes(header.bytes()),
               "its header says 4096x2049 pixels, which take 16818192 bytes or more; the file has 16818191");
     header.compression = std::string(1, 1); // runs of 128 bytes in 2
     header.rest = 2049 * (8 + 8 + 128);
-    EXPECT_EQ(claims_fault(header.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(header.bytes()), "");
     --header.rest;
-    EXPECT_THAT(claims_fault(header.bytes()), HasSubstr("which take 295056 bytes or more; the file has 295055"));
+    EXPECT_THAT(fault_of_bytes(header.bytes()), HasSubstr("which take 295056 bytes or more; the file has 295055"));
     header.compression = std::string(1, 100); // of a future version
     header.rest = 0;
-    EXPECT_EQ(claims_fault(header.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(header.bytes()), "");
 }
 
 TEST(FileClaims, ASmallFileThatWasCutIsLeftToItsReaderButForItsTable)
 {
     Header header;
     header.rest = 3 * 8;
-    EXPECT_EQ(claims_fault(header.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(header.bytes()), "");
     --header.rest;
-    EXPECT_EQ(claims_fault(header.bytes()), "its header says 4x3 pixels, which take 72 bytes or more; the file has 23");
+    EXPECT_EQ(fault_of_bytes(header.bytes()),
+              "its header says 4x3 pixels, which take 72 bytes or more; the file has 23");
 }
 
 TEST(FileClaims, AnySizeBeyondTheFileIsRefused)
@@ -174,33 +175,33 @@ TEST(FileClaims, AnySizeBeyondTheFileIsRefused)
         for (const uint32_t size : { uint32_t(bytes.size() - at - 4 + 1), 1u << 29, 0x7fffffffu, 0xffffffffu }) {
             std::string damaged = bytes;
             damaged.replace(at, 4, number_bytes(size));
-            EXPECT_EQ(claims_fault(damaged),
+            EXPECT_EQ(fault_of_bytes(damaged),
                       "its header says that \"" + std::string(name) + "\" has " + std::to_string(size)
                           + " bytes; the file has " + std::to_string(bytes.size() - at - 4) + " more");
         }
     }
     Header header;
     header.more = attribute("views", "stringvector", number_bytes(4) + "left" + number_bytes(1 << 30) + "right");
-    EXPECT_THAT(claims_fault(header.bytes()), HasSubstr("a string in \"views\" has 1073741824 bytes, of 5"));
+    EXPECT_THAT(fault_of_bytes(header.bytes()), HasSubstr("a string in \"views\" has 1073741824 bytes, of 5"));
     header.more = attribute("views", "stringvector", number_bytes(4) + "left" + number_bytes(5) + "right");
-    EXPECT_EQ(claims_fault(header.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(header.bytes()), "");
     header.more = attribute("preview", "preview", number_bytes(2) + number_bytes(1 << 30) + std::string(8, 'p'));
-    EXPECT_THAT(claims_fault(header.bytes()), HasSubstr("the preview has 2x1073741824 pixels, in 16 bytes"));
+    EXPECT_THAT(fault_of_bytes(header.bytes()), HasSubstr("the preview has 2x1073741824 pixels, in 16 bytes"));
     header.more = attribute("preview", "preview", number_bytes(2) + number_bytes(1) + std::string(8, 'p'));
-    EXPECT_EQ(claims_fault(header.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(header.bytes()), "");
 }
 
 TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
 {
     Header wide;
     wide.window = box_bytes(1 << 20, 30);
-    EXPECT_THAT(claims_fault(wide.bytes()), HasSubstr("its header says 1048576x30 pixels, which take "));
+    EXPECT_THAT(fault_of_bytes(wide.bytes()), HasSubstr("its header says 1048576x30 pixels, which take "));
     wide.compression = std::string(1, 3); // ZIP
-    EXPECT_THAT(claims_fault(wide.bytes()), HasSubstr("its header says 1048576x30 pixels"));
+    EXPECT_THAT(fault_of_bytes(wide.bytes()), HasSubstr("its header says 1048576x30 pixels"));
     Header high; // of which the table of offsets alone is too long
     high.window = box_bytes(1, 0x7fffffff);
     high.compression = std::string(1, 9);
-    EXPECT_THAT(claims_fault(high.bytes()), HasSubstr("its header says 1x2147483647 pixels"));
+    EXPECT_THAT(fault_of_bytes(high.bytes()), HasSubstr("its header says 1x2147483647 pixels"));
 
     Header tiled;
     tiled.version = 2 | 0x200;
@@ -209,7 +210,7 @@ TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
     tiled.rest = 16 * 8;
     const auto tiles = [&](uint32_t width, uint32_t height, int mode) {
         tiled.more = attribute("tiles", "tiledesc", number_bytes(width) + number_bytes(height) + char(mode));
-        return claims_fault(tiled.bytes());
+        return fault_of_bytes(tiled.bytes());
     };
     EXPECT_EQ(tiles(16, 16, 0), "");
     EXPECT_THAT(tiles(1, 16, 0), HasSubstr("its header says 64x64 pixels, which take "));
@@ -222,9 +223,9 @@ TEST(FileClaims, PixelsTilesAndLevelsBeyondTheFileAreRefused)
     Header deep;
     deep.version = 2 | 0x800;
     deep.rest = 3 * 8;
-    EXPECT_EQ(claims_fault(deep.bytes()), "");
+    EXPECT_EQ(fault_of_bytes(deep.bytes()), "");
     --deep.rest;
-    EXPECT_THAT(claims_fault(deep.bytes()), HasSubstr("its header says 4x3 pixels"));
+    EXPECT_THAT(fault_of_bytes(deep.bytes()), HasSubstr("its header says 4x3 pixels"));
 }
 
 TEST(FileClaims, AHeaderThatEndsAnywhereIsNoCrash)
@@ -237,9 +238,9 @@ TEST(FileClaims, AHeaderThatEndsAnywhereIsNoCrash)
         header.version = version;
         const std::string bytes = header.bytes();
         for (size_t size = 0; size < bytes.size(); ++size)
-            claims_fault(bytes.substr(0, size));
+            fault_of_bytes(bytes.substr(0, size));
     }
-    EXPECT_EQ(claims_fault(""), "");
+    EXPECT_EQ(fault_of_bytes(""), "");
     EXPECT_EQ(claims_fault("no such file"), "");
     EXPECT_EQ(claims_fault("/"), "");
 }
@@ -253,7 +254,7 @@ TEST(FileClaims, RadianceScanlinesAreHeldAgainstTheFile)
             const int pixels = std::stoi(size.substr(size.rfind(' ') + 1));
             scanlines.replace(0, 4, { 2, 2, char(pixels >> 8), char(pixels) });
         }
-        return claims_fault(head + size + "\n" + scanlines);
+        return fault_of_bytes(head + size + "\n" + scanlines);
     };
     EXPECT_EQ(fault("-Y 999999 +X 7", 999999 * 7 * 4), ""); // too short for runs
     EXPECT_EQ(fault("-Y 999999 +X 7", 999999 * 7 * 4 - 1),

@@ -48,6 +48,7 @@ void look_up_tile(float* pixels, Coverage& coverage, const FrameSurface& surface
     const int left = tile % across * kTileSize, top = tile / across * kTileSize;
     SeenPoint seen;
     seen.surface = &surface;
+    seen.point.position = Imath::V3d(0); // copied, though no colour depends on it
     for (int y = top; y < std::min(top + kTileSize, height); ++y)
         for (int x = left; x < std::min(left + kTileSize, width); ++x) {
             const size_t i = size_t(y - top) * kTileSize + size_t(x - left);
