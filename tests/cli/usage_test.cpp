@@ -156,7 +156,7 @@ TEST_F(Usage, AFlagThatCannotChangeThePictureIsRefused)
         { "--crease-angle 30: flat normals", bake + "--normals flat --crease-angle 30" },
         { "--frame 3: only Alembic files have frames", bake + "--frame 3" },
         { "--fps 25: no frame is given", bake + "--fps 25" },
-        { "reconstruct: what the basis mask packs of each ray has no mean", bake + "--reconstruct auto --basis mask" },
+        { "--reconstruct auto: what the basis mask packs of each ray has no mean", bake + "--reconstruct auto --basis mask" },
         { "--samples 8: target_error sets the number", bake + "--samples 8 --target-error 0.1" },
         { "--samples 8: time_budget sets the number", bake + "--time-budget=1 --samples 8" },
         { "--time-budget 1: target_error sets the number", bake + "--time-budget=1 --target-error=0.1" },
