@@ -78,17 +78,17 @@ OIIO::ImageBuf unfiltered(const Map& sky)
     return light;
 }
 
-LightmapParams model(const char* name)
+LightmapParams model_entry(const char* name)
 {
     LightmapParams params;
     params.model = name;
     return params;
 }
 
-std::string refusal(const OIIO::ImageBuf& map, const OIIO::ImageBuf& light, const char* name)
+std::string light_refusal(const OIIO::ImageBuf& map, const OIIO::ImageBuf& light, const char* name)
 {
     OIIO::ImageBuf lit;
-    EXPECT_FALSE(make_lightmap(lit, map, light, model(name))) << name;
+    EXPECT_FALSE(make_lightmap(lit, map, light, model_entry(name))) << name;
     return lit.geterror();
 }
 
@@ -151,7 +151,7 @@ TEST(StrandLight, AConstantEnvironmentGivesV)
     ASSERT_TRUE(make_cfem(light, image(Map(16, 8, .5f)), of_strands(16, 8)));
     for (const char* name : { "ao", "sh" }) {
         OIIO::ImageBuf lit;
-        ASSERT_TRUE(make_lightmap(lit, map, *name == 'a' ? light : sky, model(name))) << lit.geterror();
+        ASSERT_TRUE(make_lightmap(lit, map, *name == 'a' ? light : sky, model_entry(name))) << lit.geterror();
         for (int y = 0; y < 2; ++y)
             for (int x = 0; x < 8; ++x)
                 EXPECT_NEAR(lit.getchannel(x, y, 0, 0), .5f * map.getchannel(x, y, 0, 0), 1e-6) << name;
@@ -166,10 +166,10 @@ TEST(StrandLight, AnOpenStrandHasTheLightAroundItsTangent)
     OIIO::ImageBuf light, ao, sh;
     ASSERT_TRUE(make_cfem(light, image(sky), of_strands(128, 64)));
     const OIIO::ImageBuf map = map_with("sh", oblique, {});
-    ASSERT_TRUE(make_lightmap(ao, map, light, model("ao"))) << ao.geterror();
+    ASSERT_TRUE(make_lightmap(ao, map, light, model_entry("ao"))) << ao.geterror();
     EXPECT_NEAR(ao.getchannel(3, 0, 0, 0), truth, 1e-3 * truth);
     // Without the bands from 6 on, where the sine has less than .005.
-    ASSERT_TRUE(make_lightmap(sh, map, unfiltered(sky), model("sh"))) << sh.geterror();
+    ASSERT_TRUE(make_lightmap(sh, map, unfiltered(sky), model_entry("sh"))) << sh.geterror();
     EXPECT_NEAR(sh.getchannel(3, 0, 0, 0), truth, .01 * truth);
 }
 
@@ -182,22 +182,23 @@ TEST(StrandLight, ModelsAndLightOfSurfacesAreRefused)
     const OIIO::ImageBuf map = map_with("vector", crossing(), {});
     for (const ModelEntry& entry : model_entries())
         if (entry.strand_rank == 0)
-            EXPECT_NE(refusal(map, strands, entry.name).find("use one of ao, sh"), std::string::npos) << entry.name;
-    EXPECT_NE(refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
-    EXPECT_NE(refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
+            EXPECT_NE(light_refusal(map, strands, entry.name).find("use one of ao, sh"), std::string::npos)
+                << entry.name;
+    EXPECT_NE(light_refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
+    EXPECT_NE(light_refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
     // And the other way round.
     OIIO::ImageBuf wall;
     VismapParams params = rays(4);
     params.resolution = { 4, 4 };
     ASSERT_TRUE(make_vismap(wall, scenes::floor_facing_z(1), {}, params));
-    EXPECT_NE(refusal(wall, strands, "paper").find("makecfem --kernel cosine"), std::string::npos);
+    EXPECT_NE(light_refusal(wall, strands, "paper").find("makecfem --kernel cosine"), std::string::npos);
     // What is left is chosen.
-    ASSERT_TRUE(make_lightmap(lit, map, strands, model("auto"))) << lit.geterror();
+    ASSERT_TRUE(make_lightmap(lit, map, strands, model_entry("auto"))) << lit.geterror();
     EXPECT_EQ(lit.spec().get_string_attribute("vmlight:model"), "ao");
     std::vector<OIIO::ImageBuf> stack;
     std::string error;
     ShadingModel chosen;
-    ASSERT_TRUE(choose_model(chosen, model("auto"), map_with("sh", crossing(), {}).spec(), true, error)) << error;
+    ASSERT_TRUE(choose_model(chosen, model_entry("auto"), map_with("sh", crossing(), {}).spec(), true, error)) << error;
     EXPECT_EQ(chosen.name, "sh");
 }
 
