@@ -17,7 +17,6 @@ TEST(LightTransport, SmallFarThingsSendAllTheirLight)
     for (const int samples : { 16, 128, 1024 }) {
         VismapParams map = bounce_map_of(64);
         map.samples = samples;
-        map.reconstruct = "off"; // of .4 %, averages of texels that mostly see none of it are a fifth off
         const Bounced bounced(floor, { lamp }, map);
         const std::vector<float> light = bounced.gather(1);
         double sum = 0, hidden = 0;

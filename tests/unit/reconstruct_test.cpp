@@ -250,12 +250,13 @@ TEST(Reconstruct, TheSameBytesForAnyThreads)
     EXPECT_EQ(one.report.error, many.report.error);
 }
 
-TEST(Reconstruct, ItIsOnUnlessSwitchedOffAndTheMapSaysWhether)
+TEST(Reconstruct, ItIsOffUnlessAskedForAndTheMapSaysWhether)
 {
     const BakeInput scene = ball_over_floor();
     VismapParams params = map_params(64, 64, 16);
-    EXPECT_FALSE(BakedMap(scene.mesh, scene.occluders, params).spec().find_attribute("vmlight:reconstruct"));
     params.reconstruct = VismapParams().reconstruct;
+    EXPECT_FALSE(BakedMap(scene.mesh, scene.occluders, params).spec().find_attribute("vmlight:reconstruct"));
+    params.reconstruct = "auto";
     EXPECT_EQ(BakedMap(scene.mesh, scene.occluders, params).spec().get_string_attribute("vmlight:reconstruct"), "auto");
     // Where it cannot be, the map is what it was.
     params.basis = "mask";
@@ -269,6 +270,8 @@ TEST(Reconstruct, ItIsOnUnlessSwitchedOffAndTheMapSaysWhether)
 TEST(Reconstruct, AFlagThatCannotChangeThePictureIsRefusedWithTheReason)
 {
     VismapRecipe recipe;
+    EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
+    recipe.vismap_params.reconstruct = "auto";
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "");
     recipe.vismap_params.basis = "cells";
     EXPECT_EQ(unused_reason(recipe, "reconstruct"), "what the basis cells packs of each ray has no mean");
@@ -291,6 +294,7 @@ TEST(Reconstruct, ARecipeThatCannotHaveItIsBakedWithout)
 {
     VismapRecipe recipe;
     recipe.mesh = "hero.obj";
+    recipe.vismap_params.reconstruct = "auto";
     EXPECT_EQ(why_not_reconstructed(recipe), "");
     for (const char* basis : { "mask", "cells" }) {
         recipe.vismap_params.basis = basis;
@@ -299,6 +303,7 @@ TEST(Reconstruct, ARecipeThatCannotHaveItIsBakedWithout)
         EXPECT_THAT(why_not_reconstructed(recipe), testing::HasSubstr(basis));
     }
     recipe.vismap_params = {};
+    recipe.vismap_params.reconstruct = "auto";
     recipe.normal_map = "bumps.png";
     EXPECT_EQ(recipe_fault(recipe, {}), "");
     EXPECT_FALSE(is_reconstructed(with_switches(recipe).vismap_params));

@@ -85,7 +85,7 @@ LightmapParams model_entry(const char* name)
     return params;
 }
 
-std::string light_refusal(const OIIO::ImageBuf& map, const OIIO::ImageBuf& light, const char* name)
+std::string strand_refusal(const OIIO::ImageBuf& map, const OIIO::ImageBuf& light, const char* name)
 {
     OIIO::ImageBuf lit;
     EXPECT_FALSE(make_lightmap(lit, map, light, model_entry(name))) << name;
@@ -182,16 +182,16 @@ TEST(StrandLight, ModelsAndLightOfSurfacesAreRefused)
     const OIIO::ImageBuf map = map_with("vector", crossing(), {});
     for (const ModelEntry& entry : model_entries())
         if (entry.strand_rank == 0)
-            EXPECT_NE(light_refusal(map, strands, entry.name).find("use one of ao, sh"), std::string::npos)
+            EXPECT_NE(strand_refusal(map, strands, entry.name).find("use one of ao, sh"), std::string::npos)
                 << entry.name;
-    EXPECT_NE(light_refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
-    EXPECT_NE(light_refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
+    EXPECT_NE(strand_refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
+    EXPECT_NE(strand_refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
     // And the other way round.
     OIIO::ImageBuf wall;
     VismapParams params = rays(4);
     params.resolution = { 4, 4 };
     ASSERT_TRUE(make_vismap(wall, scenes::floor_facing_z(1), {}, params));
-    EXPECT_NE(light_refusal(wall, strands, "paper").find("makecfem --kernel cosine"), std::string::npos);
+    EXPECT_NE(strand_refusal(wall, strands, "paper").find("makecfem --kernel cosine"), std::string::npos);
     // What is left is chosen.
     ASSERT_TRUE(make_lightmap(lit, map, strands, model_entry("auto"))) << lit.geterror();
     EXPECT_EQ(lit.spec().get_string_attribute("vmlight:model"), "ao");
