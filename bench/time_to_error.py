@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The time that whole bakes take to a given error, by an old build and by this one, as a Markdown table:
+"""The time that whole bakes take to a given error, by an old build and by this one with --reconstruct auto, as a Markdown table:
 
     bench/time_to_error.py OUT_FOLDER [MESH ...]
 
@@ -58,8 +58,8 @@ def bake(binaries, mesh, out, samples, *flags):
 class Build:
     """Maps of a mesh by one build, and their errors."""
 
-    def __init__(self, binaries, kind, folder, mesh, truth):
-        self.binaries, self.kind, self.folder, self.mesh, self.truth = binaries, kind, folder, mesh, truth
+    def __init__(self, binaries, kind, folder, mesh, truth, *flags):
+        self.binaries, self.flags, self.kind, self.folder, self.mesh, self.truth = binaries, flags, kind, folder, mesh, truth
         self.name = os.path.splitext(os.path.basename(mesh))[0]
         self.known = {}
 
@@ -67,7 +67,7 @@ class Build:
         if samples not in self.known:
             out = os.path.join(self.folder, f"{self.name}.{RESOLUTION}.{samples}.{self.kind}.exr")
             if not os.path.exists(out):
-                bake(self.binaries, self.mesh, out, samples)
+                bake(self.binaries, self.mesh, out, samples, *self.flags)
             self.known[samples] = reconstruct.errors(self.truth, out)
         return self.known[samples]
 
@@ -87,7 +87,8 @@ class Build:
         return math.ceil(few * (many / few) ** share)
 
     def time(self, samples):
-        return bake(self.binaries, self.mesh, os.path.join(self.folder, f"timed.{self.kind}.exr"), samples)
+        return bake(self.binaries, self.mesh, os.path.join(self.folder, f"timed.{self.kind}.exr"), samples,
+                    *self.flags)
 
 
 def print_means(title, rows):
@@ -119,7 +120,8 @@ def main():
         truth = os.path.join(folder, f"{name}.{RESOLUTION}.truth.exr")
         if not os.path.exists(truth):
             bake(BIN, mesh, truth, REFERENCE, "--reconstruct", "off", "--seed", "77", "--channels", "coverage")
-        builds = [Build(old, "old", folder, mesh, truth), Build(BIN, "new", folder, mesh, truth)]
+        builds = [Build(old, "old", folder, mesh, truth),
+                  Build(BIN, "new", folder, mesh, truth, "--reconstruct", "auto")]
         for quantity, column in QUANTITIES.items():
             for error in ERRORS:
                 rays = [build.rays_for(column, error) for build in builds]
