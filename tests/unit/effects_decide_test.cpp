@@ -354,7 +354,7 @@ TEST(EffectsDecide, TexelsAreAveragedUnlessThatIsUnsoundOrNothingBlocksThem)
     EXPECT_EQ(named("reconstruction", facts).reason,
               "reconstruct is off: each of 5000 texels has what its own rays see");
     EXPECT_FALSE(named("reconstruction", facts).called_for);
-    EXPECT_EQ(refusal(facts, "+reconstruction"), "effects: +reconstruction is impossible: reconstruct is off");
+    EXPECT_EQ(switch_refusal(facts, "+reconstruction"), "effects: +reconstruction is impossible: reconstruct is off");
     facts = nothing();
     EXPECT_EQ(named("reconstruction", facts).reason, "nothing blocks a ray of any of 10000 texels");
     facts.bake.has_ground = true; // which, near enough, is sampled
