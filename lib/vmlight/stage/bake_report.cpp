@@ -98,9 +98,9 @@ std::string error_line(const VismapReport& report, bool is_reconstructed)
 
 std::string dark_warning(int64_t dark, int64_t covered)
 {
-    return dark > covered / 2
-        ? format("{:.0f} % of the covered texels see no light: do the normals point inwards?", percent_of(dark, covered))
-        : "";
+    return dark > covered / 2 ? format("{:.0f} % of the covered texels see no light: do the normals point inwards?",
+                                       percent_of(dark, covered))
+                              : "";
 }
 
 void report_bake(const MakeOptions& options, const VismapReport& report, const OIIO::ImageSpec& spec,
