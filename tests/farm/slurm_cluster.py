@@ -67,13 +67,17 @@ class Cluster:
         with open(self.path("slurm.conf"), "w") as config:
             config.write(CONFIG.format(folder=folder, host=socket.gethostname().split(".")[0], ports=free_ports(3)))
         self.environment = {**os.environ, "SLURM_CONF": self.path("slurm.conf")}
-        self.run("munged", "--force", "--socket", self.path("munge.socket"), "--key-file", self.path("munge.key"),
-                 "--pid-file", self.path("munged.pid"), "--log-file", self.path("munged.log"), "--seed-file",
-                 self.path("munge.seed"))
-        self.run("slurmctld", "-c")
-        for node in "n1", "n2":
-            self.start(node)
-        self.wait(lambda: self.run("sinfo", "-h", "-o", "%T").split() == ["idle"])
+        try:
+            self.run("munged", "--force", "--socket", self.path("munge.socket"), "--key-file", self.path("munge.key"),
+                     "--pid-file", self.path("munged.pid"), "--log-file", self.path("munged.log"), "--seed-file",
+                     self.path("munge.seed"))
+            self.run("slurmctld", "-c")
+            for node in "n1", "n2":
+                self.start(node)
+            self.wait(lambda: self.run("sinfo", "-h", "-o", "%T").split() == ["idle"])
+        except BaseException:
+            self.stop()
+            raise
 
     def path(self, name):
         return os.path.join(self.folder, name)
