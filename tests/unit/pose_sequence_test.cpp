@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses baked one after the other: what is kept is what it was, and the rest is traced.
-#include "cases.h"
 #include "drawn_scene.h"
 #include "pose_scenes.h"
 
@@ -233,7 +232,7 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
 {
     double beyond = 0, covered = 0, kept = 0, more = 0, rays = 0, plain = 0;
     int proven = 0;
-    for (uint32_t seed = 0; seed < cases(24, 12); ++seed) {
+    for (uint32_t seed = 0; seed < 24; ++seed) { // all of them: the promise is of their texels together
         DrawnScene drawn(seed);
         VismapParams params = pose_params(72, 96);
         params.max_distance = drawn.params.max_distance;
