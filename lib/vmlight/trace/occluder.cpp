@@ -2,11 +2,11 @@
 #include <vmlight/trace/occluder.h>
 
 #include <vmlight/trace/embree_scene.h>
+#include <vmlight/trace/fan_query.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace vmlight {
@@ -110,32 +110,7 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
 {
     const embree::FlushDenormals flush;
     embree::Query query(is_near ? reject_hits_behind_origin : nullptr);
-    RTCRay8 rays;
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-        rays.org_x[lane] = origin.x;
-        rays.org_y[lane] = origin.y;
-        rays.org_z[lane] = origin.z;
-        embree::prepare_lane(rays, lane);
-    }
-    for (int packet = 0; packet < fan.packets; ++packet) {
-        const uint8_t live = fan.lanes[packet];
-        if (!live)
-            continue;
-        alignas(32) int valid[kPacketSize];
-        for (int lane = 0; lane < kPacketSize; ++lane) {
-            valid[lane] = live >> lane & 1 ? -1 : 0;
-            rays.tfar[lane] = length;
-        }
-        const int first = packet * kPacketSize;
-        std::memcpy(rays.dir_x, fan.x + first, sizeof(rays.dir_x));
-        std::memcpy(rays.dir_y, fan.y + first, sizeof(rays.dir_y));
-        std::memcpy(rays.dir_z, fan.z + first, sizeof(rays.dir_z));
-        query.occluded8(valid, m_scene->handle(), rays);
-        uint8_t open = 0;
-        for (int lane = 0; lane < kPacketSize; ++lane)
-            open |= uint8_t(rays.tfar[lane] >= 0) << lane; // Embree sets tfar to -infinity where a ray is blocked
-        fan.lanes[packet] = live & open;
-    }
+    embree::clear_blocked(fan, query, m_scene->handle(), origin, 0, length);
     Occluder::count(query.cutouts());
 }
 

@@ -6,10 +6,10 @@
 #include <vmlight/mesh/strand_curve.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/embree_scene.h>
+#include <vmlight/trace/fan_query.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 
 namespace vmlight {
@@ -53,7 +53,7 @@ public:
     Curves(const Curves&) = delete;
     Curves& operator=(const Curves&) = delete;
 
-    bool append(const Strands& strands, size_t strand, const SceneFrame& frame, std::string& error)
+    bool append(const Strands& strands, size_t strand, const SceneFrame& frame, double available, std::string& error)
     {
         StrandCurve curve(strands, strand);
         if (!curve.cut(kLongestSpan, kMostSpans)) {
@@ -71,7 +71,7 @@ public:
             m_controls.push_back({ p.x, p.y, p.z, float(control.radius * frame.scale) });
         }
         const double bytes = kBytesOfSpan * double(m_indices.size());
-        if (m_controls.size() <= UINT32_MAX && bytes < double(available_memory()))
+        if (m_controls.size() <= UINT32_MAX && bytes < available)
             return true;
         error = format("\"{}\": out of memory: up to strand {} alone, curves need {:.3g} GB", strands.path, strand,
                        bytes * 1e-9);
@@ -133,8 +133,9 @@ bool StrandScene::build(const Strands& strands, const std::vector<Mesh>& occlude
     m_has_meshes = !casters.empty();
     begin_step(at_step, "build");
     m_curves = std::make_unique<Curves>();
+    const double available = double(available_memory()); // reads files of the system
     for (size_t strand = 0; strand < strands.count(); ++strand)
-        if (!m_curves->append(strands, strand, m_frame, error))
+        if (!m_curves->append(strands, strand, m_frame, available, error))
             return false;
     m_spans = int64_t(m_curves->spans());
     if (!m_curves->build(nthreads)) {
@@ -153,36 +154,12 @@ void StrandScene::clear_blocked(RayFan& fan, const V3f& origin, float radius, ui
 {
     if (m_has_meshes)
         m_meshes.clear_blocked(fan, origin, length);
+    if (!(radius < length))
+        return;
     const embree::FlushDenormals flush;
     embree::Query query;
     query.pass_strand(own);
-    RTCRay8 rays;
-    for (int lane = 0; lane < kPacketSize; ++lane) {
-        rays.org_x[lane] = origin.x;
-        rays.org_y[lane] = origin.y;
-        rays.org_z[lane] = origin.z;
-        embree::prepare_lane(rays, lane);
-        rays.tnear[lane] = radius;
-    }
-    for (int packet = 0; packet < fan.packets; ++packet) {
-        const uint8_t live = fan.lanes[size_t(packet)];
-        if (!live || !(radius < length))
-            continue;
-        alignas(32) int valid[kPacketSize];
-        for (int lane = 0; lane < kPacketSize; ++lane) {
-            valid[lane] = live >> lane & 1 ? -1 : 0;
-            rays.tfar[lane] = length;
-        }
-        const int first = packet * kPacketSize;
-        std::memcpy(rays.dir_x, fan.x + first, sizeof(rays.dir_x));
-        std::memcpy(rays.dir_y, fan.y + first, sizeof(rays.dir_y));
-        std::memcpy(rays.dir_z, fan.z + first, sizeof(rays.dir_z));
-        query.occluded8(valid, m_curves->handle(), rays);
-        uint8_t open = 0;
-        for (int lane = 0; lane < kPacketSize; ++lane)
-            open |= uint8_t(rays.tfar[lane] >= 0) << lane;
-        fan.lanes[size_t(packet)] = live & open;
-    }
+    embree::clear_blocked(fan, query, m_curves->handle(), origin, radius, length);
 }
 
 } // namespace vmlight

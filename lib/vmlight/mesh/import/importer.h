@@ -76,6 +76,8 @@ const MeshFormat* find_mesh_format(const std::vector<MeshFormat>& formats, const
 
 /// All bytes of a file; none of one that cannot be read.
 std::string file_bytes(const std::string& path);
+/// The head of a file; empty of what is no file, which reading might wait for.
+FileHead read_head(const std::string& path);
 
 /// Whether `path` ends in an extension of mesh_formats(), in any case. Does not look at the file.
 bool is_mesh_name(const std::string& path);

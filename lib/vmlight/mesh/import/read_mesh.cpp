@@ -21,11 +21,6 @@ std::string read_bytes(const std::string& path, uint64_t most)
     return bytes;
 }
 
-FileHead head_of(const std::string& path)
-{
-    return { read_bytes(path, FileHead::kBytes), OIIO::Filesystem::file_size(path) };
-}
-
 std::string unknown_format(const std::vector<MeshFormat>& formats)
 {
     std::vector<std::string> names;
@@ -43,7 +38,7 @@ Inspection inspect(const MeshFormat& format, const std::string& path)
 bool import_parts(MeshBuilder& dst, const std::string& path, const BeforeOpen& before_open,
                   const std::vector<MeshFormat>& formats, std::string& error)
 {
-    const FileHead head = head_of(path);
+    const FileHead head = read_head(path);
     if (OIIO::Strutil::starts_with(head.bytes, "PK\3\4")) {
         error = "a zip archive: unpack it, and pass the mesh inside";
         return false;
@@ -65,9 +60,16 @@ std::string file_bytes(const std::string& path)
     return read_bytes(path, OIIO::Filesystem::file_size(path));
 }
 
+FileHead read_head(const std::string& path)
+{
+    if (!OIIO::Filesystem::is_regular(path))
+        return {};
+    return { read_bytes(path, FileHead::kBytes), OIIO::Filesystem::file_size(path) };
+}
+
 bool has_time(const std::string& path)
 {
-    const FileHead head = OIIO::Filesystem::is_regular(path) ? head_of(path) : FileHead();
+    const FileHead head = read_head(path);
     const MeshFormat* format = find_mesh_format(mesh_formats(), path, head);
     return format && format->has_time;
 }

@@ -14,7 +14,6 @@
 
 #include <OpenImageIO/strutil.h>
 
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -162,22 +161,14 @@ bool is_gltf(const FileHead& head)
 
 bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& error)
 {
-    try {
+    return gltf::without_errors(error, [&] {
         Document document(request, dst);
         add_materials(document);
         Walk(document).append_all();
         if (document.animations() > 0)
             dst.warn(format("{} not played: nodes stay as they are; bake other poses from a file each, or from Alembic",
                             count_text(int64_t(document.animations()), "animation is", "animations are")));
-        return true;
-    } catch (const gltf::Error& reason) {
-        error = shortened_line(OIIO::Strutil::strip(reason.what()));
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& exception) { // of the libraries that the room uses
-        error = format("cannot read as glTF 2.0: {}", shortened_line(exception.what()));
-    }
-    return false;
+    });
 }
 
 } // namespace vmlight

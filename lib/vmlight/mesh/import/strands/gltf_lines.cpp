@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
-#include <vmlight/base/text_format.h>
 #include <vmlight/mesh/import/gltf/accessor.h>
 #include <vmlight/mesh/import/gltf/document.h>
 #include <vmlight/mesh/import/gltf/error.h>
@@ -9,11 +8,7 @@
 #include <vmlight/mesh/import/gltf/instances.h>
 #include <vmlight/mesh/import/strands/strand_format.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <numeric>
 
 namespace vmlight {
@@ -112,22 +107,14 @@ private:
 
 bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& error)
 {
-    try {
+    return gltf::without_errors(error, [&] {
         Mesh ignored; // takes the warnings of what a document has beside its lines
         MeshBuilder builder(ignored, request.params);
         const MeshFormat* const mesh_format = find_mesh_format(mesh_formats(), request.path, request.head);
         const ImportRequest whole { request.path, *mesh_format, request.head, {}, request.before_open };
         gltf::Document document(whole, builder);
         LineWalk(dst, document).append_all();
-        return true;
-    } catch (const gltf::Error& reason) {
-        error = shortened_line(OIIO::Strutil::strip(reason.what()));
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& exception) { // of the libraries that the room uses
-        error = format("cannot read as glTF 2.0: {}", shortened_line(exception.what()));
-    }
-    return false;
+    });
 }
 
 } // namespace vmlight

@@ -16,16 +16,6 @@
 namespace vmlight {
 namespace {
 
-FileHead strand_head(const std::string& path)
-{
-    FileHead head { std::string(FileHead::kBytes, '\0'), 0 };
-    if (!OIIO::Filesystem::is_regular(path))
-        return {};
-    head.bytes.resize(OIIO::Filesystem::read_bytes(path, head.bytes.data(), head.bytes.size()));
-    head.size = OIIO::Filesystem::file_size(path);
-    return head;
-}
-
 const StrandFormat* find_strand_format(const std::string& path, const FileHead& head)
 {
     const auto& formats = strand_formats();
@@ -64,7 +54,7 @@ const std::vector<StrandFormat>& strand_formats()
 
 bool is_strand_file(const std::string& path)
 {
-    const StrandFormat* format = find_strand_format(path, strand_head(path));
+    const StrandFormat* format = find_strand_format(path, read_head(path));
     return format && !format->has_meshes;
 }
 
@@ -80,7 +70,7 @@ bool read_strands(Strands& dst, const std::string& path, const MeshParams& param
     }
     if (before_open)
         before_open(path);
-    const StrandRequest request { path, strand_head(path), params, before_open };
+    const StrandRequest request { path, read_head(path), params, before_open };
     const StrandFormat* const format_of_file = find_strand_format(path, request.head);
     error.clear();
     if (!format_of_file)
