@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The time that whole bakes take to a given error, by an old build and by this one with --reconstruct auto, as a Markdown table:
+"""The time that whole bakes take to a given error, by an old build and by this one, as a Markdown table:
 
     bench/time_to_error.py OUT_FOLDER [MESH ...]
 
 Of the six scenes of bench/scenes.py, and of meshes: for V and for B, the rays per texel that an RMS error takes, and the
-seconds of the whole process with as many, the least of some rounds in which the builds take turns. The last lines are the
-means of the six scenes and of the meshes: of all their seconds, and of the ratios.
+seconds of the whole process with as many, the least of some rounds in which the builds take turns; then its processor time,
+which other work on the machine changes less. The last lines are the means of the six scenes and of the meshes: of all their
+seconds, and of the ratios.
 
 VMLIGHT_BIN has the executables of this build (build/release/bin), among them map_error. VMLIGHT_OLD_BIN has makevismap of
 the old one; without it, VMLIGHT_OLD_COMMIT (7ebb889, the last without reconstruction) is built in OUT_FOLDER.
@@ -16,6 +17,7 @@ them to measure another build.
 """
 import math
 import os
+import resource
 import subprocess
 import sys
 import time
@@ -47,12 +49,17 @@ def old_build(folder):
     return os.path.abspath(os.path.join(build, "bin"))
 
 
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def bake(binaries, mesh, out, samples, *flags):
-    """Seconds of the whole process."""
-    begin = time.monotonic()
+    """Seconds of the whole process, and of all processors."""
+    begin, used = time.monotonic(), processor_seconds()
     subprocess.run([os.path.join(binaries, "makevismap"), mesh, "-o", out, "--resolution", RESOLUTION, "--samples",
                     str(samples), "--threads", THREADS, "--quiet", *flags], check=True, stderr=subprocess.DEVNULL)
-    return time.monotonic() - begin
+    return time.monotonic() - begin, processor_seconds() - used
 
 
 class Build:
@@ -91,16 +98,20 @@ class Build:
                     *self.flags)
 
 
+def text(times):
+    """Of [seconds of the old build, of the new] by the clock and the same of the processor: the cells of a row."""
+    return " | ".join(f"{old:.2f} | {new:.2f} | {old / new:.2f}" for old, new in times)
+
+
 def print_means(title, rows):
     for quantity in QUANTITIES:
         for error in ERRORS:
-            some = [seconds for key, seconds in rows if key == (quantity, error)]
+            some = [times for key, times in rows if key == (quantity, error)]
             if not some:
                 continue
-            old, new = (sum(seconds[k] for seconds in some) / len(some) for k in (0, 1))
-            ratio = math.exp(sum(math.log(seconds[0] / seconds[1]) for seconds in some) / len(some))
-            print(f"| **{title}** | {quantity} | {error:g} | | | {old:.2f} | {new:.2f} | {old / new:.2f}; ratios' mean "
-                  f"{ratio:.2f} |")
+            means = [[sum(times[clock][k] for times in some) / len(some) for k in (0, 1)] for clock in (0, 1)]
+            ratio = math.exp(sum(math.log(times[0][0] / times[0][1]) for times in some) / len(some))
+            print(f"| **{title}**, mean ratio {ratio:.2f} | {quantity} | {error:g} | | | {text(means)} |")
 
 
 def main():
@@ -111,8 +122,8 @@ def main():
     scenes = os.path.join(folder, "scenes")
     subprocess.run([sys.executable, os.path.join(HERE, "scenes.py"), scenes], check=True)
     old = old_build(folder)
-    print("| mesh | of | RMS error | rays, old | new | seconds, old | new | old / new |")
-    print("|---" * 8 + "|")
+    print("| mesh | of | RMS error | rays, old | new | seconds, old | new | old / new | processor, old | new | old / new |")
+    print("|---" * 11 + "|")
     results = {"six scenes": [], "meshes": []}
     six = [os.path.join(scenes, name + ".obj") for name in reconstruct.SCENES]
     for mesh in six + more:
@@ -126,15 +137,15 @@ def main():
             for error in ERRORS:
                 rays = [build.rays_for(column, error) for build in builds]
                 if None in rays:
-                    print(f"| {name} | {quantity} | {error:g} | {rays[0] or '-'} | {rays[1] or '-'} | | | |", flush=True)
+                    print(f"| {name} | {quantity} | {error:g} | {rays[0] or '-'} | {rays[1] or '-'}" + " |" * 7, flush=True)
                     continue
-                seconds = [math.inf, math.inf]
+                times = [[math.inf, math.inf], [math.inf, math.inf]]
                 for _ in range(ROUNDS):
                     for k, build in enumerate(builds):
-                        seconds[k] = min(seconds[k], build.time(rays[k]))
-                results["six scenes" if mesh in six else "meshes"].append(((quantity, error), seconds))
-                print(f"| {name} | {quantity} | {error:g} | {rays[0]} | {rays[1]} | {seconds[0]:.2f} | {seconds[1]:.2f} "
-                      f"| {seconds[0] / seconds[1]:.2f} |", flush=True)
+                        for clock, seconds in zip(times, build.time(rays[k])):
+                            clock[k] = min(clock[k], seconds)
+                results["six scenes" if mesh in six else "meshes"].append(((quantity, error), times))
+                print(f"| {name} | {quantity} | {error:g} | {rays[0]} | {rays[1]} | {text(times)} |", flush=True)
     for title, rows in results.items():
         print_means(title, rows)
 

@@ -14,8 +14,6 @@ namespace vmlight::kernel {
 
 // How much farther apart than UVs say two texels may be on the surface, squared.
 constexpr float kStretch = 2.25f;
-// The variance of V and B' together in that of V: 1 + 5/9 where rays are independent.
-constexpr float kBoth = 14.0f / 9;
 // By how much more than by chance texels may differ, in what they differ by chance. Measured: below 1.2 less is gained,
 // from 1.4 on single texels near edges become worse.
 constexpr float kTolerance = 1.25f;
@@ -73,7 +71,7 @@ HWY_INLINE void compare(Window& window, Neighbour to)
     const WeightTag d;
     // Over a square of texels. A step of one texel may be longer on the surface, where its triangles are stretched.
     const auto farthest = hn::Set(d, kStretch * float(to.x * to.x + to.y * to.y));
-    const auto both = hn::Set(d, kBoth);
+    const auto both = hn::Set(d, kVarianceOfBoth);
     const auto zero = hn::Zero(d);
     for (int y = -Window::kPatch; y < kTileSize + Window::kPatch; ++y) {
         uint64_t rows = 0; // whose patches have a texel of this row

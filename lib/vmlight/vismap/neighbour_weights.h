@@ -11,6 +11,10 @@
 
 namespace vmlight {
 
+/// The variance of V and B' together, in that of V: 1 + 5/9 where rays are independent. B' is B less that of an open
+/// texel of the same V.
+constexpr float kVarianceOfBoth = 14.0f / 9;
+
 /// A tile and the texels around it that its reconstruction reads, one plane for each quantity.
 struct NeighbourWindow
 {

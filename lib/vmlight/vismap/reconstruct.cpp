@@ -21,6 +21,29 @@ namespace {
 // Of the length of a float vector.
 constexpr double kLengthRounding = 1e-6;
 
+// How far the neighbours may move V and B' of a texel, squared, in the variance of both. Beyond that its own rays say
+// that it is unlike them. Measured on ten scenes: below 2 the RMS error gains less, from 4 on the worst texels of
+// creases grow.
+constexpr float kFarthestChange = 4;
+
+// The share of a change that is kept. A few rays may all agree by chance: the scatter around the texel counts, too.
+float limit_change(const NeighbourWindow& window, size_t at, const std::array<float, 4>& change)
+{
+    constexpr int kPatch = NeighbourWindow::kPatch;
+    float scatter = 0, covered = 0, squared = 0;
+    for (int y = -kPatch; y <= kPatch; ++y)
+        for (int x = -kPatch; x <= kPatch; ++x) {
+            const size_t near = size_t(int64_t(at) + y * NeighbourWindow::kStride + x);
+            scatter += window.variance[near];
+            covered += window.spacing[near] > 0 ? 1.0f : 0.0f;
+        }
+    for (const float part : change)
+        squared += part * part;
+    const float farthest
+        = kFarthestChange * kVarianceOfBoth * std::max(window.variance[at], scatter / std::max(covered, 1.0f));
+    return squared > farthest ? std::sqrt(farthest / squared) : 1;
+}
+
 } // namespace
 
 std::string reconstruct_fault(const VismapParams& params)
@@ -65,7 +88,7 @@ Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, do
     m_values.resize(size_t(m_layout.order * m_layout.order) * Harmonics::kLanes);
     for (std::vector<float>& change : m_change)
         change.resize(size_t(kTileSize) * kTileSize);
-    m_narrowed = m_band_change = m_change[0];
+    m_narrowed = m_kept = m_band_change = m_change[0];
 }
 
 Reconstruction::~Reconstruction() = default;
@@ -172,9 +195,14 @@ void Reconstruction::apply_layer(const float* raw, float* texels, size_t pitch, 
             continue;
         const size_t at = size_t(y) * pitch + size_t(x) * m_layout.channels;
         const TexelContext& context = contexts.at(left + x, top + y);
+        std::array<float, 4> change { m_change[0][i], m_change[1][i], m_change[2][i], m_change[3][i] };
+        const size_t window = NeighbourWindow::index(x, y);
+        const float kept = m_kept[i] = limit_change(m_window, window, change);
+        for (float& part : change)
+            part *= kept;
         if (m_layout.has_error)
-            texels[at + m_layout.error_at] = std::sqrt(variance[i]) * m_error_scale;
-        const std::array<float, 4> change { m_change[0][i], m_change[1][i], m_change[2][i], m_change[3][i] };
+            texels[at + m_layout.error_at]
+                = m_error_scale * (kept * std::sqrt(variance[i]) + (1 - kept) * std::sqrt(m_window.variance[window]));
         if (change != std::array<float, 4> {} || !m_bands.empty()) {
             const double visibility = std::clamp(double(raw[at]) + double(change[0]), 0.0, 1.0);
             V3d direction = V3d(raw[at + 1], raw[at + 2], raw[at + 3]) + V3d(change[1], change[2], change[3])
@@ -206,8 +234,8 @@ void Reconstruction::change_bands(const float* raw, float* texels, size_t pitch,
                 const int x = int(i % kTileSize), y = int(i / kTileSize);
                 const size_t window = NeighbourWindow::index(x, y);
                 const size_t at = size_t(y) * pitch + size_t(x) * m_layout.channels;
-                const float sum = raw[at + m_layout.bands_at + size_t(k - 4)] + m_band_change[i]
-                    + m_open[size_t(k - 4)][window] * m_change[0][i];
+                const float change = m_band_change[i] + m_open[size_t(k - 4)][window] * m_change[0][i];
+                const float sum = raw[at + m_layout.bands_at + size_t(k - 4)] + m_kept[i] * change;
                 texels[at + m_layout.bands_at + size_t(k - 4)]
                     = m_narrowed[i] == 1 ? sum : sum * float(std::pow(double(m_narrowed[i]), 0.5 * l * (l + 1)));
             }

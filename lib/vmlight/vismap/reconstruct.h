@@ -78,7 +78,8 @@ public:
     /// kTileSize + kHalo. In any order.
     void add(int x, int y, const float* texel, const TexelContext& context);
     /// Once all covered texels are added, set those of the tile. A texel stays as it is, to the bit, if none of the 3x3
-    /// around it has a variance: all their rays are free, or all are blocked, or the ground alone blocks them.
+    /// around it has a variance: all their rays are free, or all are blocked, or the ground alone blocks them. None
+    /// moves farther than the scatter of the rays around it explains.
     ///
     /// @param raw, texels  the tile's first texel, as it was baked and to be set; rows are `pitch` floats apart
     /// @param contexts     has those of the tile
@@ -106,7 +107,7 @@ private:
     std::vector<NeighbourWindow::Plane> m_bands, m_open; // less those of an open texel of the same V; and those, by V
     std::vector<float> m_values;
     std::array<std::vector<float>, 4> m_change;
-    std::vector<float> m_narrowed, m_band_change;
+    std::vector<float> m_narrowed, m_kept, m_band_change;
 };
 
 } // namespace vmlight

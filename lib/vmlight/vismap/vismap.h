@@ -38,7 +38,7 @@ struct VismapParams
     /// `auto`: V, B and the bands of `sh` of a texel are means over its own rays and those of neighbours that see the
     /// same, where the basis and the measure allow it (docs/accuracy.md). `off`: of its own rays alone. Does not apply
     /// to `sun_directions`, nor to maps with normals of their own.
-    std::string reconstruct = "off";
+    std::string reconstruct = "auto";
     /// Sample pattern. `fibonacci` has the least error at a fixed number of rays (docs/accuracy.md); `halton` is the
     /// paper's.
     std::string sampler = "fibonacci";
