@@ -72,6 +72,8 @@ std::string unused_reason(const Request& request, const std::string& name)
     const bool of_folder = name == "for" || name == "maps" || name == "depth" || name == "ao_gamma" || name == "space"
         || name == "green" || name == "sh_file" || name == "pack" || name == "name" || name == "lightmap_encoding"
         || name == "rgbm_range";
+    if (request.folder.empty() && request.files.gltf.empty())
+        return ""; // nothing is written at all
     if (of_folder && request.folder.empty())
         return "no textures are written without -o";
     if (request.folder.empty() || !request.target())

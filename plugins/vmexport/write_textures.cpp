@@ -47,10 +47,23 @@ public:
     {
     }
 
-    bool write(std::string& error)
+    /// Encode all files.
+    bool make(std::string& error)
     {
-        return read(error) && write_occlusion(error) && write_bent_normal(error) && write_sh(error)
-            && write_lightmap(error) && write_gltf(error);
+        return read(error) && make_occlusion(error) && make_bent_normal(error) && make_sh(error) && make_lightmap(error)
+            && make_gltf(error);
+    }
+
+    bool write(std::string& error) const
+    {
+        const DeferInterrupts writing;
+        for (const Output& output : m_outputs) {
+            if (output.half.initialized() ? !write_image(output.half, output.path, "half", {}, error)
+                                          : !write_file(output.path, output.bytes, error))
+                return false;
+            m_options.report(output.path + (output.decode.empty() ? "" : ": " + output.decode));
+        }
+        return true;
     }
 
 private:
@@ -95,34 +108,26 @@ private:
                       m_tile.is_numbered ? "." + std::to_string(m_tile.udim) : "", extension);
     }
 
-    bool put(const std::string& suffix, const TextureFile& file, std::string& error) const
+    void put(const std::string& suffix, const TextureFile& file)
     {
-        const std::string path = path_of(suffix, file.extension);
-        const DeferInterrupts writing;
-        if (!write_file(path, file.bytes, error))
-            return false;
-        m_options.report(path + (file.decode.empty() ? "" : ": " + file.decode));
-        return true;
+        m_outputs.push_back({ path_of(suffix, file.extension), file.bytes, {}, file.decode });
     }
 
-    bool put_png(const std::string& suffix, const OIIO::ImageBuf& image, const std::string& decode,
-                 std::string& error) const
+    bool put_png(const std::string& suffix, const OIIO::ImageBuf& image, const std::string& decode, std::string& error)
     {
         TextureFile file { "png", "", decode };
-        return encode_png(file.bytes, image, m_request.params.texture_depth(), error) && put(suffix, file, error);
-    }
-
-    bool put_half(const std::string& suffix, const OIIO::ImageBuf& image, const std::string& decode,
-                  std::string& error) const
-    {
-        const std::string path = path_of(suffix, "exr");
-        if (!write_image(image, path, "half", {}, error))
+        if (!encode_png(file.bytes, image, m_request.params.texture_depth(), error))
             return false;
-        m_options.report(path + (decode.empty() ? "" : ": " + decode));
+        put(suffix, file);
         return true;
     }
 
-    bool write_occlusion(std::string& error)
+    void put_half(const std::string& suffix, const OIIO::ImageBuf& image, const std::string& decode)
+    {
+        m_outputs.push_back({ path_of(suffix, "exr"), "", image, decode });
+    }
+
+    bool make_occlusion(std::string& error)
     {
         const ExportParams& params = m_request.params;
         if (!m_request.writes("ao"))
@@ -145,7 +150,7 @@ private:
                        error);
     }
 
-    bool write_bent_normal(std::string& error)
+    bool make_bent_normal(std::string& error)
     {
         const ExportParams& params = m_request.params;
         if (!m_request.writes("bent_normal"))
@@ -166,7 +171,7 @@ private:
                        error);
     }
 
-    bool write_sh(std::string& error)
+    bool make_sh(std::string& error)
     {
         if (!m_request.writes("sh"))
             return true;
@@ -180,29 +185,35 @@ private:
             const std::string decode = !is_png ? ""
                 : number == 0                  ? "V = r, B = 2 gba - 1"
                                                : format("T = rgba - {}", double(kShBound));
-            if (is_png ? !put_png(suffix, texture, decode, error) : !put_half(suffix, texture, decode, error))
+            if (!is_png)
+                put_half(suffix, texture, decode);
+            else if (!put_png(suffix, texture, decode, error))
                 return false;
         }
         return true;
     }
 
-    bool write_lightmap(std::string& error)
+    bool make_lightmap(std::string& error)
     {
         const ExportParams& params = m_request.params;
         if (!m_light || m_request.folder.empty())
             return true;
-        if (params.lightmap_encoding == "half")
-            return put_half("lightmap", *m_light, "linear Rec.709", error);
+        if (params.lightmap_encoding == "half") {
+            put_half("lightmap", *m_light, "linear Rec.709");
+            return true;
+        }
         TextureFile file { "hdr", "", "linear Rec.709" };
         double range = params.rgbm_range;
         if (params.lightmap_encoding == "rgbe" ? encode_rgbe(file.bytes, *m_light, error)
-                                               : encode_rgbm(file, *m_light, range, params.texture_depth(), error))
-            return put("lightmap", file, error);
+                                               : encode_rgbm(file, *m_light, range, params.texture_depth(), error)) {
+            put("lightmap", file);
+            return true;
+        }
         error = format("\"{}\": {}", udim_path(m_request.files.lightmap, m_tile.udim), error);
         return false;
     }
 
-    bool write_gltf(std::string& error)
+    bool make_gltf(std::string& error)
     {
         const std::string& path = m_request.files.gltf;
         if (path.empty())
@@ -214,16 +225,20 @@ private:
             error = format("\"{}\": {}", path, error);
             return false;
         }
-        const DeferInterrupts writing;
-        if (!write_file(path, bytes, error))
-            return false;
         if (cut_off > 0)
             m_options.report_warning(format("\"{}\": {} brighter than 1, which unlit surfaces cannot be", path,
                                             count_text(cut_off, "texel is", "texels are")));
-        m_options.report(path);
+        m_outputs.push_back({ path, std::move(bytes), {}, "" });
         return true;
     }
 
+    struct Output
+    {
+        std::string path, bytes;
+        /// Instead of bytes, if it is there: an image to be written as EXR.
+        OIIO::ImageBuf half;
+        std::string decode;
+    };
     const Request& m_request;
     const MapTile& m_tile;
     const MakeOptions& m_options;
@@ -232,6 +247,7 @@ private:
     std::optional<TexelSurface> m_surface;
     MapTexels m_texels;
     std::optional<OIIO::ImageBuf> m_light;
+    std::vector<Output> m_outputs;
 };
 
 } // namespace
@@ -241,17 +257,20 @@ bool write_textures(const Request& request, const MakeOptions& options, std::str
     std::vector<MapTile> tiles;
     if (!find_tiles(tiles, request.vismap, error))
         return false;
-    if (!request.folder.empty() && !OIIO::Filesystem::is_directory(request.folder)
-        && !OIIO::Filesystem::create_directory(request.folder, error)) {
-        error = format("\"{}\": {}", request.folder, error);
-        return false;
-    }
     for (const MapTile& tile : tiles) {
+        TileExport files(request, tile, options);
         if (interrupted()) {
             error = "interrupted";
             return false;
         }
-        if (!TileExport(request, tile, options).write(error))
+        if (!files.make(error))
+            return false;
+        if (!request.folder.empty() && !OIIO::Filesystem::is_directory(request.folder)
+            && !OIIO::Filesystem::create_directory(request.folder, error)) {
+            error = format("\"{}\": {}", request.folder, error);
+            return false;
+        }
+        if (!files.write(error))
             return false;
     }
     return true;
