@@ -29,6 +29,20 @@ std::string gltf_fault(const Request& request)
     return has_udim_pattern(request.vismap) ? "--gltf: one tile at a time; glTF knows no UDIM" : "";
 }
 
+std::string html_fault(const Request& request)
+{
+    const std::string& path = request.files.html;
+    if (path.empty())
+        return "";
+    if (OIIO::Strutil::lower(OIIO::Filesystem::extension(path)) != ".html")
+        return format("--html \"{}\": the extension must be .html", path);
+    if (request.files.mesh.empty())
+        return "--html needs --mesh, the mesh that the map was baked of";
+    if (request.files.environment.empty())
+        return "--html needs --environment, the light to show the mesh in; it may be repeated";
+    return has_udim_pattern(request.vismap) ? "--html: one tile at a time" : "";
+}
+
 std::string textures_fault(const Request& request)
 {
     const ExportTarget* target = request.target();
@@ -59,12 +73,14 @@ bool Request::writes(const std::string& map) const
 
 std::string request_fault(const Request& request)
 {
-    if (request.folder.empty() && request.files.gltf.empty())
-        return "-o FOLDER is missing (or --gltf)";
+    if (request.folder.empty() && request.files.gltf.empty() && request.files.html.empty())
+        return "-o FOLDER is missing (or --gltf, or --html)";
     if (request.files.name.find('/') != std::string::npos)
         return format("--name \"{}\": the start of a file's name, without a folder", request.files.name);
-    const std::string fault = gltf_fault(request);
-    return fault.empty() ? textures_fault(request) : fault;
+    for (const std::string& fault : { gltf_fault(request), html_fault(request) })
+        if (!fault.empty())
+            return fault;
+    return textures_fault(request);
 }
 
 std::string unused_reason(const Request& request, const std::string& name)
@@ -72,8 +88,12 @@ std::string unused_reason(const Request& request, const std::string& name)
     const bool of_folder = name == "for" || name == "maps" || name == "depth" || name == "ao_gamma" || name == "space"
         || name == "green" || name == "sh_file" || name == "pack" || name == "name" || name == "lightmap_encoding"
         || name == "rgbm_range";
-    if (request.folder.empty() && request.files.gltf.empty())
+    if (request.folder.empty() && request.files.gltf.empty() && request.files.html.empty())
         return ""; // nothing is written at all
+    const bool of_html
+        = name == "environment" || name == "colorspace" || name == "colorconfig" || name == "layer" || name == "layout";
+    if (of_html && request.files.html.empty())
+        return "no --html is given";
     if (of_folder && request.folder.empty())
         return "no textures are written without -o";
     if (request.folder.empty() || !request.target())

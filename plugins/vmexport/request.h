@@ -5,15 +5,18 @@
 #include <vmlight/base/params.h>
 #include <vmlight/export/export_params.h>
 #include <vmlight/export/lit_gltf.h>
+#include <vmlight/stage/recipe/recipe.h>
 
 #include <string>
+#include <vector>
 
 namespace vmlight::exporting {
 
 /// Files beside the map.
 struct FileInputs
 {
-    std::string mesh, lightmap, pack, name, gltf;
+    std::string mesh, lightmap, pack, name, gltf, html;
+    std::vector<std::string> environment;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -25,6 +28,9 @@ struct FileInputs
               "Texture whose channel for occlusion is replaced by AO, such as an ORM texture or a mask map");
         field("name", name, Text {}, "Start of the names of the files; default: that of the map");
         field("gltf", gltf, Path {}, "Also write the mesh, with its AO, as binary glTF (.glb)");
+        field("html", html, Path {},
+              "Also write a page (.html) that shows the mesh and turns its light, in any browser");
+        field("environment", environment, Paths {}, "Environment that lights the page of --html");
     }
 };
 
@@ -36,7 +42,9 @@ struct Request
     FileInputs files;
     ExportParams params;
     GltfLightParams gltf_light;
-    /// "" if only a glTF is written.
+    /// How the environments are read.
+    CfemRecipe filter;
+    /// "" if no textures are written.
     std::string folder;
 
     const ExportTarget* target() const { return find_export_target(params.target); }

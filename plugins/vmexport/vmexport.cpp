@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "write_textures.h"
 
+#include <vmlight/cli/environment_options.h>
 #include <vmlight/cli/main.h>
 
 using namespace vmlight;
@@ -14,7 +15,8 @@ constexpr const char* kExamples
       "  vmexport 'hero_vismap.<UDIM>.exr' --for unreal --mesh hero.obj --depth 16 -o textures\n"
       "  vmexport hero_vismap.exr --for three --lightmap hero_lit.exr --lightmap-encoding rgbe -o textures\n"
       "  vmexport hero_sh.exr --for godot --maps sh -o textures\n"
-      "  vmexport hero_vismap.exr --mesh hero.glb --lightmap hero_lit.exr --gltf hero_lit.glb";
+      "  vmexport hero_vismap.exr --mesh hero.glb --lightmap hero_lit.exr --gltf hero_lit.glb\n"
+      "  vmexport hero_vismap.exr --mesh hero.glb --environment studio.hdr --environment sky.hdr --html hero.html";
 
 } // namespace
 
@@ -26,6 +28,8 @@ int main(int argc, const char** argv)
     stage.params("Textures:", request.params);
     stage.params("Inputs:", request.files);
     stage.params("Textures:", request.gltf_light);
+    stage.group("Inputs:");
+    add_environment_options(stage, request.filter);
     const auto complete = [&] {
         request.vismap = stage.operands()[0];
         request.folder = stage.output();

@@ -2,6 +2,7 @@
 #include "write_textures.h"
 
 #include "inputs.h"
+#include "page.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
@@ -51,7 +52,7 @@ public:
     bool make(std::string& error)
     {
         return read(error) && make_occlusion(error) && make_bent_normal(error) && make_sh(error) && make_lightmap(error)
-            && make_gltf(error);
+            && make_gltf(error) && make_html(error);
     }
 
     bool write(std::string& error) const
@@ -229,6 +230,19 @@ private:
             m_options.report_warning(format("\"{}\": {} brighter than 1, which unlit surfaces cannot be", path,
                                             count_text(cut_off, "texel is", "texels are")));
         m_outputs.push_back({ path, std::move(bytes), {}, "" });
+        return true;
+    }
+
+    bool make_html(std::string& error)
+    {
+        const std::string& path = m_request.files.html;
+        if (path.empty())
+            return true;
+        std::vector<PageLight> lights;
+        for (const std::string& environment : m_request.files.environment)
+            if (!read_page_light(lights.emplace_back(), environment, m_request.filter, m_options, error))
+                return false;
+        m_outputs.push_back({ path, make_page(*m_mesh, m_texels, *m_surface, lights), {}, "" });
         return true;
     }
 

@@ -156,6 +156,26 @@ TEST_F(Vmexport, AGltfNeedsNoFolder)
     EXPECT_TRUE(exists("b.glb"));
 }
 
+TEST_F(Vmexport, APageIsOneFileWithItsEnvironments)
+{
+    make_sky({ 1, 2, 3 });
+    done("vmexport vm.exr --mesh quad.obj --environment {sky} --environment sky.exr --html a.html --quiet");
+    const std::string page = read("a.html");
+    EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0u);
+    for (const char* name : { "studio_small_03.hdr", "sky.exr", "quad.obj" })
+        EXPECT_THAT(page, HasSubstr(name));
+    EXPECT_THAT(page, Not(HasSubstr("@s"))); // all parts are filled in
+    done("makecfem sky.exr -o cfem.exr");
+    EXPECT_THAT(run("vmexport vm.exr --mesh quad.obj --environment cfem.exr --html b.html").err,
+                HasSubstr("\"cfem.exr\": a CFEM without the other lobes"));
+    EXPECT_FALSE(exists("b.html"));
+    refused(2, "--html needs --environment", "vmexport vm.exr --mesh quad.obj --html a.html");
+    refused(2, "--html needs --mesh", "vmexport vm.exr --environment sky.exr --html a.html");
+    refused(2, "--html \"a.htm\": the extension must be .html",
+            "vmexport vm.exr --mesh quad.obj --environment sky.exr --html a.htm");
+    refused(2, "no --html is given", "vmexport vm.exr --for three --environment sky.exr -o out");
+}
+
 TEST_F(Vmexport, OcclusionIsPackedIntoATexture)
 {
     done("makevismap quad.obj" + flat + "small.exr");
@@ -175,7 +195,7 @@ TEST_F(Vmexport, TheSameBytesTwice)
 
 TEST_F(Vmexport, WrongUsageIsRefused)
 {
-    refused(2, "-o FOLDER is missing (or --gltf)", "vmexport vm.exr --for godot");
+    refused(2, "-o FOLDER is missing (or --gltf, or --html)", "vmexport vm.exr --for godot");
     refused(2, "--for is missing", "vmexport vm.exr -o out");
     refused(2, "\"crayon\" is not one of godot, unity", "vmexport vm.exr --for crayon -o out");
     refused(2, "bent normals in tangent space need --mesh", "vmexport vm.exr --for godot -o out");

@@ -46,34 +46,65 @@ bool MapTexels::open(const OIIO::ImageBuf& map, const TexelSurface* surface, std
     const size_t count = size_t(m_width) * size_t(m_height), channels = size_t(spec.nchannels);
     const auto* pixels = static_cast<const float*>(map.localpixels());
     const int coverage = spec.channelindex(kCoverageChannel);
+    std::array<int, 3> normal;
+    std::transform(kNormalChannels.begin(), kNormalChannels.end(), normal.begin(),
+                   [&](const char* name) { return spec.channelindex(name); });
+    const bool has_normals = std::all_of(normal.begin(), normal.end(), [](int channel) { return channel >= 0; });
     m_texels.resize(4 * count);
+    m_normals.resize(has_normals ? 3 * count : 0);
     m_charts.resize(coverage >= 0 && !surface ? count : 0);
     for (size_t i = 0; i < count; ++i) {
         for (size_t c = 0; c < 4; ++c)
             m_texels[4 * i + c] = pixels[channels * i + size_t(index[c])];
+        for (size_t c = 0; c < 3 && has_normals; ++c)
+            m_normals[3 * i + c] = pixels[channels * i + size_t(normal[c])];
         if (!m_charts.empty())
             m_charts[i] = pixels[channels * i + size_t(coverage)];
     }
     return true;
 }
 
+OIIO::ImageBuf MapTexels::filled_map() const
+{
+    OIIO::ImageBuf image(OIIO::ImageSpec(m_width, m_height, 4, OIIO::TypeFloat));
+    auto* texels = static_cast<float*>(image.localpixels());
+    std::copy(m_texels.begin(), m_texels.end(), texels);
+    if (!m_surface && m_charts.empty())
+        return image;
+    Coverage known = m_surface ? m_surface->coverage() : Coverage(m_width, m_height);
+    for (int y = 0; y < m_height; ++y)
+        for (int x = 0; x < m_width; ++x) {
+            const size_t i = size_t(y) * size_t(m_width) + size_t(x);
+            if (texels[4 * i] > 0 || sees_anything(&texels[4 * i]) || (!m_charts.empty() && m_charts[i] > 0))
+                known.set(x, y);
+        }
+    fill_margin(texels, 4, known, -1);
+    return image;
+}
+
 OIIO::ImageBuf MapTexels::occlusion() const
 {
-    std::vector<float> texels = m_texels;
-    if (m_surface || !m_charts.empty()) {
-        Coverage known = m_surface ? m_surface->coverage() : Coverage(m_width, m_height);
-        for (int y = 0; y < m_height; ++y)
-            for (int x = 0; x < m_width; ++x) {
-                const size_t i = size_t(y) * size_t(m_width) + size_t(x);
-                if (texels[4 * i] > 0 || sees_anything(&texels[4 * i]) || (!m_charts.empty() && m_charts[i] > 0))
-                    known.set(x, y);
-            }
-        fill_margin(texels.data(), 4, known, -1);
-    }
+    const OIIO::ImageBuf map = filled_map();
+    const auto* texels = static_cast<const float*>(map.localpixels());
     OIIO::ImageBuf image(OIIO::ImageSpec(m_width, m_height, 1, OIIO::TypeFloat));
     auto* dst = static_cast<float*>(image.localpixels());
-    for (size_t i = 0; i < texels.size() / 4; ++i)
+    for (size_t i = 0; i < map.spec().image_pixels(); ++i)
         dst[i] = std::clamp(texels[4 * i], 0.0f, 1.0f);
+    return image;
+}
+
+OIIO::ImageBuf MapTexels::normals(const TexelSurface& surface) const
+{
+    std::vector<float> texels(m_texels.size());
+    surface.for_each([&](size_t i, const TangentSpace& frame) {
+        const V3f normal = m_normals.empty() ? V3f(frame.normal.normalized())
+                                             : V3f(m_normals[3 * i], m_normals[3 * i + 1], m_normals[3 * i + 2]);
+        for (int axis = 0; axis < 3; ++axis)
+            texels[4 * i + 1 + size_t(axis)] = normal[axis];
+    });
+    const Directions directions = filled(std::move(texels), surface.coverage());
+    OIIO::ImageBuf image(OIIO::ImageSpec(m_width, m_height, 3, OIIO::TypeFloat));
+    std::copy(directions.texels.begin(), directions.texels.end(), static_cast<V3f*>(image.localpixels()));
     return image;
 }
 

@@ -26,10 +26,15 @@ public:
     int width() const { return m_width; }
     int height() const { return m_height; }
 
-    /// V of each texel, one channel. Around the charts it is that of their borders, everywhere, if the charts are
-    /// known: from the surface, or the map's channel `coverage`. Else texels where the map has nothing stay 0, as
+    /// V and B of each texel, four channels. Around the charts it is that of their borders, everywhere, if the charts
+    /// are known: from the surface, or the map's channel `coverage`. Else texels where the map has nothing stay 0, as
     /// closed ones do.
+    OIIO::ImageBuf filled_map() const;
+    /// Its V, one channel, in [0, 1].
     OIIO::ImageBuf occlusion() const;
+    /// The shading normal of each texel, three channels, filled in the same way: the map's, if it has the channels,
+    /// else that of the mesh.
+    OIIO::ImageBuf normals(const TexelSurface& surface) const;
 
     struct Directions
     {
@@ -50,6 +55,8 @@ private:
     int m_width = 0, m_height = 0;
     /// V, B.x, B.y, B.z.
     std::vector<float> m_texels;
+    /// Of three channels, or empty.
+    std::vector<float> m_normals;
     /// 1 where a chart is, or empty.
     std::vector<float> m_charts;
     const TexelSurface* m_surface = nullptr;
