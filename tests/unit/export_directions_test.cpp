@@ -212,6 +212,33 @@ TEST(ExportDirections, ClosedTexelsStayBlackAndTextureSpaceAroundTheChartsIsFill
     }
 }
 
+// Those that the map was shaded with, if it has them: a page lights with them as makelightmap does.
+TEST(ExportDirections, NormalsAreTheMapsOrElseTheMeshs)
+{
+    Exported scene(mirrored_sphere());
+    const OIIO::ImageBuf of_mesh = scene.texels.normals(scene.surface);
+    OIIO::ImageBuf map = scene.map.image().copy(OIIO::TypeFloat);
+    OIIO::ImageSpec spec(kSide, kSide, 8, OIIO::TypeFloat);
+    spec.channelnames
+        = { "visibility", "direction.x", "direction.y", "direction.z", "coverage", "normal.x", "normal.y", "normal.z" };
+    OIIO::ImageBuf with_normals(spec);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            float texel[8] = {};
+            map.getpixel(x, y, 0, texel, 5);
+            texel[5] = 1;
+            with_normals.setpixel(x, y, texel, 8);
+        }
+    MapTexels texels;
+    std::string error;
+    ASSERT_TRUE(texels.open(with_normals, &scene.surface, error)) << error;
+    const OIIO::ImageBuf of_map = texels.normals(scene.surface);
+    scene.surface.for_each([&](size_t i, const TangentSpace& frame) {
+        EXPECT_LT((texel_of(of_mesh, i) - frame.normal.normalized()).length(), 1e-6);
+        EXPECT_EQ(texel_of(of_map, i), V3d(1, 0, 0));
+    });
+}
+
 TEST(ExportDirections, WithoutAnythingOpenDirectionsAreTheNormal)
 {
     Exported scene(scenes::sphere(V3d(0), 1, 8, true));

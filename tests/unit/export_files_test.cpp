@@ -32,7 +32,7 @@ ImageBuf image_of(int channels, const std::vector<float>& values)
     return image;
 }
 
-ImageBuf texture_of(const std::string& bytes, const char* name)
+ImageBuf exported_image(const std::string& bytes, const char* name)
 {
     OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
     ImageSpec config;
@@ -70,7 +70,7 @@ TEST(ExportFiles, PngSaysNothingOfColour)
     ASSERT_TRUE(encode_png(png, image_of(4, { 0.5f, 0.25f, 1, 0 }), TextureDepth::Sixteen, error)) << error;
     for (const char* chunk : { "gAMA", "sRGB", "iCCP", "cICP", "cHRM", "tIME" })
         EXPECT_EQ(png.find(chunk), std::string::npos) << chunk;
-    const ImageBuf read = texture_of(png, "a.png");
+    const ImageBuf read = exported_image(png, "a.png");
     EXPECT_NEAR(read.getchannel(0, 0, 0, 0), 0.5f, 1e-5f); // not multiplied by alpha
 }
 
@@ -84,7 +84,7 @@ TEST(ExportFiles, RgbmDecodesWithinHalfAStepOfItsAlpha)
             ASSERT_TRUE(encode_rgbm(file, light, range, depth, error)) << error;
             EXPECT_THAT(file.decode, HasSubstr("alpha * rgb"));
             EXPECT_GE(range, 3);
-            const ImageBuf read = texture_of(file.bytes, "a.png");
+            const ImageBuf read = exported_image(file.bytes, "a.png");
             for (int x = 0; x < light.spec().width; ++x) {
                 const double alpha = double(read.getchannel(x, 0, 0, 3));
                 for (int c = 0; c < 3; ++c)
@@ -105,7 +105,7 @@ TEST(ExportFiles, RgbeDecodesWithinA256thOfTheLargestChannel)
     const ImageBuf light = image_of(3, kLight);
     std::string hdr, error;
     ASSERT_TRUE(encode_rgbe(hdr, light, error)) << error;
-    const ImageBuf read = texture_of(hdr, "a.hdr");
+    const ImageBuf read = exported_image(hdr, "a.hdr");
     for (int x = 0; x < light.spec().width; ++x) {
         const float most = std::max({ kLight[size_t(3 * x)], kLight[size_t(3 * x + 1)], kLight[size_t(3 * x + 2)] });
         for (int c = 0; c < 3; ++c)
@@ -209,7 +209,7 @@ TEST(ExportFiles, SphericalHarmonicsDecodeToTheModelSh)
             std::string png, error;
             fold_sh(textures[size_t(k)], k);
             ASSERT_TRUE(encode_png(png, textures[size_t(k)], TextureDepth::Sixteen, error)) << error;
-            textures[size_t(k)] = texture_of(png, "a.png");
+            textures[size_t(k)] = exported_image(png, "a.png");
         }
         for (int y = 0; y < 12; ++y)
             for (int x = 0; x < 12; ++x)
@@ -255,7 +255,7 @@ TEST(ExportFiles, AMapWithoutHarmonicsHasTheFirstTwoBands)
 
 namespace {
 
-tinygltf::Model model_of(const std::string& bytes)
+tinygltf::Model gltf_of(const std::string& bytes)
 {
     tinygltf::Model model;
     std::string error, warning;
@@ -272,7 +272,7 @@ ImageBuf image_in(const tinygltf::Model& model, int texture)
     const tinygltf::BufferView& view
         = model.bufferViews[size_t(model.images[size_t(model.textures[size_t(texture)].source)].bufferView)];
     const auto* first = reinterpret_cast<const char*>(model.buffers[0].data.data()) + view.byteOffset;
-    return texture_of(std::string(first, view.byteLength), "a.png");
+    return exported_image(std::string(first, view.byteLength), "a.png");
 }
 
 // Half of its triangles with a material, half without UVs.
@@ -294,7 +294,7 @@ TEST(ExportFiles, AGltfHasItsOcclusionInside)
     std::string bytes, error;
     int64_t cut_off = -1;
     ASSERT_TRUE(make_lit_gltf(bytes, painted_mesh(), occlusion, nullptr, {}, cut_off, error)) << error;
-    const tinygltf::Model model = model_of(bytes);
+    const tinygltf::Model model = gltf_of(bytes);
     ASSERT_EQ(model.materials.size(), 2u);
     const tinygltf::Material &lit = model.materials[0], &plain = model.materials[1];
     EXPECT_EQ(lit.occlusionTexture.texCoord, 0);
@@ -319,7 +319,7 @@ TEST(ExportFiles, AGltfSendsOutItsLight)
     int64_t cut_off = -1;
     ASSERT_TRUE(make_lit_gltf(bytes, painted_mesh(), occlusion, &light, {}, cut_off, error)) << error;
     EXPECT_EQ(cut_off, 0);
-    const tinygltf::Model model = model_of(bytes);
+    const tinygltf::Model model = gltf_of(bytes);
     const tinygltf::Material& lit = model.materials[0];
     const double strength
         = lit.extensions.at("KHR_materials_emissive_strength").Get("emissiveStrength").GetNumberAsDouble();
@@ -341,7 +341,7 @@ TEST(ExportFiles, AGltfSendsOutItsLight)
     unlit.gltf_light = "unlit";
     ASSERT_TRUE(make_lit_gltf(bytes, painted_mesh(), occlusion, &light, unlit, cut_off, error)) << error;
     EXPECT_EQ(cut_off, 1);
-    const tinygltf::Model flat = model_of(bytes);
+    const tinygltf::Model flat = gltf_of(bytes);
     EXPECT_EQ(flat.materials[0].extensions.count("KHR_materials_unlit"), 1u);
     EXPECT_EQ(flat.materials[0].pbrMetallicRoughness.baseColorTexture.texCoord, 1);
     EXPECT_EQ(flat.materials[0].pbrMetallicRoughness.baseColorFactor[0], 1);
