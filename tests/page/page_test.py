@@ -88,6 +88,26 @@ class Page(unittest.TestCase):
                 self.assertLess(farthest, LINEAR_ERROR, (sky, model, degrees))
         self.assertEqual(browser.messages(), [])
 
+    def test_the_picture_is_the_light_as_srgb(self):
+        """An open square in even light: V is 1, and every model gives that light."""
+        with open("square.obj", "w", encoding="utf-8") as file:
+            file.write("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                       "f 1/1/1 2/2/1 3/3/1 4/4/1\n")
+        light = 0.05, 0.2, 0.45
+        subprocess.run(["oiiotool", "--pattern", "constant:color=" + ",".join(map(str, light)), "16x8", "3", "-o", "even.exr"], check=True)
+        run("makevismap", "square.obj", "-o", "square.exr", "--resolution", "16", "--samples", "4")
+        run("vmexport", "square.exr", "--mesh", "square.obj", "--environment", "even.exr", "--html", "square.html")
+        browser = self.browse()
+        browser.open("file://" + os.path.join(FOLDER, "square.html"))
+        for exposure in 0, 1:
+            for model in "ao", "paper", "lobe":
+                browser.run("Object.assign(vmlight.state, arguments[0])",
+                            {"azimuth": 0.3, "elevation": 0.1, "exposure": exposure, "model": model, "turn": 77})
+                width, height, data = browser.picture()
+                middle = 4 * (height // 2 * width + width // 2)
+                for value, linear in zip(data[middle:middle + 3], light):
+                    self.assertLessEqual(abs(value - 255 * (1.055 * (linear * 2 ** exposure) ** (1 / 2.4) - 0.055)), 2, (model, exposure))
+
     def test_input_changes_what_is_seen(self):
         browser = self.browse()
 

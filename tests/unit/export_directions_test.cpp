@@ -279,6 +279,10 @@ TEST(ExportDirections, WhatHasNoSurfaceIsRefused)
     part.specmod().full_width = 16;
     EXPECT_FALSE(texels.open(part, nullptr, error));
     EXPECT_THAT(error, HasSubstr("only part of a map"));
+    OIIO::ImageBuf damaged = BakedMap(scenes::floor_facing_z(1), {}, map_params(8, 8, 1)).image();
+    static_cast<float*>(damaged.localpixels())[size_t(8 * 2 + 3) * size_t(damaged.nchannels()) + 1] = NAN;
+    EXPECT_FALSE(texels.open(damaged, nullptr, error));
+    EXPECT_THAT(error, HasSubstr("pixel (3, 2) of channel direction.x is nan"));
     OIIO::ImageBuf picture(OIIO::ImageSpec(2, 2, 3, OIIO::TypeFloat));
     EXPECT_FALSE(texels.open(picture, nullptr, error));
     EXPECT_THAT(error, HasSubstr("visibility"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/export/map_textures.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/image/channels.h>
 
 #include <algorithm>
@@ -54,8 +55,14 @@ bool MapTexels::open(const OIIO::ImageBuf& map, const TexelSurface* surface, std
     m_normals.resize(has_normals ? 3 * count : 0);
     m_charts.resize(coverage >= 0 && !surface ? count : 0);
     for (size_t i = 0; i < count; ++i) {
-        for (size_t c = 0; c < 4; ++c)
+        for (size_t c = 0; c < 4; ++c) {
             m_texels[4 * i + c] = pixels[channels * i + size_t(index[c])];
+            if (!std::isfinite(m_texels[4 * i + c])) {
+                error = format("pixel ({}, {}) of channel {} is {}", i % size_t(m_width), i / size_t(m_width),
+                               kVismapChannels[c], m_texels[4 * i + c]);
+                return false;
+            }
+        }
         for (size_t c = 0; c < 3 && has_normals; ++c)
             m_normals[3 * i + c] = pixels[channels * i + size_t(normal[c])];
         if (!m_charts.empty())

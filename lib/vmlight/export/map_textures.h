@@ -19,8 +19,8 @@ class MapTexels
 public:
     /// @param map      a visibility map of floats in memory; kept no longer
     /// @param surface  of the same size, or nullptr: must outlive it
-    /// @returns false, with the reason in `error`, if it is no visibility map of a surface, or its display window is
-    ///          not what is stored
+    /// @returns false, with the reason in `error`, if it is no visibility map of a surface, a value of V or B is not
+    ///          finite, or its display window is not what is stored
     bool open(const OIIO::ImageBuf& map, const TexelSurface* surface, std::string& error);
 
     int width() const { return m_width; }
