@@ -34,11 +34,9 @@ std::string without_progress(const std::string& err)
     return kept;
 }
 
-const std::map<std::string, Main> kMains { { "makevismap", makevismap_main },
-                                           { "makecfem", makecfem_main },
-                                           { "makelightmap", makelightmap_main },
-                                           { "vmcost", vmcost_main },
-                                           { "vmframes", vmframes_main } };
+const std::map<std::string, Main> kMains { { "makevismap", makevismap_main },     { "makecfem", makecfem_main },
+                                           { "makelightmap", makelightmap_main }, { "vmcost", vmcost_main },
+                                           { "vmframes", vmframes_main },         { "vmexport", vmexport_main } };
 
 // What mains do to a process that is theirs.
 class ProcessState

@@ -12,7 +12,7 @@ import unittest
 
 BIN = os.environ["VMLIGHT_BIN"]
 SHARE = os.environ["VMLIGHT_SHARE"]
-TOOLS = ["makevismap", "makecfem", "makelightmap", "vmcost", "vmframes"]
+TOOLS = ["makevismap", "makecfem", "makelightmap", "vmcost", "vmexport", "vmframes"]
 if os.path.exists(os.path.join(BIN, "vmview")):  # where its libraries are installed
     TOOLS.append("vmview")
 
@@ -72,6 +72,7 @@ class Documents(unittest.TestCase):
             "makelightmap --mod": "--model",
             "makelightmap --model ": "auto ao paper lobe sh mask cells",
             "makelightmap --model = c": "cells",
+            "vmexport --for u": "unity unreal",
             "makevismap --channels normal,c": "normal,coverage",
             "makevismap quad.obj --samples ": "",
             "makecfem " + SHARE + "/man/man1/makec": path("man", "makecfem"),

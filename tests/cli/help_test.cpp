@@ -54,7 +54,7 @@ TEST_F(HelpText, ExamplesAreCommandLines)
     write("walk.0001.obj", kQuad);
     write("hero_vismap.1001.exr", read("vm.exr"));
     write("hero.obj", kQuad);
-    for (const char* tool : { "makevismap", "makecfem", "makelightmap", "vmframes" }) {
+    for (const char* tool : { "makevismap", "makecfem", "makelightmap", "vmexport", "vmframes" }) {
         EXPECT_GE(examples(tool).size(), 2u) << tool;
         for (std::string line : examples(tool)) {
             line = line.substr(0, line.find(" >"));

@@ -9,3 +9,4 @@ int makecfem_main(int argc, const char** argv);
 int makelightmap_main(int argc, const char** argv);
 int vmcost_main(int argc, const char** argv);
 int vmframes_main(int argc, const char** argv);
+int vmexport_main(int argc, const char** argv);

@@ -39,6 +39,7 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
     static const std::map<OutputKind, Output> outputs {
         { OutputKind::Image, { "OUTPUT.exr", "EXR image to write" } },
         { OutputKind::Folder, { "FOLDER", "Folder to write to" } },
+        { OutputKind::OptionalFolder, { "FOLDER", "Folder to write textures to" } },
         { OutputKind::Picture,
           { "PICTURE",
             "Picture to write: .exr for scene-linear light, .png, .jpg, .webp or .tif "
@@ -49,11 +50,11 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
             "as the display shows it" } },
     };
     line.output_metavar = outputs.at(output).metavar;
-    line.needs_output = output != OutputKind::OptionalPicture;
+    line.needs_output = output != OutputKind::OptionalPicture && output != OutputKind::OptionalFolder;
     m_command.output_kind = output;
     group(kOutputHeading);
     option("o", line.output_metavar, outputs.at(output).help, m_command.output);
-    if (output != OutputKind::Folder)
+    if (output != OutputKind::Folder && output != OutputKind::OptionalFolder)
         params(kOutputHeading, m_command.file);
     params(kOutputHeading, m_command.common);
 }

@@ -18,12 +18,13 @@ std::string StageCommand::output_fault() const
         return "";
     if (output_kind == OutputKind::Picture || output_kind == OutputKind::OptionalPicture)
         return output_file_fault(output);
-    return output_kind == OutputKind::Folder ? output_folder_fault(output) : vmlight::output_fault(output);
+    const bool is_folder = output_kind == OutputKind::Folder || output_kind == OutputKind::OptionalFolder;
+    return is_folder ? output_folder_fault(output) : vmlight::output_fault(output);
 }
 
 bool StageCommand::needs_output() const
 {
-    return !is_dry_run && output_kind != OutputKind::OptionalPicture;
+    return !is_dry_run && output_kind != OutputKind::OptionalPicture && output_kind != OutputKind::OptionalFolder;
 }
 
 bool StageCommand::saves_recipe() const

@@ -13,11 +13,12 @@
 namespace vmlight {
 
 /// What -o names: an EXR, a folder, which is created if necessary, or a picture or film of any kind that the executable
-/// knows, whose name it checks itself; or a picture that need not be written.
+/// knows, whose name it checks itself. One that is optional need not be written.
 enum class OutputKind
 {
     Image,
     Folder,
+    OptionalFolder,
     Picture,
     OptionalPicture
 };

@@ -19,6 +19,8 @@ using Imath::V3d;
 using Imath::V3f;
 
 constexpr int kNone = -1;
+// Volume of a frame whose axes are in one plane.
+constexpr double kFlatSpace = 1e-6;
 
 struct TangentFace
 {
@@ -187,6 +189,28 @@ std::vector<std::array<CornerTangent, 3>> make_tangents(const Mesh& mesh)
 {
     ++work_counts().tangents_made;
     return TangentMesh(mesh).tangents();
+}
+
+V3d TangentSpace::from_object(const V3d& v) const
+{
+    const V3d across = bitangent.cross(normal);
+    const double volume = tangent.dot(across);
+    if (!(std::abs(volume) > kFlatSpace)) // or not a number
+        return V3d(0);
+    return V3d(v.dot(across), v.dot(normal.cross(tangent)), v.dot(tangent.cross(bitangent))) / volume;
+}
+
+TangentSpace tangent_space(const Mesh& mesh, const std::array<uint32_t, 3>& triangle,
+                           const std::array<CornerTangent, 3>& corners, float weight1, float weight2)
+{
+    const std::array<double, 3> weights { 1.0 - double(weight1) - double(weight2), double(weight1), double(weight2) };
+    TangentSpace frame { V3d(0), V3d(0), V3d(0) };
+    for (size_t k = 0; k < 3; ++k) {
+        frame.normal += V3d(mesh.normals[triangle[k]]) * weights[k];
+        frame.tangent += V3d(corners[k].tangent) * weights[k];
+    }
+    frame.bitangent = frame.normal.cross(frame.tangent) * double(corners[0].sign);
+    return frame;
 }
 
 } // namespace vmlight

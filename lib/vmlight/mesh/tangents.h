@@ -28,4 +28,22 @@ struct CornerTangent
 /// Deterministic, on one thread.
 std::vector<std::array<CornerTangent, 3>> make_tangents(const Mesh& mesh);
 
+/// The axes that a tangent-space normal is relative to, in object space: (x, y, z) stands for x tangent + y bitangent +
+/// z normal, normalised.
+struct TangentSpace
+{
+    Imath::V3d tangent, bitangent, normal;
+
+    Imath::V3d to_object(const Imath::V3d& v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
+    /// The inverse of to_object(), up to the length; 0 where the axes are in one plane.
+    Imath::V3d from_object(const Imath::V3d& v) const;
+};
+
+/// The frame inside a triangle: interpolated without being normalised, and the bitangent made of that, as those who
+/// bake and read normal maps do.
+/// @param corners  its tangents, from make_tangents()
+/// @param weight1, weight2 barycentric weights of its second and third corners
+TangentSpace tangent_space(const Mesh& mesh, const std::array<uint32_t, 3>& triangle,
+                           const std::array<CornerTangent, 3>& corners, float weight1, float weight2);
+
 } // namespace vmlight

@@ -182,17 +182,9 @@ void NormalMap::apply(SurfacePoint& point, uint32_t triangle, float weight1, flo
         return;
     const V3d local(m_normals[size_t(y) * size_t(m_width) + size_t(x)]);
     V3d mapped = local;
-    if (!m_is_object_space) {
-        // Interpolated without being normalised, as those who bake normal maps do.
-        const std::array<double, 3> weights { 1.0 - double(weight1) - double(weight2), double(weight1),
-                                              double(weight2) };
-        V3d across(0), up(0);
-        for (int k = 0; k < 3; ++k) {
-            up += V3d(m_mesh->normals[m_mesh->triangles[triangle][k]]) * weights[k];
-            across += V3d(m_tangents[triangle][k].tangent) * weights[k];
-        }
-        mapped = across * local.x + up.cross(across) * (double(m_tangents[triangle][0].sign) * local.y) + up * local.z;
-    }
+    if (!m_is_object_space)
+        mapped = tangent_space(*m_mesh, m_mesh->triangles[triangle], m_tangents[triangle], weight1, weight2)
+                     .to_object(local);
     const double length = mapped.length();
     if (length > kNoDirection) // and a number
         point.normal = V3f(mapped / length);

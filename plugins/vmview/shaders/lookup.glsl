@@ -26,7 +26,7 @@ float atan2_turns(float y, float x)
         r = r * s + kAtanTurns[i];
     r = r * a;
     r = ay > ax ? 0.25 - r : r;
-    r = x < 0 ? 0.5 - r : r;
+    r = x < 0.0 ? 0.5 - r : r;
     return floatBitsToInt(y) < 0 ? -r : r;
 }
 

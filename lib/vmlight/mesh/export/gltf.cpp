@@ -2,7 +2,7 @@
 #include <vmlight/base/text_format.h>
 #include <vmlight/base/utf8.h>
 #include <vmlight/mesh/export/exporter.h>
-#include <vmlight/mesh/tinygltf.h>
+#include <vmlight/mesh/export/gltf_model.h>
 
 #include <Imath/ImathBox.h>
 
@@ -45,41 +45,19 @@ Frame frame_of(const Mesh& mesh)
     return frame;
 }
 
-/// Appends arrays to one buffer, each with its view and accessor.
-class Arrays
+template <class Element>
+int add_array(tinygltf::Model& model, const std::vector<Element>& elements, int component, int type, int target)
 {
-public:
-    explicit Arrays(tinygltf::Model& model)
-        : m_model(model)
-    {
-        m_model.buffers.resize(1);
-    }
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_buffer_view(model, elements.data(), elements.size() * sizeof(Element), target);
+    accessor.componentType = component;
+    accessor.count = elements.size();
+    accessor.type = type;
+    model.accessors.push_back(accessor);
+    return int(model.accessors.size()) - 1;
+}
 
-    template <class Element> int add(const std::vector<Element>& elements, int component, int type, int target)
-    {
-        std::vector<unsigned char>& bytes = m_model.buffers[0].data;
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = bytes.size();
-        view.byteLength = elements.size() * sizeof(Element);
-        view.target = target;
-        bytes.resize(bytes.size() + view.byteLength);
-        std::memcpy(bytes.data() + view.byteOffset, elements.data(), view.byteLength);
-        m_model.bufferViews.push_back(view);
-        tinygltf::Accessor accessor;
-        accessor.bufferView = int(m_model.bufferViews.size()) - 1;
-        accessor.componentType = component;
-        accessor.count = elements.size();
-        accessor.type = type;
-        m_model.accessors.push_back(accessor);
-        return int(m_model.accessors.size()) - 1;
-    }
-
-private:
-    tinygltf::Model& m_model;
-};
-
-int add_positions(tinygltf::Model& model, Arrays& arrays, const Mesh& mesh, const Frame& frame)
+int add_positions(tinygltf::Model& model, const Mesh& mesh, const Frame& frame)
 {
     std::vector<V3f> positions;
     V3f low(INFINITY), high(-INFINITY);
@@ -91,29 +69,29 @@ int add_positions(tinygltf::Model& model, Arrays& arrays, const Mesh& mesh, cons
         }
     }
     const int index
-        = arrays.add(positions, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+        = add_array(model, positions, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
     model.accessors[size_t(index)].minValues = { low.x, low.y, low.z };
     model.accessors[size_t(index)].maxValues = { high.x, high.y, high.z };
     return index;
 }
 
-int add_normals(Arrays& arrays, const Mesh& mesh)
+int add_normals(tinygltf::Model& model, const Mesh& mesh)
 {
     std::vector<V3f> normals = mesh.normals;
     for (V3f& normal : normals)
         if (is_missing_normal(normal))
             normal = V3f(0, 1, 0); // of triangles without area: glTF wants one of unit length
-    return arrays.add(normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    return add_array(model, normals, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-int add_uvs(Arrays& arrays, const Mesh& mesh)
+int add_uvs(tinygltf::Model& model, const Mesh& mesh)
 {
     std::vector<V2f> uvs;
     for (uint32_t vertex = 0; vertex < mesh.uvs.size(); ++vertex) {
         const V2f& uv = mesh.uvs[vertex];
         uvs.push_back(has_uv(mesh, vertex) ? V2f(uv.x, 1 - uv.y) : V2f(0)); // v is down in glTF
     }
-    return arrays.add(uvs, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
+    return add_array(model, uvs, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
 std::string utf8_name(const std::string& name)
@@ -152,15 +130,30 @@ std::map<std::pair<uint32_t, bool>, std::vector<uint32_t>> indices_of(const Mesh
 
 } // namespace
 
-std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path)
+int add_buffer_view(tinygltf::Model& model, const void* bytes, size_t size, int target)
+{
+    model.buffers.resize(1);
+    std::vector<unsigned char>& buffer = model.buffers[0].data;
+    buffer.resize((buffer.size() + 3) / 4 * 4); // floats are aligned
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = size;
+    view.target = target;
+    buffer.resize(buffer.size() + size);
+    std::memcpy(buffer.data() + view.byteOffset, bytes, size);
+    model.bufferViews.push_back(view);
+    return int(model.bufferViews.size()) - 1;
+}
+
+tinygltf::Model gltf_model(const Mesh& mesh)
 {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "vmlight";
-    Arrays arrays(model);
     const Frame frame = frame_of(mesh);
-    const int positions = add_positions(model, arrays, mesh, frame), normals = add_normals(arrays, mesh);
-    const int uvs = mesh.uvs.empty() ? -1 : add_uvs(arrays, mesh);
+    const int positions = add_positions(model, mesh, frame), normals = add_normals(model, mesh);
+    const int uvs = mesh.uvs.empty() ? -1 : add_uvs(model, mesh);
     for (const Material& material : mesh.materials)
         model.materials.push_back(gltf_material(material));
 
@@ -172,8 +165,8 @@ std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path)
         part.attributes = { { "POSITION", positions }, { "NORMAL", normals } };
         if (!kind.second)
             part.attributes["TEXCOORD_0"] = uvs;
-        part.indices = arrays.add(corners, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        part.indices = add_array(model, corners, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                                 TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         part.material = kind.first < model.materials.size() ? int(kind.first) : -1;
     }
     tinygltf::Node& node = model.nodes.emplace_back();
@@ -185,10 +178,20 @@ std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path)
         node.scale = { frame.scale, frame.scale, frame.scale };
     model.scenes.emplace_back().nodes = { 0 };
     model.defaultScene = 0;
+    return model;
+}
 
+std::string glb_bytes(tinygltf::Model& model)
+{
     std::ostringstream stream;
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-    return { { path, stream.str() } };
+    return stream.str();
+}
+
+std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path)
+{
+    tinygltf::Model model = gltf_model(mesh);
+    return { { path, glb_bytes(model) } };
 }
 
 } // namespace vmlight
