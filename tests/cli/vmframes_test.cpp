@@ -277,7 +277,7 @@ TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
     std::string obj = "v -.5 0 .2\nv .5 0 .3\nl 1 2\nv -.5 .2 .2\nv .5 .2 .3\nl 3 4\n";
     write("hair.obj", obj);
     done("vmframes quad.obj sky.exr -o bare.exr" + small);
-    done("vmframes quad.obj sky.exr --object hair.obj --radius .05 --strand-color 0,1,0 -o both.exr --layers albedo"
+    done("vmframes quad.obj sky.exr --object hair.obj --radius .3 --strand-color 0,1,0 -o both.exr --layers albedo"
          + small);
     EXPECT_LT(mean("both.exr"), mean("bare.exr"));
     const Pixels all = pixels("both.exr");
