@@ -273,6 +273,51 @@ void scalar_shading(benchmark::State& state)
                                                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+// A map of strands, each texel with a tangent of its own, relit on one thread: by `ao` for 0 bands, else by `sh`.
+void relighting_strands(benchmark::State& state)
+{
+    const int bands = int(state.range(0)), harmonics = bands * bands;
+    std::vector<std::string> names(kVismapChannels.begin(), kVismapChannels.end());
+    names.insert(names.end(), kTangentChannels.begin(), kTangentChannels.end());
+    for (int i = 4; i < harmonics; ++i)
+        names.push_back("sh." + std::to_string(i));
+    ImageSpec spec(kSide, kSide, int(names.size()), OIIO::TypeFloat);
+    spec.channelnames = names;
+    spec.attribute("vmlight:kernel", kStrandKernel);
+    spec.attribute("vmlight:stage", kVismapStage);
+    ImageBuf map(spec), dst;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> unit(0, 1);
+    float* texel = static_cast<float*>(map.localpixels());
+    for (size_t i = 0; i < kTexels; ++i, texel += spec.nchannels) {
+        const Imath::V3f t = latlong::direction(unit(random), std::acos(1 - 2 * unit(random)) / 3.1415927f);
+        const float v = unit(random);
+        texel[0] = v, texel[1] = .3f * v * t.y, texel[2] = .3f * v * t.z, texel[3] = .3f * v * t.x;
+        texel[4] = t.x, texel[5] = t.y, texel[6] = t.z;
+        for (int c = 7; c < spec.nchannels; ++c)
+            texel[c] = .01f * v;
+    }
+    CfemParams filter;
+    LightmapParams params;
+    params.model = bands ? "sh" : "ao";
+    params.rotate = { 20, 35, -50 };
+    std::vector<ImageBuf> light(1);
+    std::string error;
+    filter.kernel = bands ? kCosineKernel : kStrandKernel;
+    if (!(bands ? make_cfem_stack(light, environment(), filter, error) : make_cfem(light[0], environment(), filter))) {
+        state.SkipWithError("cannot filter");
+        return;
+    }
+    std::vector<double> times;
+    for (auto _ : state) {
+        times.push_back(seconds([&] { make_lightmap(dst, map, light, params, nullptr, 1); }));
+        state.SetIterationTime(times.back());
+    }
+    if (dst.has_error())
+        state.SkipWithError(dst.geterror().c_str());
+    state.counters["ns_per_texel"] = best(times) / kTexels * 1e9;
+}
+
 const std::vector<int64_t> kContents { smooth, random_directions };
 
 BENCHMARK(shading_against_streaming)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
@@ -283,6 +328,7 @@ BENCHMARK(model_against_paper)
     ->UseManualTime()
     ->MinTime(1);
 BENCHMARK(one_thread_against_two)->ArgName("random")->ArgsProduct({ kContents })->UseManualTime()->MinTime(1);
+BENCHMARK(relighting_strands)->ArgName("bands")->Arg(0)->Arg(4)->Arg(5)->UseManualTime()->MinTime(1);
 BENCHMARK(scalar_shading)->ArgName("random")->ArgsProduct({ kContents });
 
 } // namespace

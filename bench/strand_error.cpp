@@ -2,17 +2,20 @@
 // How far the models of strands are from ray tracing: for each sky the relative root mean square error over every
 // STEP-th texel of a map of strands, single scattering, against (1/pi^2) Int L(w) vis(w) sin(t, w) dw by rays at every
 // pixel of the sky. Skies are reduced to 128x64, for models and rays alike.
-// The last figure is of a model that does not exist: the part of B lit by the cosine lobe around it, the rest by the
-// sine.
-//     strand_error HAIR RADIUS OCCLUDER STEP SKY...
+// `+suns` are the same models of a sky whose suns are split off, and traced. The last figure is of a model that does
+// not exist: the part of B lit by the cosine lobe around it, the rest by the sine.
+//     strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/cfem/suns.h>
 #include <vmlight/lightmap/lightmap.h>
+#include <vmlight/lightmap/sun_light.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/import/strands/read_strands.h>
 #include <vmlight/mesh/strand_curve.h>
 #include <vmlight/vismap/strand_map.h>
+#include <vmlight/vismap/strand_suns.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -112,10 +115,11 @@ struct Texel
     CurvePoint point;
 };
 
-OIIO::ImageBuf bake(const Strands& strands, const StrandScene& scene, const StrandLayout& layout, int order)
+OIIO::ImageBuf bake(const Strands& strands, const StrandScene& scene, const StrandLayout& layout, int order,
+                    int rays_each)
 {
     VismapParams params;
-    params.samples = 64;
+    params.samples = rays_each;
     params.basis = order ? "sh" : "vector";
     params.order = order ? order : 5;
     const StrandBaker baker(strands, scene, layout, params);
@@ -136,8 +140,8 @@ OIIO::ImageBuf bake(const Strands& strands, const StrandScene& scene, const Stra
 
 int main(int argc, const char** argv)
 {
-    if (argc < 6)
-        fail("usage: strand_error HAIR RADIUS OCCLUDER STEP SKY...");
+    if (argc < 7)
+        fail("usage: strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...");
     std::string error;
     Strands strands;
     std::vector<Mesh> occluders(1);
@@ -155,11 +159,11 @@ int main(int argc, const char** argv)
     const std::array<int, 4> orders { 0, 4, 5, 8 };
     std::vector<OIIO::ImageBuf> maps;
     for (const int order : orders)
-        maps.push_back(bake(strands, scene, layout, order));
-    std::printf(
-        "%zu texels; relative RMSE of ao, of sh with 4, 5 and 8 bands, and of V and B between two cosine lobes\n",
-        texels.size());
-    for (int k = 5; k < argc; ++k) {
+        maps.push_back(bake(strands, scene, layout, order, std::atoi(argv[5])));
+    std::printf("%zu texels; relative RMSE of ao, of sh with 4, 5 and 8 bands, the same + suns, and of V and B between "
+                "two lobes\n",
+                texels.size());
+    for (int k = 6; k < argc; ++k) {
         const OIIO::ImageBuf sky = OIIO::ImageBufAlgo::resize(OIIO::ImageBuf(argv[k]), "box", 0,
                                                               OIIO::ROI(0, kWidth, 0, kHeight, 0, 1, 0, 3));
         const std::vector<Pixel> pixels = pixels_of(sky);
@@ -173,14 +177,36 @@ int main(int argc, const char** argv)
         filter.kernel = "strand";
         if (!make_cfem(sine, sky, filter))
             fail(sine.geterror());
-        std::vector<OIIO::ImageBuf> lit(orders.size());
-        for (size_t m = 0; m < orders.size(); ++m) {
+        SunSplit split;
+        SunLight suns;
+        OIIO::ImageBuf rest_sine, rest_whole;
+        const Environment environment(sky);
+        if (!split.find(environment, false, error))
+            fail(error);
+        CfemParams whole_filter = filter;
+        whole_filter.kernel = "cosine";
+        if (!make_cfem(rest_sine, split.rest(environment), filter)
+            || !make_radiance(rest_whole, split.rest(environment), whole_filter, error))
+            fail(error + rest_sine.geterror());
+        suns.suns = split.suns();
+        suns.roi = maps[0].roi();
+        suns.roi.chend = 1;
+        std::vector<Disc> discs;
+        for (const Sun& sun : suns.suns)
+            discs.push_back(sun.disc);
+        int64_t sun_rays = 0;
+        trace_strand_discs(suns.visibility, strands, scene, layout, discs, {}, 0, sun_rays);
+        std::vector<OIIO::ImageBuf> lit(2 * orders.size());
+        for (size_t m = 0; m < lit.size(); ++m) {
             LightmapParams params;
-            params.model = orders[m] ? "sh" : "ao";
-            if (!make_lightmap(lit[m], maps[m], orders[m] ? whole : sine, params))
+            const bool is_sh = orders[m / 2] != 0, has_suns = m % 2 == 1;
+            params.model = is_sh ? "sh" : "ao";
+            const OIIO::ImageBuf& light = is_sh ? (has_suns ? rest_whole : whole) : (has_suns ? rest_sine : sine);
+            if (!make_lightmap(lit[m], maps[m / 2], OIIO::cspan<OIIO::ImageBuf>(&light, 1), has_suns ? &suns : nullptr,
+                               params, nullptr, 0, {}))
                 fail(lit[m].geterror());
         }
-        std::array<double, 5> squares {};
+        std::array<double, 9> squares {};
         double mean = 0, noise = 0;
         for (const Texel& texel : texels) {
             // Two truths of their own noise: the product of the errors against them has none, on average.
@@ -189,7 +215,7 @@ int main(int argc, const char** argv)
             mean += (first + second) / 2;
             noise += (first - second) * (first - second) / 4;
             float rgb[3], map[7], around[3];
-            for (size_t m = 0; m < orders.size(); ++m) {
+            for (size_t m = 0; m < lit.size(); ++m) {
                 lit[m].getpixel(texel.x, texel.y, rgb, 3);
                 squares[m] += (grey(rgb) - first) * (grey(rgb) - second);
             }
@@ -205,7 +231,7 @@ int main(int argc, const char** argv)
             look_up(sine, V3d(map[4], map[5], map[6]), s);
             look_up(cosine, b.length() > 0 ? b.normalized() : V3d(0, 1, 0), around);
             const double mixed = (map[0] - share) * grey(s) + share * grey(around);
-            squares[4] += (mixed - first) * (mixed - second);
+            squares[8] += (mixed - first) * (mixed - second);
         }
         const double count = double(texels.size());
         mean /= count;

@@ -27,16 +27,20 @@ struct StageParams
     double background_blur = 0;
     /// Ignore materials.
     bool white = false;
+    /// Of strands, whose files have no materials: linear R, G, B; empty for white.
+    std::vector<double> strand_color;
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("object", object, Paths {}, "Another mesh in the scene");
+        field("object", object, Paths {}, "Another mesh, or strands, in the scene");
         field("ground", ground, Text {},
               "Ground under the objects: none, white, shadow (its shadow alone, for a comp), or a texture");
         field("background", background, Text {},
               "What is behind: none (transparent), environment, or a colour such as 0.2,0.2,0.2");
         field("background_blur", background_blur, Range { 0, 60 }, "Blur of the environment behind, in degrees");
         field("white", white, Flag {}, "Show all surfaces white: ignore the materials of the meshes");
+        field("strand_color", strand_color, Numbers { 3 },
+              "Colour of strands, linear, such as 0.3,0.15,0.05; default: white");
     }
 };
 
@@ -101,6 +105,9 @@ struct Request
 bool is_exr_name(const std::string& path);
 /// Whether one file of that name holds all frames.
 bool holds_all_frames(const std::string& path);
+
+/// Whether an object is strands.
+bool has_strands(const Request& request);
 
 /// What is wrong with the request as a whole, or "".
 std::string request_fault(const Request& request);

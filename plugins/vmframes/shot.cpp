@@ -28,6 +28,11 @@ bool needs_stack(const std::vector<std::string>& models)
     });
 }
 
+Imath::C3f color_of(const std::vector<double>& rgb)
+{
+    return rgb.empty() ? Imath::C3f(1, 1, 1) : Imath::C3f(float(rgb[0]), float(rgb[1]), float(rgb[2]));
+}
+
 // Position, right, up and back in the space of the mesh, and half the height of the picture.
 std::string camera_text(const Camera& camera)
 {
@@ -44,7 +49,7 @@ bool Shot::open_light(const MakeOptions& options, std::string& error)
         return true;
     const std::vector<std::string> models = m_request.models();
     CfemRecipe filter = m_request.filter;
-    filter.stack = needs_stack(models);
+    filter.stack = needs_stack(models) || has_strands(m_request);
     filter.suns = m_trace.suns == "off" ? "off" : "auto";
     const bool is_traced = std::find(models.begin(), models.end(), kReferenceModel) != models.end();
     const bool is_seen = m_request.stage.background == "environment";
@@ -72,9 +77,12 @@ bool Shot::open_objects(const MakeOptions& options, std::string& error)
         recipe.trace = m_trace;
         if (m_request.stage.white) // as materials are left out
             recipe.map.cutout_params.cutouts = "off";
-        m_objects.push_back(std::make_unique<LitObject>());
+        m_objects.push_back(make_frame_object(recipe));
         if (!m_objects.back()->open(recipe, options, error))
             return false;
+        FrameSurface& surface = m_objects.back()->surface();
+        if (surface.strands && !m_request.stage.white)
+            surface.strand_color = color_of(m_request.stage.strand_color);
         m_subject.add(m_objects.back()->mesh(), m_pose);
         if (!m_request.stage.white
             && !m_objects.back()->read_materials(m_light.space, m_request.filter.colorconfig, options, error))
@@ -117,7 +125,7 @@ bool Shot::open_background(const MakeOptions& options, std::string& error)
                                options.threads, error);
     std::vector<double> color;
     parse_value(color, background, Numbers { 3 }, error); // main() has checked it
-    m_scene.background.color = Imath::C3f(float(color[0]), float(color[1]), float(color[2]));
+    m_scene.background.color = color_of(color);
     return true;
 }
 
@@ -206,12 +214,12 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
               return layer.needs_visibility && std::find(layers.begin(), layers.end(), layer.name) != layers.end();
           });
     size_t i = 0;
-    std::vector<LitObject*> all;
+    std::vector<FrameObject*> all;
     for (const auto& object : m_objects)
         all.push_back(object.get());
     if (m_ground)
         all.push_back(m_ground.get());
-    for (LitObject* object : all) {
+    for (FrameObject* object : all) {
         if (!object->light(m_light, params, m_request.reference, options, error, &m_used_model))
             return false;
         FrameSurface& surface = m_scene.surfaces[i++];

@@ -4,6 +4,7 @@
 
 #include "request.h"
 
+#include <vmlight/frame/frame_object.h>
 #include <vmlight/frame/frame_scene.h>
 #include <vmlight/frame/lit_object.h>
 #include <vmlight/frame/scene_light.h>
@@ -45,7 +46,7 @@ public:
     /// nullptr without.
     const LitObject* ground() const { return m_ground.get(); }
     /// The objects, without the ground.
-    const std::vector<std::unique_ptr<LitObject>>& objects() const { return m_objects; }
+    const std::vector<std::unique_ptr<FrameObject>>& objects() const { return m_objects; }
 
 private:
     bool open_light(const MakeOptions& options, std::string& error);
@@ -64,7 +65,7 @@ private:
     const Request& m_request;
     TraceParams m_trace; // the request's, or what of it can be
     SceneLight m_light;
-    std::vector<std::unique_ptr<LitObject>> m_objects;
+    std::vector<std::unique_ptr<FrameObject>> m_objects;
     std::unique_ptr<LitObject> m_ground;
     // The objects' own rotation in the world, where the camera stands and the ground is level. All else is in the
     // objects' space.

@@ -19,6 +19,7 @@ constexpr const char* kExamples
       "  vmframes hero.obj studio.hdr --vismap hero_vismap.exr --layers albedo,lit,depth -o hero.exr\n"
       "  vmframes hero.obj --texture 'hero_lit.<UDIM>.exr' -o hero.png\n"
       "  vmframes hero.obj sunny.hdr --ground white --suns auto --bounce auto -o hero.png\n"
+      "  vmframes hero.obj sky.hdr --object hair.tfx --radius 0.0004:0.0001 --strand-color 0.2,0.1,0.05 -o hero.png\n"
       "  vmframes hero.obj sky.hdr --side-by-side ao,paper,lobe,reference -o compared.png";
 
 StageMain::Take store_models(std::vector<std::string>& dst)
@@ -99,6 +100,7 @@ int main(int argc, const char** argv)
     stage.params("Mesh:", request.object.map.cutout_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.object.map.unwrap = true; });
+    stage.params("Strands:", request.object.map.strand_params);
     const auto complete = [&] {
         request.object.map.mesh = stage.operands()[0];
         request.environment = stage.operands().size() > 1 ? stage.operands()[1] : "";

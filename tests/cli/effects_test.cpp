@@ -280,3 +280,14 @@ TEST_F(Effects, ADryRunOfTilesAndPosesAddsThemUp)
                 testing::ContainsRegex("expected: at most .*; each of 2 poses baked whole"));
     EXPECT_THAT(bake("a.exr", "--pose quad.0001.obj --dry-run"), HasSubstr("; comparing 1 other pose comes on top"));
 }
+
+TEST_F(Effects, StrandsAmongTheOccludersAreSaidToBe)
+{
+    write("hair.obj", "v -1 0 1\nv 1 0 1\nl 1 2\n");
+    const std::string said = bake("a.exr", "--explain --occluder hair.obj --radius .1");
+    EXPECT_THAT(said, HasSubstr("1 strand, 0.9 away, may rise above the horizon of a texel"));
+    EXPECT_LT(visibility("a.exr").least(), 1);
+    EXPECT_THAT(done("makevismap quad.obj --dry-run --occluder hair.obj --radius .1"), HasSubstr("1 strand, 0.9 away"));
+    EXPECT_THAT(bake("a.exr", "--explain --occluder hair.obj --radius .1 --max-distance .5"),
+                HasSubstr("1 strand, 0.9 away, and rays reach 0.5"));
+}

@@ -271,3 +271,22 @@ TEST_F(Vmframes, PicturesAreShownThroughTheConfig)
     EXPECT_TRUE(exists("a.png"));
     refused(1, "has no display \"Tube\"; it has ", line + "b.png --display Tube" + small);
 }
+
+TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
+{
+    std::string obj = "v -.5 0 .2\nv .5 0 .3\nl 1 2\nv -.5 .2 .2\nv .5 .2 .3\nl 3 4\n";
+    write("hair.obj", obj);
+    done("vmframes quad.obj sky.exr -o bare.exr" + small);
+    done("vmframes quad.obj sky.exr --object hair.obj --radius .3 --strand-color 0,1,0 -o both.exr --layers albedo"
+         + small);
+    EXPECT_LT(mean("both.exr"), mean("bare.exr"));
+    const Pixels all = pixels("both.exr");
+    const float* centre = &all.values[size_t(8 * 16 + 8) * size_t(all.channels)];
+    EXPECT_EQ(centre[0], 0); // green hair is in front
+    EXPECT_GT(centre[1], 0);
+    done("vmframes hair.obj sky.exr --radius .05 -o alone.png --samples 4" + few);
+    refused(2, "no object is strands", "vmframes quad.obj sky.exr --radius .1 -o a.png" + small);
+    refused(2, "no object is strands", "vmframes quad.obj sky.exr --strand-color 1,0,0 -o a.png" + small);
+    refused(2, "--white shows all white",
+            "vmframes quad.obj sky.exr --object hair.obj --radius .1 --strand-color 1,0,0 --white -o a.png" + small);
+}

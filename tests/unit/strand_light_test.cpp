@@ -315,16 +315,12 @@ TEST_F(StrandStage, ALightmapFiltersTheEnvironmentByTheKernelOfItsMap)
     EXPECT_FALSE(make_image(given, light));
     EXPECT_NE(given.geterror().find("makecfem --kernel strand"), std::string::npos);
     light.cfem = folder / "strand.cfem";
-    for (const char* key : { "suns", "bounce" }) {
-        LightmapRecipe traced = light;
-        std::string error;
-        ASSERT_TRUE(set_param(traced, key, "auto", error)) << error;
-        EXPECT_FALSE(make_image(given, traced));
-        EXPECT_NE(given.geterror().find("a visibility map of strands"), std::string::npos) << given.geterror();
-    }
+    light.bounce_params.bounce = "auto";
+    EXPECT_FALSE(make_image(given, light));
+    EXPECT_NE(given.geterror().find("a visibility map of strands"), std::string::npos) << given.geterror();
 }
 
-TEST_F(StrandStage, StacksAndSunsAreOfSurfaces)
+TEST_F(StrandStage, StacksAreOfSurfaces)
 {
     CfemRecipe filter;
     filter.environment = folder / "studio.exr";
@@ -333,8 +329,4 @@ TEST_F(StrandStage, StacksAndSunsAreOfSurfaces)
     filter.stack = true;
     EXPECT_FALSE(make_image(light, filter));
     EXPECT_EQ(light.geterror(), "stack: not with the kernel strand");
-    filter.stack = false;
-    filter.suns = "auto";
-    EXPECT_FALSE(make_image(light, filter));
-    EXPECT_EQ(light.geterror(), "suns: not with the kernel strand");
 }

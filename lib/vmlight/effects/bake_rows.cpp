@@ -36,7 +36,7 @@ double tracing(const BakeFacts& facts, int64_t triangles)
     double all = depth(facts.triangles);
     for (const CasterReach& caster : facts.occluders)
         if (caster.verdict == CasterReach::reaches)
-            all += depth(caster.triangles);
+            all += depth(caster.triangles + caster.spans);
     return tracing(facts) * depth(triangles) / all;
 }
 
@@ -71,7 +71,8 @@ void decide_occluders(std::vector<EffectDecision>& dst, const Effect& effect, co
         dst.back().impossible = "no --occluder is given";
     }
     for (const CasterReach& caster : bake.occluders) {
-        const std::string what = count_text(caster.triangles, "triangle", "triangles");
+        const std::string what = caster.strands > 0 ? count_text(caster.strands, "strand", "strands")
+                                                    : count_text(caster.triangles, "triangle", "triangles");
         std::string reason = caster.verdict == CasterReach::too_far
             ? format("{}, {:.4g} away, and rays reach {:.4g}", what, caster.gap, bake.reach)
             : caster.verdict == CasterReach::below_horizon
@@ -79,7 +80,7 @@ void decide_occluders(std::vector<EffectDecision>& dst, const Effect& effect, co
                      count_text(bake.triangles, "triangle", "triangles"))
             : format("{}, {:.4g} away, may rise above the horizon of a texel", what, caster.gap);
         const bool reaches = caster.verdict == CasterReach::reaches;
-        dst.push_back(decision(effect, reaches, std::move(reason), tracing(bake, caster.triangles)));
+        dst.push_back(decision(effect, reaches, std::move(reason), tracing(bake, caster.triangles + caster.spans)));
         dst.back().which = caster.name;
     }
 }

@@ -2,6 +2,7 @@
 #include <vmlight/frame/camera.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/strands.h>
 
 #include <algorithm>
 #include <array>
@@ -40,13 +41,20 @@ void Subject::add(const Mesh& mesh, const Rotation& pose)
     for (size_t v = 0; v < used.size(); ++v) {
         if (!used[v])
             continue;
-        const V3d p = rotate(pose, mesh.positions[v]);
-        for (int axis = 0; axis < 3; ++axis) {
-            m_low[axis] = std::min(m_low[axis], p[axis]);
-            m_high[axis] = std::max(m_high[axis], p[axis]);
-        }
-        m_points.push_back(p);
+        add(rotate(pose, mesh.positions[v]));
     }
+    if (mesh.strands)
+        for (const V3d& point : mesh.strands->points)
+            add(rotate(pose, point));
+}
+
+void Subject::add(const V3d& p)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        m_low[axis] = std::min(m_low[axis], p[axis]);
+        m_high[axis] = std::max(m_high[axis], p[axis]);
+    }
+    m_points.push_back(p);
 }
 
 // Points whose hull holds the subject in every position of a turn: at some heights, the outermost circle. Its corners

@@ -74,7 +74,7 @@ struct CameraParams
 class Subject
 {
 public:
-    /// Add the vertices that triangles of `mesh` use, turned by `pose`.
+    /// Add the vertices that triangles of `mesh` use, and the points of its strands, turned by `pose`.
     void add(const Mesh& mesh, const Rotation& pose = {});
 
     bool is_empty() const { return !(m_low.x <= m_high.x); }
@@ -85,6 +85,7 @@ public:
     double radius() const { return (m_high - m_low).length() * 0.5; }
 
 private:
+    void add(const Imath::V3d& p);
     friend Camera place_camera(const CameraParams&, const Subject&, double, bool);
     void rings(std::vector<Imath::V3d>& dst, double azimuth) const;
 

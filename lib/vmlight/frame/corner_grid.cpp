@@ -106,7 +106,7 @@ bool CornerGrid::fill(const SampleShader& shader, const Camera& camera, const Si
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < m_columns; ++column) {
             const auto goes_on = [&](const FrameSample& a, const FrameSample& b, const Axis& axis) {
-                return is_opaque(a) && is_opaque(b) && a.first.surface == b.first.surface
+                return is_opaque(a) && is_opaque(b) && a.first.surface == b.first.surface && !a.first.surface->strands
                     && (has_straight_uv(a.first, b.first, axis)
                         || (only_color && is_alike(a.color, b.color) && is_beside(a.first, b.first, axis)));
             };

@@ -57,7 +57,8 @@ const std::vector<FrameLayer>& frame_layers()
           0,
           false,
           [](const SeenPoint& seen, float* dst) {
-              store(seen.point.normal(*seen.surface->mesh, seen.triangle), dst);
+              store(seen.surface->strands ? seen.strand_normal : seen.point.normal(*seen.surface->mesh, seen.triangle),
+                    dst);
           } },
         { "position",
           "object space, unfiltered",

@@ -27,6 +27,7 @@ struct SeenPoint
     /// V and B; 0 if the surface has none.
     std::array<float, 4> visibility {};
     double alpha = 1;
+    Imath::V3d strand_normal { 0 }; ///< of a strand: across it, towards the camera
 };
 
 struct FrameLayer

@@ -8,49 +8,15 @@
 #include <vmlight/frame/surface_materials.h>
 #include <vmlight/frame/texel_weights.h>
 #include <vmlight/image/channels.h>
-#include <vmlight/lightmap/model.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/uv_warnings.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/baker.h>
 
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
-#include <array>
 
 namespace vmlight {
-namespace {
-
-// `auto` has the best that a small map can hold.
-constexpr const char* kAutoBasis = "sh";
-
-std::string basis_for(const std::string& model, const std::string& asked)
-{
-    if (asked != "vector")
-        return asked;
-    if (model == "auto")
-        return kAutoBasis;
-    const ModelEntry* entry = find_model_entry(model);
-    return entry && *entry->basis ? entry->basis : asked;
-}
-
-// The channels of `names`, texel by texel.
-std::vector<float> gathered(const OIIO::ImageBuf& image, OIIO::cspan<int> index)
-{
-    const OIIO::ImageSpec& spec = image.spec();
-    const auto* pixels = static_cast<const float*>(image.localpixels());
-    const size_t count = size_t(spec.width) * size_t(spec.height), channels = size_t(spec.nchannels);
-    std::vector<float> result(count * index.size());
-    for (size_t i = 0; i < count; ++i)
-        for (size_t c = 0; c < size_t(index.size()); ++c)
-            result[i * size_t(index.size()) + c] = pixels[i * channels + size_t(index[c])];
-    return result;
-}
-
-} // namespace
-
 bool LitObject::open(const ObjectRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     m_recipe = recipe;
@@ -61,33 +27,22 @@ bool LitObject::open(const ObjectRecipe& recipe, const MakeOptions& options, std
         return false;
     m_is_unwrapped = mesh.is_unwrapped;
     m_surface.material_uvs = std::move(mesh.material_uvs);
-    m_mesh = std::move(mesh.mesh);
-    m_surface.mesh = m_mesh;
+    m_surface.mesh = std::move(mesh.mesh);
     return recipe.texture.empty() || recipe.texture.find('#') != std::string::npos
         || show_texture(recipe.texture, error);
-}
-
-bool LitObject::show_texture(const std::string& name, std::string& error)
-{
-    auto texture = std::make_shared<FileTexture>();
-    if (!texture->open(name, error))
-        return false;
-    m_surface.light = std::move(texture);
-    return true;
 }
 
 void LitObject::open(std::shared_ptr<const Mesh> mesh, const VismapParams& params, const TraceParams& trace)
 {
     m_recipe.map.vismap_params = params;
     m_recipe.trace = trace;
-    m_mesh = std::move(mesh);
-    m_surface.mesh = m_mesh;
+    m_surface.mesh = std::move(mesh);
 }
 
 bool LitObject::read_materials(const std::string& light_space, const std::string& colorconfig,
                                const MakeOptions& options, std::string& error)
 {
-    return vmlight::read_materials(m_surface.materials, *m_mesh, light_space, colorconfig, options, error);
+    return vmlight::read_materials(m_surface.materials, mesh(), light_space, colorconfig, options, error);
 }
 
 bool LitObject::prepare_scene(const MakeOptions& options, std::string& error)
@@ -100,7 +55,7 @@ bool LitObject::prepare_scene(const MakeOptions& options, std::string& error)
         occluders.push_back(*surface.mesh);
     SceneChoice choice;
     choice.cull = false; // a bounce may be switched on later, which occluders shade that no texel sees
-    if (!scene->build(m_mesh, occluders, options.threads, error, choice))
+    if (!scene->build(m_surface.mesh, occluders, options.threads, error, choice))
         return false;
     m_scene = std::move(scene);
     return true;
@@ -132,12 +87,12 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
         }
         // Of a mesh that was changed since, a map may still be meant.
         const std::string hash = images[0].spec().get_string_attribute("vmlight:meshHash");
-        if (!hash.empty() && hash != mesh_hash(*m_mesh))
+        if (!hash.empty() && hash != mesh_hash(mesh()))
             options.report_warning(format("\"{}\": was baked of another mesh than \"{}\", or of another part of it",
-                                          recipe.vismap, m_mesh->path));
+                                          recipe.vismap, mesh().path));
         m_maps[""][udim] = std::move(images[0]);
     }
-    warn_of_uvs(*m_mesh, tiles, options);
+    warn_of_uvs(mesh(), tiles, options);
     return true;
 }
 
@@ -147,13 +102,13 @@ bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOpt
     params.basis = basis;
     if (!params.has("normal"))
         params.channels.insert(params.channels.begin(), "normal"); // for the model `ao`
-    const std::vector<int> tiles = mesh_udims(*m_mesh);
+    const std::vector<int> tiles = mesh_udims(mesh());
     if (tiles.empty())
-        error = format("\"{}\": its texture coordinates are outside all UDIM tiles", m_mesh->path);
+        error = format("\"{}\": its texture coordinates are outside all UDIM tiles", mesh().path);
     if (!error.empty() || !prepare_scene(options, error))
         return false;
     if (m_maps.empty()) // rather than of another basis
-        warn_of_uvs(*m_mesh, tiles, options);
+        warn_of_uvs(mesh(), tiles, options);
     for (const int udim : tiles) {
         const Stopwatch timer;
         params.udim = udim;
@@ -170,12 +125,12 @@ bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOpt
             continue;
         }
         const std::string tile = tiles.size() > 1 ? format(" tile {}", udim) : "";
-        options.report(format("bake: {}{}: {} of {}x{}, {} rays each, in {:.2f} s", m_mesh->name, tile,
+        options.report(format("bake: {}{}: {} of {}x{}, {} rays each, in {:.2f} s", mesh().name, tile,
                               count_text(report.covered, "texel", "texels"), size.width, size.height, report.samples,
                               timer()));
         if (report.covered > 0 && report.dark > report.covered / 2)
             options.report_warning(format("{}: {} of {} texels see almost nothing: do the normals point inwards?",
-                                          m_mesh->name, report.dark, report.covered));
+                                          mesh().name, report.dark, report.covered));
     }
     return true;
 }
@@ -203,7 +158,7 @@ const std::vector<float>& LitObject::weights(int udim, const OIIO::ImageBuf& map
 {
     std::vector<float>& weights = m_weights[udim];
     if (weights.empty())
-        weights = texel_weights(*m_mesh, map, udim, nthreads);
+        weights = texel_weights(mesh(), map, udim, nthreads);
     return weights;
 }
 
@@ -259,49 +214,17 @@ bool LitObject::light(const SceneLight& light, const LightmapParams& params, con
     if (is_traced && !prepare_scene(options, error))
         return false;
     const Stopwatch timer;
-    if (!m_light)
-        m_surface.light = m_light = std::make_shared<TileTexture>(3);
     for (const auto& [udim, map] : m_maps[m_basis]) {
         OIIO::ImageBuf& lightmap = m_lightmaps[udim];
-        const OIIO::ImageSpec& spec = map.spec();
         if (!(is_traced ? trace_tile(lightmap, udim, map, light, params, reference, options, error)
-                        : light_tile(lightmap, udim, map, light, params, options, error)))
+                        : light_tile(lightmap, udim, map, light, params, options, error))
+            || !show_light(udim, lightmap, options.threads, error))
             return false;
-        std::array<int, 3> index;
-        if (!find_color_channels(lightmap.spec(), index, error))
-            return false;
-        const float* pixels = static_cast<const float*>(lightmap.localpixels());
-        std::vector<float> copy;
-        if (lightmap.nchannels() != 3) {
-            copy = gathered(lightmap, index);
-            pixels = copy.data();
-        }
-        m_light->set(udim,
-                     TexturePyramid(spec.width, spec.height, 3, pixels, weights(udim, map, options.threads).data(),
-                                    TextureWrap::clamp, TextureWrap::clamp, options.threads));
         if (used)
             *used = is_traced ? kReferenceModel : lightmap.spec().get_string_attribute("vmlight:model");
     }
     m_light_seconds += timer();
     return true;
-}
-
-void LitObject::show_visibility(int nthreads)
-{
-    if (m_maps.empty())
-        return;
-    auto texture = std::make_shared<TileTexture>(4);
-    for (const auto& [udim, map] : m_maps[m_basis]) {
-        std::array<int, 4> index;
-        std::string ignored; // light() has refused what is no map
-        if (!find_vismap_channels(map.spec(), index, ignored))
-            continue;
-        texture->set(udim,
-                     TexturePyramid(map.spec().width, map.spec().height, 4, gathered(map, index).data(),
-                                    weights(udim, map, nthreads).data(), TextureWrap::clamp, TextureWrap::clamp,
-                                    nthreads));
-    }
-    m_surface.visibility = std::move(texture);
 }
 
 } // namespace vmlight

@@ -2,6 +2,7 @@
 #include <vmlight/frame/pixel_cover.h>
 
 #include <vmlight/base/parallel.h>
+#include <vmlight/mesh/strands.h>
 
 #include <algorithm>
 #include <atomic>
@@ -45,15 +46,15 @@ PixelCover::PixelCover(const FrameScene& scene, const Camera& camera, const Size
     : m_width(picture.width)
     , m_covered(size_t(picture.width) * size_t(picture.height), 0)
 {
-    // A byte of several threads, who all write the same.
-    const auto mark = [&](const Rectangle& area) {
+    // A byte of several threads.
+    const auto mark = [&](const Rectangle& area, uint8_t what) {
         const auto first = [&](double x, int n) { return int(std::clamp(std::floor(x - reach), 0.0, double(n))); };
         const auto end = [&](double x, int n) { return int(std::clamp(std::floor(x + reach) + 1, 0.0, double(n))); };
         const int left = first(area.low.x, picture.width), right = end(area.high.x, picture.width);
         const int bottom = end(area.high.y, picture.height);
         for (int y = first(area.low.y, picture.height); y < bottom; ++y)
             for (int x = left; x < right; ++x)
-                __atomic_store_n(&m_covered[size_t(y) * size_t(m_width) + size_t(x)], uint8_t(1), __ATOMIC_RELAXED);
+                __atomic_fetch_or(&m_covered[size_t(y) * size_t(m_width) + size_t(x)], what, __ATOMIC_RELAXED);
     };
     std::atomic<bool> is_around_camera { false };
     const double nearest = camera.is_orthographic ? 0 : 1e-6 * scene.radius;
@@ -72,14 +73,38 @@ PixelCover::PixelCover(const FrameScene& scene, const Camera& camera, const Size
                     ++in_front;
                 }
                 if (in_front == 3)
-                    mark(area);
+                    mark(area, kTriangle);
                 else if (in_front > 0)
                     is_around_camera = true;
             }
         });
+        if (!mesh.strands)
+            continue;
+        const Strands& strands = *mesh.strands;
+        parallel_items(int64_t(strands.count()), nthreads, [&](int64_t strand, int) {
+            // The curve is within the boxes around neighbouring points, each as wide as the strand.
+            const double radius = thickest_radius(strands, size_t(strand));
+            Rectangle last;
+            for (size_t p = strands.begin(size_t(strand)); p < strands.end(size_t(strand)) && !is_around_camera; ++p) {
+                Rectangle own;
+                for (int corner = 0; corner < 8; ++corner) {
+                    const V3d offset(corner & 1 ? radius : -radius, corner & 2 ? radius : -radius,
+                                     corner & 4 ? radius : -radius);
+                    V2d at(0);
+                    if (!project(at, strands.points[p] + offset, camera, picture, nearest))
+                        is_around_camera = true;
+                    own.add(at);
+                }
+                Rectangle both = last;
+                both.add(own.low);
+                both.add(own.high);
+                mark(both, kStrand);
+                last = own;
+            }
+        });
     }
     if (is_around_camera)
-        std::fill(m_covered.begin(), m_covered.end(), uint8_t(1));
+        std::fill(m_covered.begin(), m_covered.end(), uint8_t(kTriangle | kStrand));
 }
 
 bool PixelCover::is_empty(int left, int top, int width, int height) const

@@ -87,7 +87,7 @@ private:
         const bool is_empty = m_cover.is_empty(x, y);
         if (is_empty && !m_background.is_visible)
             store_nothing(x, y);
-        else if (m_samples_edges && (is_empty || grid.is_smooth(x, y)))
+        else if (m_samples_edges && (is_empty || (!m_cover.has_strand(x, y) && grid.is_smooth(x, y))))
             return mix_corners(x, y, grid, error);
         else
             return sample_pixel(x, y, error);

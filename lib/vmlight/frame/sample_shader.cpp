@@ -46,7 +46,9 @@ bool SampleShader::look_through(FrameSample& dst, const CameraRay& ray, SurfaceH
         SeenPoint seen;
         seen.surface = &m_scene.surfaces[hit.mesh];
         seen.triangle = hit.triangle;
-        if (intersect_plane(seen.point, ray, *seen.surface->mesh, hit.triangle)) {
+        if (hit.is_strand())
+            place_on_strand(seen, ray, hit);
+        if (hit.is_strand() || intersect_plane(seen.point, ray, *seen.surface->mesh, hit.triangle)) {
             look_up_material(seen);
             if (seen.alpha > 0 && !add_surface(dst, seen, open, error))
                 return false;

@@ -105,12 +105,24 @@ bool look_up_albedo(Imath::C3f& dst, const SeenPoint& seen, double reach)
     return true;
 }
 
+void place_on_strand(SeenPoint& seen, const CameraRay& ray, const SurfaceHit& hit)
+{
+    const StrandSurface& strands = *seen.surface->strands;
+    seen.point.depth = hit.distance;
+    seen.point.position = ray.origin + ray.direction * hit.distance;
+    seen.uv.st = strands.uv(hit.span, hit.along); // without a reach: no strand is mixed with the next row of the map
+    const V3d tangent = strands.tangent(hit.span);
+    seen.strand_normal = (tangent * ray.direction.dot(tangent) - ray.direction).normalized();
+}
+
 void look_up_material(SeenPoint& seen)
 {
     const Mesh& mesh = *seen.surface->mesh;
     if (!mesh.uvs.empty())
         seen.uv = seen.point.footprint(mesh_uvs(mesh, seen.triangle));
     seen.alpha = seen.surface->opacity * fade(*seen.surface, seen.point.position);
+    if (seen.surface->strands)
+        seen.albedo = seen.surface->strand_color;
     const SurfaceMaterial* found = material_of(seen);
     if (!found)
         return;
@@ -132,7 +144,7 @@ bool look_up_light(SeenPoint& seen, bool with_visibility, std::string& error)
 {
     const FrameSurface& surface = *seen.surface;
     const double is_finite = seen.uv.st.x + seen.uv.st.y + seen.uv.dx.x + seen.uv.dx.y + seen.uv.dy.x + seen.uv.dy.y;
-    if (surface.mesh->uvs.empty() || !std::isfinite(is_finite))
+    if ((surface.mesh->uvs.empty() && !surface.strands) || !std::isfinite(is_finite))
         return true; // a triangle without UVs has no texels
     if (surface.light && !surface.light->lookup(seen.uv, &seen.light.x, error))
         return false;

@@ -8,6 +8,9 @@
 
 namespace vmlight {
 
+/// Place `seen`, whose surface is strands, where a camera ray meets one.
+void place_on_strand(SeenPoint& seen, const CameraRay& ray, const SurfaceHit& hit);
+
 /// Look up the material, and so colour and opacity, of `seen`, whose point is set.
 void look_up_material(SeenPoint& seen);
 

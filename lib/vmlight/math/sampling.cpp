@@ -13,15 +13,7 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-
-uint32_t reverse_bits(uint32_t x)
-{
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
-    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
-    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
-    return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
-}
+using kernel::reverse_bits;
 
 uint64_t spread_bits(uint32_t x)
 {

@@ -66,12 +66,62 @@ HWY_INLINE FloatVec sin_turns(FloatVec x)
     return hn::Mul(sum, x);
 }
 
+// cos and sin of an angle in turns, in [-1/2, 1/2), plus half a turn.
+HWY_INLINE void circle(FloatVec turn, FloatVec& x, FloatVec& y)
+{
+    const FloatTag d;
+    const auto quarter = hn::Set(d, 0.25f), half = hn::Set(d, 0.5f);
+    const auto folded = hn::IfThenElse(hn::Gt(hn::Abs(turn), quarter), hn::Sub(hn::CopySign(half, turn), turn), turn);
+    x = hn::Neg(sin_turns(hn::Sub(quarter, hn::Abs(turn))));
+    y = hn::Neg(sin_turns(folded));
+}
+
+void strand_directions_target(const Points& points, const StrandAngles& angles, const TangentFrame& frame, RayFan& fan)
+{
+    const FloatTag d;
+    const IntTag du;
+    const hn::RebindToSigned<FloatTag> di;
+    const int lanes = int(hn::Lanes(d));
+    const auto one = hn::Set(d, 1.0f), quarter = hn::Set(d, 0.25f), half = hn::Set(d, 0.5f);
+    const V3f &t = frame.tangent, &b = frame.bitangent, &n = frame.normal;
+    constexpr int kShift = 23 - StrandAngles::kBits;
+    constexpr int kFirst = (127 - 1 - StrandAngles::kOctaves) << StrandAngles::kBits; // that of 2^-25
+    for (int i = 0; i < fan.packets * kPacketSize; i += lanes) {
+        auto u = hn::LoadU(du, points.u + i), v = hn::LoadU(du, points.v + i);
+        u = points.owen ? scramble(u, points.texel_u) : hn::Add(u, hn::Set(du, points.texel_u));
+        v = points.owen ? scramble(v, points.texel_v) : hn::Add(v, hn::Set(du, points.texel_v));
+        const auto from_root = hn::Add(unit_fraction(u), hn::Set(d, 0x1p-25f)); // the middle of what the bits say
+        const auto share = hn::Min(from_root, hn::Max(hn::Sub(one, from_root), hn::Set(d, 0x1p-25f)));
+        const auto bits = hn::BitCast(di, share);
+        const auto entry = hn::Sub(hn::ShiftRight<kShift>(bits), hn::Set(di, kFirst));
+        const auto rest = hn::Mul(hn::ConvertTo(d, hn::And(bits, hn::Set(di, (1 << kShift) - 1))),
+                                  hn::Set(d, 1.0f / (1 << kShift)));
+        const auto low = hn::GatherIndex(d, angles.turns.data(), entry),
+                   high = hn::GatherIndex(d, angles.turns.data() + 1, entry);
+        const auto angle = hn::Add(low, hn::Mul(hn::Sub(high, low), rest));
+        const auto sine = sin_turns(angle);
+        const auto along = hn::IfThenElse(hn::Gt(from_root, half), hn::Neg(sin_turns(hn::Sub(quarter, angle))),
+                                          sin_turns(hn::Sub(quarter, angle)));
+        auto x = one, y = one;
+        circle(hn::Sub(unit_fraction(v), half), x, y);
+        x = hn::Mul(x, sine);
+        y = hn::Mul(y, sine);
+        const auto local = [&](float tangent, float bitangent, float normal) {
+            return hn::Add(hn::Add(hn::Mul(hn::Set(d, tangent), x), hn::Mul(hn::Set(d, bitangent), y)),
+                           hn::Mul(hn::Set(d, normal), along));
+        };
+        hn::StoreU(local(t.x, b.x, n.x), d, fan.x + i);
+        hn::StoreU(local(t.y, b.y, n.y), d, fan.y + i);
+        hn::StoreU(local(t.z, b.z, n.z), d, fan.z + i);
+    }
+}
+
 void directions_target(const Points& points, const TangentFrame& frame, const V3f& geometric_normal, RayFan& fan)
 {
     const FloatTag d;
     const IntTag du;
     const int lanes = int(hn::Lanes(d));
-    const auto one = hn::Set(d, 1.0f), quarter = hn::Set(d, 0.25f), half = hn::Set(d, 0.5f);
+    const auto one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
     const auto dot = [&](const V3f& v, FloatVec x, FloatVec y, FloatVec z) {
         return hn::Add(hn::Add(hn::Mul(hn::Set(d, v.x), x), hn::Mul(hn::Set(d, v.y), y)), hn::Mul(hn::Set(d, v.z), z));
     };
@@ -86,10 +136,10 @@ void directions_target(const Points& points, const TangentFrame& frame, const V3
 
         const auto radius = hn::Sqrt(points.uniform ? hn::Mul(fu, hn::Sub(hn::Set(d, 2.0f), fu)) : fu);
         const auto height = points.uniform ? hn::Sub(one, fu) : hn::Sqrt(hn::Sub(one, fu));
-        const auto folded
-            = hn::IfThenElse(hn::Gt(hn::Abs(turn), quarter), hn::Sub(hn::CopySign(half, turn), turn), turn);
-        const auto local_x = hn::Neg(hn::Mul(radius, sin_turns(hn::Sub(quarter, hn::Abs(turn)))));
-        const auto local_y = hn::Neg(hn::Mul(radius, sin_turns(folded)));
+        auto local_x = one, local_y = one;
+        circle(turn, local_x, local_y);
+        local_x = hn::Mul(radius, local_x);
+        local_y = hn::Mul(radius, local_y);
 
         const auto x = dot(V3f(t.x, b.x, n.x), local_x, local_y, height);
         const auto y = dot(V3f(t.y, b.y, n.y), local_x, local_y, height);
@@ -146,8 +196,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vmlight::kernel {
 
+HWY_EXPORT(strand_directions_target);
 HWY_EXPORT(directions_target);
 HWY_EXPORT(sum_directions_target);
+
+void strand_directions(const Points& points, const StrandAngles& angles, const TangentFrame& frame, RayFan& fan)
+{
+    HWY_DYNAMIC_DISPATCH(strand_directions_target)(points, angles, frame, fan);
+}
 
 void directions(const Points& points, const TangentFrame& frame, const Imath::V3f& geometric_normal, RayFan& fan)
 {

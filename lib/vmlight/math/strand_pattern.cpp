@@ -2,14 +2,15 @@
 #include <vmlight/math/strand_pattern.h>
 
 #include <vmlight/math/latlong.h>
+#include <vmlight/math/sampling_kernel.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace vmlight {
 
-using Imath::V3d;
 using Imath::V3f;
+using kernel::reverse_bits;
 using latlong::pi;
 
 double strand_angle(double u)
@@ -24,32 +25,49 @@ double strand_angle(double u)
     return u <= 0.5 ? theta : pi - theta;
 }
 
-StrandPattern::StrandPattern(const std::string& sampler, int count)
-    : m_owen(sampler == "sobol")
+namespace {
+
+const kernel::StrandAngles& strand_angles()
 {
+    static const kernel::StrandAngles all = [] {
+        kernel::StrandAngles angles;
+        constexpr int kInOctave = 1 << kernel::StrandAngles::kBits,
+                      kEntries = kernel::StrandAngles::kOctaves * kInOctave;
+        for (int i = 0; i <= kEntries; ++i) {
+            const double share = std::ldexp(1 + double(i % kInOctave) / kInOctave, i / kInOctave - 25);
+            angles.turns.push_back(float(strand_angle(share) / (2 * pi)));
+        }
+        return angles;
+    }();
+    return all;
+}
+
+} // namespace
+
+StrandPattern::StrandPattern(const std::string& sampler, int count)
+    : m_count(count)
+    , m_owen(sampler == "sobol")
+{
+    std::vector<Point32> points;
     for (uint32_t i = 0; i < uint32_t(count); ++i)
-        m_points.push_back(sampler == "halton" ? halton_point(i)
-                               : m_owen        ? sobol_point(i)
-                                               : fibonacci_point(i, uint32_t(count)));
-    sort_for_packets(m_points);
+        points.push_back(sampler == "halton" ? halton_point(i)
+                             : m_owen        ? sobol_point(i)
+                                             : fibonacci_point(i, uint32_t(count)));
+    sort_for_packets(points);
+    points.resize(size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize, points.back());
+    for (const Point32& p : points) {
+        m_u.push_back(m_owen ? reverse_bits(p.u) : p.u);
+        m_v.push_back(m_owen ? reverse_bits(p.v) : p.v);
+    }
 }
 
 void StrandPattern::directions(RayFan& fan, const V3f& tangent, Point32 texel) const
 {
-    const TangentFrame frame(tangent);
-    std::fill(fan.lanes.begin(), fan.lanes.end(), uint8_t(0));
-    for (int i = 0; i < fan.packets * kPacketSize; ++i) {
-        const Point32& point = m_points[size_t(std::min(i, count() - 1))];
-        const uint32_t u = m_owen ? owen_scramble(point.u, texel.u) : point.u + texel.u;
-        const uint32_t v = m_owen ? owen_scramble(point.v, texel.v) : point.v + texel.v;
-        const double theta = strand_angle((u + 0.5) * 0x1p-32), azimuth = 2 * pi * ((v + 0.5) * 0x1p-32);
-        const double sine = std::sin(theta);
-        const V3d d = V3d(frame.tangent) * (sine * std::cos(azimuth))
-            + V3d(frame.bitangent) * (sine * std::sin(azimuth)) + V3d(frame.normal) * std::cos(theta);
-        fan.x[i] = float(d.x), fan.y[i] = float(d.y), fan.z[i] = float(d.z);
-        if (i < count())
-            fan.lanes[size_t(i / kPacketSize)] |= uint8_t(1u << i % kPacketSize);
-    }
+    kernel::strand_directions({ m_u.data(), m_v.data(), m_count, false, m_owen, texel.u, texel.v }, strand_angles(),
+                              TangentFrame(tangent), fan);
+    std::fill(fan.lanes.begin(), fan.lanes.end(), uint8_t(0xff));
+    if (const int beyond = int(fan.lanes.size()) * kPacketSize - m_count; beyond > 0)
+        fan.lanes.back() = uint8_t(0xff >> beyond);
 }
 
 } // namespace vmlight

@@ -24,15 +24,16 @@ public:
     /// @param sampler  "halton", "sobol" or "fibonacci"
     StrandPattern(const std::string& sampler, int count);
 
-    int count() const { return int(m_points.size()); }
+    int count() const { return m_count; }
 
     /// Fill `fan` with the texel's directions, unit vectors around the unit vector `tangent`, and set the lane bits of
     /// all `count`.
     void directions(RayFan& fan, const Imath::V3f& tangent, Point32 texel) const;
 
 private:
+    int m_count;
     bool m_owen;
-    std::vector<Point32> m_points;
+    std::vector<uint32_t> m_u, m_v; // bit-reversed if m_owen, in whole packets
 };
 
 } // namespace vmlight

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/mesh/strands.h>
 
 #include <cmath>
 
@@ -32,7 +33,7 @@ bool check_mesh(const Mesh& mesh, std::string& error)
     const std::string reason = find_error(mesh);
     if (!reason.empty())
         error = format("\"{}\": {}", mesh.path.empty() ? mesh.name : mesh.path, reason);
-    return reason.empty();
+    return reason.empty() && (!mesh.strands || check_strands(*mesh.strands, error));
 }
 
 } // namespace vmlight

@@ -2,6 +2,7 @@
 #include <vmlight/mesh/mesh.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/strands.h>
 
 #include <OpenImageIO/hash.h>
 
@@ -11,6 +12,8 @@ namespace vmlight {
 
 std::string mesh_hash(const Mesh& mesh)
 {
+    if (mesh.strands)
+        return strands_hash(*mesh.strands);
     const auto fingerprint = [](const auto& elements) {
         const char* bytes = reinterpret_cast<const char*>(elements.data());
         return OIIO::farmhash::Fingerprint64(bytes, elements.size() * sizeof(elements[0]));

@@ -39,6 +39,7 @@ struct MeshCamera
 };
 
 struct MeshOpacity;
+struct Strands;
 
 /// Triangles in object space (the file's own, right-handed, y up), counter-clockwise seen from outside. Every vertex
 /// has a position and a unit normal. Vertices without texture coordinates have NaN in `uvs`; if none has any, `uvs` is
@@ -65,6 +66,8 @@ struct Mesh
     std::vector<Material> materials;
     /// What of it is not opaque; nullptr: all is. Reading a file leaves it so: see read_cutouts() of the stages.
     std::shared_ptr<const MeshOpacity> opacity;
+    /// What an occluder has instead of triangles that is a file of strands; nullptr for none.
+    std::shared_ptr<const Strands> strands;
     /// Parents come before their children.
     std::vector<MeshNode> nodes;
     /// Of formats whose reader knows them: glTF.
@@ -116,7 +119,8 @@ struct MeshParams
 };
 
 /// Can the mesh be baked, or occlude? False, with the reason in `error`, if a triangle uses a vertex that does not
-/// exist or is not finite (the first is named), or if the counts of positions, normals and uvs (if any) differ.
+/// exist or is not finite (the first is named), if the counts of positions, normals and uvs (if any) differ, or if its
+/// strands fail check_strands().
 VMLIGHT_API bool check_mesh(const Mesh& mesh, std::string& error);
 
 /// Give each triangle of `mesh` one normal. Splits vertices as needed.
@@ -147,8 +151,8 @@ VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle, const std
 /// Merge vertices whose position, normal and uv agree bit for bit, and order them by first use.
 VMLIGHT_API void merge_equal_vertices(Mesh& mesh);
 
-/// A 64-bit hash of positions, normals, uvs and triangles, as 16 hexadecimal digits. The same on every little-endian
-/// machine.
+/// A 64-bit hash of positions, normals, uvs and triangles, or of strands, as 16 hexadecimal digits. The same on every
+/// little-endian machine.
 VMLIGHT_API std::string mesh_hash(const Mesh& mesh);
 
 /// Whether a vertex has texture coordinates.

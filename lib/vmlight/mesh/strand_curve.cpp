@@ -10,8 +10,7 @@ using Imath::V3d;
 StrandCurve::StrandCurve(const Strands& strands, size_t strand)
 {
     const size_t begin = strands.begin(strand), end = strands.end(strand);
-    const double thickest
-        = *std::max_element(strands.radii.begin() + std::ptrdiff_t(begin), strands.radii.begin() + std::ptrdiff_t(end));
+    const double thickest = thickest_radius(strands, strand);
     for (size_t p = begin; p < end; ++p)
         m_controls.push_back({ strands.points[p], std::max(strands.radii[p], kThinnestTip * thickest) });
     const auto beyond = [](const Control& last, const Control& before) {
@@ -62,6 +61,14 @@ CurvePoint StrandCurve::at(double share) const
             point.tangent = direction;
     point.tangent.normalize();
     return point;
+}
+
+std::vector<double> StrandCurve::knot_shares() const
+{
+    std::vector<double> shares;
+    for (const double length : m_lengths)
+        shares.push_back(length / m_lengths.back());
+    return shares;
 }
 
 bool StrandCurve::cut(double longest, size_t most)

@@ -34,7 +34,10 @@ public:
     /// spans.
     CurvePoint at(double share) const;
 
-    /// One more than three for each span.
+    /// The share of the length at the start of each span, and 1.
+    std::vector<double> knot_shares() const;
+
+    /// Three more than spans.
     const std::vector<Control>& controls() const { return m_controls; }
 
     /// Cut each span in two until none is longer than `longest` of its radii. It stays the same curve.

@@ -84,6 +84,12 @@ bool set_radius(Strands& strands, const std::string& text, std::string& error)
     return true;
 }
 
+double thickest_radius(const Strands& strands, size_t strand)
+{
+    return *std::max_element(strands.radii.begin() + std::ptrdiff_t(strands.begin(strand)),
+                             strands.radii.begin() + std::ptrdiff_t(strands.end(strand)));
+}
+
 bool check_strands(const Strands& strands, std::string& error)
 {
     std::string reason = strands.count() == 0 ? "no strands" : "";

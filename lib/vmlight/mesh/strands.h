@@ -40,11 +40,16 @@ struct StrandParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("radius", radius, Text {},
-              "Bake the file's strands, of this radius in mesh units: ROOT:TIP, or one for both");
+        field(
+            "radius", radius, Text {},
+            "Bake the file's strands, or let an occluder's block light, of this radius in mesh units: ROOT:TIP, or one "
+            "for both");
         field("strand_texels", strand_texels, Range { 1, 4096 }, "Texels along each strand, from root to tip");
     }
 };
+
+/// The largest radius of a strand.
+double thickest_radius(const Strands& strands, size_t strand);
 
 /// A radius below this share of a strand's largest is raised to it: rays miss curves that end in a point.
 constexpr double kThinnestTip = 0.02;

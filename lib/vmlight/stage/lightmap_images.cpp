@@ -33,17 +33,18 @@ PixelSourcePointer open_light(PixelSourcePointer& environment, const LightmapRec
     filter.layer = recipe.layer;
     filter.layout = recipe.layout;
     filter.cfem_params = recipe.cfem_params;
-    filter.cfem_params.kernel = kernel_of(vismap);
     filter.stack = model.light != ModelLight::cfem;
+    if (!filter.stack) // what is read of a stack for strands is not filtered
+        filter.cfem_params.kernel = kernel_of(vismap);
     filter.suns = recipe.suns == "off" ? "off" : "auto";
     return open_source(filter, error);
 }
 
-// Suns and the bounce are traced from the mesh of a map.
-std::string surface_light_fault(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const RecipeChain& chain)
+// The bounce is traced from the mesh of a map.
+std::string bounce_fault(const LightmapRecipe& recipe, const OIIO::ImageSpec& vismap, const RecipeChain& chain)
 {
-    const std::string key = recipe.suns != "off" ? "suns" : recipe.bounce_params.bounce != "off" ? "bounce" : "";
-    return key.empty() || kernel_of(vismap) != kStrandKernel
+    const std::string key = "bounce";
+    return recipe.bounce_params.bounce == "off" || kernel_of(vismap) != kStrandKernel
         ? ""
         : with_location(
             recipe, key, chain,
@@ -92,7 +93,7 @@ bool open_images(LightmapImages& dst, const LightmapRecipe& given, std::string& 
     LightmapRecipe recipe = given;
     dst.vismap = open_input(recipe, "vismap", recipe.vismap, InputKind::Vismap, error, chain);
     if (dst.vismap)
-        error = surface_light_fault(recipe, dst.vismap->spec(), chain);
+        error = bounce_fault(recipe, dst.vismap->spec(), chain);
     if (!error.empty())
         return false;
     if (dst.vismap && recipe.suns == "auto" && recipe.cfem.empty()) { // without its suns, a CFEM is too dark

@@ -59,6 +59,11 @@ public:
     const NormalMapPointer& normal_map() const { return m_normals; }
     /// The bake, with the map's own size.
     const VismapParams& params() const { return m_map; }
+    /// Before prepare(): what the meshes were when they were found; and the hashes of those that were baked, "" if they
+    /// are not known.
+    const SceneStamps& stamps() const { return m_stamps; }
+    const std::string& mesh_hash() const { return m_hash; }
+    const std::string& occluder_hashes() const { return m_occluder_hashes; }
     /// The bake as it was asked for: its meshes, and how they are read.
     const VismapRecipe& recipe() const { return m_mesh; }
 

@@ -5,8 +5,10 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
+#include <vmlight/mesh/import/strands/read_strands.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/cutouts.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/unwrap_report.h>
 #include <vmlight/stage/uv_sets.h>
 #include <vmlight/uv/unwrap.h>
@@ -179,6 +181,19 @@ bool build_part(BakeScenePointer& dst, const BakeScenePointer& whole, const Vism
     return true;
 }
 
+bool read_strand_occluder(Mesh& dst, const VismapRecipe& recipe, const std::string& path, const BeforeOpen& note,
+                          std::string& error)
+{
+    auto strands = std::make_shared<Strands>();
+    if (!read_strands(*strands, path, recipe.mesh_params, recipe.strand_params.radius, error, note))
+        return false;
+    dst = Mesh();
+    dst.name = strands->name;
+    dst.path = path;
+    dst.strands = std::move(strands);
+    return true;
+}
+
 using Build = std::function<bool(BakeScenePointer& dst)>;
 
 // The scene of this key, from whoever holds it or else from `build`.
@@ -213,7 +228,11 @@ bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecip
     begin_step(at_step, "read");
     const std::string& mesh_path = path_of(recipe, index);
     ++work_counts().meshes_read;
-    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error, [&](const std::string& path) { note_file(files, path); })
+    const auto note = [&](const std::string& path) { note_file(files, path); };
+    if (index && is_strand_occluder(recipe, mesh_path))
+        return read_strand_occluder(dst, recipe, mesh_path, note, error)
+            && check_stamp(stamps.files[index], mesh_path, error);
+    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error, note)
         || !check_stamp(stamps.files[index], mesh_path, error))
         return false;
     if (recipe.cutout_params.cutouts == "off")
@@ -239,7 +258,7 @@ bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, 
     params.visit([&](const char* name, auto& value, const auto& allowed, const char*) {
         stamps.key += std::string(name) + "=" + value_text(value, allowed) + "\n";
     });
-    stamps.key += "cutouts=" + recipe.cutout_params.cutouts + "\n";
+    stamps.key += "cutouts=" + recipe.cutout_params.cutouts + "\nradius=" + recipe.strand_params.radius + "\n";
     if (recipe.unwrap) {
         const UnwrapParams atlas = unwrap_params(recipe, 0);
         stamps.key += format("unwrap={}x{},{}\n", atlas.width, atlas.height, atlas.margin);

@@ -6,9 +6,7 @@
 #include <vmlight/base/once_cache.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
-#include <vmlight/mesh/import/strands/read_strands.h>
-#include <vmlight/trace/strand_scene.h>
-#include <vmlight/vismap/strand_map.h>
+#include <vmlight/stage/strand_files.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -67,8 +65,8 @@ public:
             error = map.geterror();
             return false;
         }
-        if (!m_occluder_hashes.empty())
-            map.specmod().attribute("vmlight:occluderHash", m_occluder_hashes);
+        if (!m_facts.occluder_hashes.empty())
+            map.specmod().attribute("vmlight:occluderHash", m_facts.occluder_hashes);
         const double seconds = timer() - build_seconds;
         options.report(format("strands: {} of {}, {}; each has {} along a row, from root to tip", m_strands.count(),
                               count_text(int64_t(m_strands.points.size()), "point", "points"),
@@ -76,7 +74,7 @@ public:
                               count_text(m_recipe.strand_params.strand_texels, "texel", "texels")));
         options.report(format("bake: {:.2f} M rays in {:.2f} s, {:.2f} M rays/s; build {:.2f} s", double(rays) * 1e-6,
                               seconds, double(rays) * 1e-6 / std::max(seconds, 1e-9), build_seconds));
-        for (const std::string& warning : m_warnings)
+        for (const std::string& warning : m_facts.warnings)
             options.report_warning(warning);
         return true;
     }
@@ -92,20 +90,9 @@ private:
 
     bool build(const MakeOptions& options, std::string& error)
     {
-        std::vector<Mesh> occluders(m_recipe.occluder.size());
-        std::vector<FileStamp> files;
         std::string at;
-        for (size_t i = 0; i < occluders.size(); ++i) {
-            if (!read_scene_file(occluders[i], files, m_recipe, m_stamps, i + 1, options.steps(), at, error)) {
-                error = with_location(m_recipe, at, options.chain, error);
-                return false;
-            }
-            m_occluder_hashes += (i ? "," : "") + mesh_hash(occluders[i]);
-            for (const std::string& warning : occluders[i].warnings)
-                m_warnings.push_back(format("\"{}\": {}", occluders[i].path, warning));
-        }
-        if (!m_scene.build(m_strands, occluders, options.threads, error, options.steps())) {
-            error = with_location(m_recipe, "mesh", options.chain, error);
+        if (!build_strand_scene(m_scene, m_facts, m_strands, m_recipe, m_stamps, options, at, error)) {
+            error = with_location(m_recipe, at, options.chain, error);
             return false;
         }
         m_bytes = m_scene.bytes() + m_strands.points.size() * (sizeof(Imath::V3d) + sizeof(double));
@@ -119,8 +106,7 @@ private:
     StrandScene m_scene;
     const StrandBaker m_baker; // refers to m_scene
     RunOnce m_prepare;
-    std::string m_occluder_hashes;
-    std::vector<std::string> m_warnings;
+    StrandSceneFacts m_facts;
     std::atomic<size_t> m_bytes { 0 };
 };
 
@@ -132,15 +118,8 @@ PixelSourcePointer open_strand_map(const VismapRecipe& recipe, const std::string
     Strands strands;
     StrandLayout layout;
     std::vector<FileStamp> files;
-    std::string at = "mesh";
-    bool good = read_strands(strands, recipe.mesh, recipe.mesh_params, recipe.strand_params.radius, error,
-                             [&](const std::string& path) { note_file(files, path); })
-        && check_stamp(stamps.files[0], recipe.mesh, error);
-    if (good) {
-        at = "strand_texels";
-        good = StrandLayout::make(layout, strands.count(), recipe.strand_params.strand_texels, error);
-    }
-    if (good)
+    std::string at;
+    if (read_strand_file(strands, layout, files, recipe, stamps, at, error))
         return std::make_shared<StrandSource>(key, recipe, std::move(stamps), std::move(strands), layout,
                                               std::move(files));
     error = with_location(recipe, at, chain, error);

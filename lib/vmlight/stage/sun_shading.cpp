@@ -5,6 +5,7 @@
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cfem/suns.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/stage/sun_choice.h>
 #include <vmlight/stage/sun_source.h>
 
@@ -17,6 +18,7 @@ std::shared_ptr<SunShading> SunShading::open(const LightmapRecipe& recipe, const
     auto suns = std::make_shared<SunShading>();
     suns->m_recipe = recipe;
     suns->m_stored = stored_suns(vismap);
+    suns->m_is_of_strands = kernel_of(vismap) == kStrandKernel;
     if (!scene->has_mesh() && suns->m_stored.empty()) {
         error = with_location(recipe, "suns", chain,
                               why_no_mesh(recipe, recipe.vismap)
@@ -30,10 +32,22 @@ std::shared_ptr<SunShading> SunShading::open(const LightmapRecipe& recipe, const
 
 bool SunShading::prepare(const MakeOptions& options, std::string& error)
 {
+    if (m_is_of_strands) {
+        std::string at;
+        const bool good = m_strand_tracer.prepare(*m_scene, options, at, error);
+        error = good ? "" : with_location(m_recipe, at, options.chain, error);
+        return good;
+    }
     return m_scene->prepare(options, error)
         && m_tracer.prepare(m_scene->scene(), m_scene->params(), error, options.threads,
                             options.step("suns", m_scene->roi().width(), m_scene->roi().height()),
                             m_scene->normal_map());
+}
+
+bool SunShading::failed() const
+{
+    return m_prepare.failed() || m_scene->failed()
+        || (m_is_of_strands && m_prepare.succeeded() && !m_strand_tracer.is_current());
 }
 
 bool SunShading::read_stored(std::vector<float>& dst, const std::vector<int>& channels, const ReadChannel& read,
@@ -77,12 +91,14 @@ bool SunShading::light(SunLight& dst, const std::vector<Sun>& suns, const Lightm
     if (!m_prepare.run([&](std::string& reason) { return prepare(options, reason); }, error))
         return false;
     const Stopwatch timer;
-    if (!m_tracer.trace(dst.visibility, discs, options.threads,
-                        options.step("suns", m_scene->roi().width(), m_scene->roi().height()))) {
+    if (!(m_is_of_strands ? m_strand_tracer.trace(dst.visibility, discs, options)
+                          : m_tracer.trace(dst.visibility, discs, options.threads,
+                                           options.step("suns", m_scene->roi().width(), m_scene->roi().height())))) {
         error = "interrupted";
         return false;
     }
-    options.report(format("suns: {} in {:.3f} s", count_text(m_tracer.rays(), "ray", "rays"), timer()));
+    const int64_t rays = m_is_of_strands ? m_strand_tracer.rays() : m_tracer.rays();
+    options.report(format("suns: {} in {:.3f} s", count_text(rays, "ray", "rays"), timer()));
     return true;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The suns of a lightmap: their shadows on the mesh of its visibility map, traced for each rotation.
+/// The suns of a lightmap: their shadows on the mesh or strands of its visibility map, traced for each rotation.
 #pragma once
 
 #include <vmlight/base/once_cache.h>
@@ -9,6 +9,7 @@
 #include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/stage/stored_suns.h>
+#include <vmlight/stage/strand_sun_tracer.h>
 #include <vmlight/vismap/sun_visibility.h>
 
 #include <OpenImageIO/imageio.h>
@@ -46,8 +47,8 @@ public:
     bool light(SunLight& dst, const std::vector<Sun>& suns, const LightmapParams& params, const ReadChannel& read,
                const MakeOptions& options, std::string& error);
 
-    bool failed() const { return m_prepare.failed() || m_scene->failed(); }
-    size_t bytes() const { return m_tracer.bytes(); }
+    bool failed() const;
+    size_t bytes() const { return m_tracer.bytes() + m_strand_tracer.bytes(); }
 
 private:
     bool read_stored(std::vector<float>& dst, const std::vector<int>& channels, const ReadChannel& read,
@@ -59,7 +60,9 @@ private:
     StoredSuns m_stored;
     std::string m_key;
     RunOnce m_prepare;
+    bool m_is_of_strands = false;
     SunTracer m_tracer;
+    StrandSunTracer m_strand_tracer;
 };
 
 /// Of the inputs of a lightmap.

@@ -20,6 +20,8 @@ void append_mesh_metadata(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
             spec.erase_attribute(metadata_name(name));
     if (recipe.cutout_params.cutouts == "off") // `auto` is known once the files are read
         append_params(spec, recipe.cutout_params);
+    if (!recipe.strand_params.radius.empty()) // of occluders
+        spec.attribute(metadata_name("radius"), recipe.strand_params.radius);
     if (recipe.unwrap)
         spec.attribute(metadata_name("unwrap"), value_text(recipe.unwrap, Flag {}));
     if (!recipe.normal_map.empty()) {

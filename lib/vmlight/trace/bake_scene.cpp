@@ -3,6 +3,8 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/opacity_hash.h>
+#include <vmlight/mesh/strands.h>
+#include <vmlight/trace/curves.h>
 #include <vmlight/trace/horizon.h>
 #include <vmlight/trace/surface.h>
 
@@ -70,6 +72,16 @@ bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
                 mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
             return false;
         }
+    if (!mesh.strands)
+        return true;
+    for (size_t p = 0; p < mesh.strands->points.size(); ++p) {
+        const double reach = ((mesh.strands->points[p] - frame.centre) * frame.scale).length();
+        if (reach <= kFarthestCaster)
+            continue;
+        error = format("\"{}\": point {} is {:.2g} times the size of what is baked away; rays reach at most {:g} times",
+                       mesh.strands->path, p, reach, kFarthestCaster);
+        return false;
+    }
     return true;
 }
 
@@ -104,6 +116,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
     for (const Mesh* caster : casters) {
         m_triangles += int64_t(caster->triangles.size());
+        m_spans += caster->strands ? int64_t(caster->strands->points.size() - caster->strands->count()) : 0;
         m_opacity_hashes += (caster == casters[0] ? "" : ",") + opacity_hash(*caster);
         for (const std::string& warning : caster->warnings)
             m_warnings.push_back(format("\"{}\": {}", caster->path.empty() ? caster->name : caster->path, warning));
@@ -151,6 +164,7 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
         = vmlight::mesh_hash(rest) + (whole->m_occluder_hashes.empty() ? "" : ",") + whole->m_occluder_hashes;
     m_opacity_hashes = whole->m_opacity_hashes;
     m_triangles = whole->m_triangles;
+    m_spans = whole->m_spans;
     m_lowest = whole->m_lowest;
     m_diagonal = whole->m_diagonal;
     m_choice = whole->m_choice;
@@ -176,7 +190,8 @@ const CasterReach* BakeScene::culled_occluder() const
 size_t BakeScene::bytes() const
 {
     // Embree needs about 100 bytes per triangle.
-    return (m_whole ? m_whole->bytes() : 100 * size_t(m_triangles) + m_occluder->cutouts().bytes)
+    return (m_whole ? m_whole->bytes()
+                    : 100 * size_t(m_triangles) + size_t(kBytesOfSpan) * size_t(m_spans) + m_occluder->cutouts().bytes)
         + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
 }
 

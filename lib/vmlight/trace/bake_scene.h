@@ -50,8 +50,9 @@ public:
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
     /// opacity_hash() of all meshes, separated by commas; of a part, those of the whole.
     const std::string& opacity_hashes() const { return m_opacity_hashes; }
-    /// Triangles of the mesh and all occluders.
+    /// Triangles of the mesh and all occluders, and spans of strands among them.
     int64_t triangle_count() const { return m_triangles; }
+    int64_t span_count() const { return m_spans; }
     /// Triangles of the mesh that are smaller than kTinyTriangle.
     int64_t tiny_triangles() const { return m_tiny; }
     /// See VismapReport::rounding.
@@ -88,14 +89,15 @@ private:
     std::shared_ptr<const Occluder> m_occluder;
     std::string m_mesh_hash, m_occluder_hashes, m_opacity_hashes;
     std::vector<std::string> m_warnings;
-    int64_t m_triangles = 0, m_tiny = 0;
+    int64_t m_triangles = 0, m_spans = 0, m_tiny = 0;
     double m_rounding = 0, m_lowest = 0, m_diagonal = 0;
     SceneChoice m_choice;
     std::vector<int> m_casters;
     std::vector<CasterReach> m_reach;
 };
 
-/// False, with the reason in `error`, if a vertex of `mesh` is too far away to be traced in this frame.
+/// False, with the reason in `error`, if a vertex or a strand's point of `mesh` is too far away to be traced in this
+/// frame.
 bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error);
 
 /// A non-owning pointer to `mesh`, which must outlive it.

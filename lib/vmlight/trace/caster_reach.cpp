@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/caster_reach.h>
 
+#include <vmlight/mesh/strands.h>
 #include <vmlight/trace/horizon.h>
 
 #include <algorithm>
@@ -15,6 +16,26 @@ namespace {
 // Vertices to look at, for all triangles of the mesh together: far less work than building the occluder.
 constexpr int64_t kVertices = int64_t(1) << 22;
 
+// The box around a point of a strand, which is at most that thick. The curve is within the hull of such boxes.
+SceneBox point_box(const V3d& point, double thickest, const SceneFrame& frame)
+{
+    SceneBox box;
+    box.add(frame.to_scene(point - V3d(thickest)));
+    box.add(frame.to_scene(point + V3d(thickest)));
+    return box;
+}
+
+template <class Look> bool for_points(const Strands& strands, const SceneFrame& frame, const Look& look)
+{
+    for (size_t strand = 0; strand < strands.count(); ++strand) {
+        const double thickest = thickest_radius(strands, strand);
+        for (size_t p = strands.begin(strand); p < strands.end(strand); ++p)
+            if (!look(point_box(strands.points[p], thickest, frame)))
+                return false;
+    }
+    return true;
+}
+
 bool hides_all(const Horizon& horizon, const Mesh& occluder, const SceneFrame& frame, int64_t& left)
 {
     for (const auto& triangle : occluder.triangles) {
@@ -23,7 +44,8 @@ bool hides_all(const Horizon& horizon, const Mesh& occluder, const SceneFrame& f
             if (left < 0 || !horizon.hides(V3d(frame.to_scene(occluder.positions[vertex]))))
                 return false;
     }
-    return true;
+    return !occluder.strands
+        || for_points(*occluder.strands, frame, [&](const SceneBox& box) { return --left >= 0 && horizon.hides(box); });
 }
 
 bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& box, const SceneFrame& frame,
@@ -56,6 +78,11 @@ SceneBox scene_box(const Mesh& mesh, const SceneFrame& frame)
     for (const auto& triangle : mesh.triangles)
         for (const uint32_t vertex : triangle)
             box.add(frame.to_scene(mesh.positions[vertex]));
+    if (mesh.strands)
+        for_points(*mesh.strands, frame, [&](const SceneBox& point) {
+            box.add(point);
+            return true;
+        });
     return box;
 }
 
@@ -64,8 +91,12 @@ CasterReach find_reach(const Mesh& mesh, const Mesh& occluder, const SceneFrame&
     CasterReach found;
     found.name = occluder.name;
     found.triangles = int64_t(occluder.triangles.size());
+    if (occluder.strands) {
+        found.strands = int64_t(occluder.strands->count());
+        found.spans = int64_t(occluder.strands->points.size()) - found.strands;
+    }
     const SceneBox box = scene_box(occluder, frame);
-    const double gap = occluder.triangles.empty() ? 0 : std::sqrt(box.distance2(scene_box(mesh, frame)));
+    const double gap = found.triangles + found.strands == 0 ? 0 : std::sqrt(box.distance2(scene_box(mesh, frame)));
     found.gap = gap / frame.scale;
     // Ray origins are off the surface, and boxes and lengths are floats.
     if (gap > choice.reach * frame.scale * (1 + 1e-5) + 4 * kRayOffset)

@@ -51,6 +51,8 @@ struct CasterReach
     double gap = 0;
     /// Boxes and vertices that a horizon was compared with.
     int64_t tests = 0;
+    /// Instead of triangles; and the spans of all of them.
+    int64_t strands = 0, spans = 0;
 
     /// Whether it is in the scene, as occluder number `index`.
     bool is_traced(const SceneChoice& choice, size_t index) const

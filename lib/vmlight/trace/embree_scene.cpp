@@ -91,12 +91,40 @@ void reject_open_hits(const RTCFilterFunctionNArguments* arguments)
     }
 }
 
+void attach_curves(RTCDevice device, RTCScene scene, const Curves& curves, CurveShape shape, unsigned id,
+                   void* user_data, RTCFilterFunctionN occluded)
+{
+    if (curves.spans().empty())
+        return; // Embree refuses empty buffers
+    RTCGeometry geometry = rtcNewGeometry(device,
+                                          shape == CurveShape::round ? RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE
+                                                                     : RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.controls().data(), 0,
+                               sizeof(curves.controls()[0]), curves.controls().size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.spans().data(), 0,
+                               sizeof(curves.spans()[0]), curves.spans().size());
+    rtcSetGeometryUserData(geometry, user_data);
+    if (occluded)
+        rtcSetGeometryOccludedFilterFunction(geometry, occluded);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
+
 Scene::~Scene()
 {
     if (m_scene)
         rtcReleaseScene(m_scene);
     if (m_device)
         rtcReleaseDevice(m_device);
+}
+
+bool Scene::attach_strands(const Strands& strands, const SceneFrame& frame, unsigned id, std::string& error)
+{
+    if (!m_curves.emplace_back().add(strands, frame, CurveShape::flat, Curves::kNoOwner, error))
+        return false;
+    attach_curves(m_device, m_scene, m_curves.back(), CurveShape::flat, id, &m_no_triangles);
+    return true;
 }
 
 bool Scene::attach(const Mesh& mesh, const SceneFrame& frame, unsigned id)
@@ -172,6 +200,7 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
                                     std::string& error, const std::vector<std::unique_ptr<const Cutouts>>& cutouts)
 {
     auto scene = std::make_unique<Scene>();
+    error.clear();
     // A thread count limits all of the process's TBB work for good: set it only if the user did.
     const std::string threads = nthreads > 0 ? format("threads={},", nthreads) : "";
     scene->m_device = rtcNewDevice((threads + "set_affinity=0").c_str());
@@ -185,6 +214,8 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
                 && (id < cutouts.size() && cutouts[id] ? scene->attach_sorted(
                         *meshes[id], *cutouts[id], frame, unsigned(id), unsigned(meshes.size() + id))
                                                        : scene->attach(*meshes[id], frame, unsigned(id)));
+            if (good && meshes[id]->strands)
+                good = scene->attach_strands(*meshes[id]->strands, frame, unsigned(2 * meshes.size() + id), error);
             for (size_t i = first; i < scene->m_buffers.size(); ++i)
                 scene->m_buffers[i].mesh = id;
         }
@@ -193,7 +224,8 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
     }
     if (good)
         return scene;
-    error = "Embree cannot build the ray-tracing scene: out of memory, or the CPU is not supported";
+    if (error.empty())
+        error = "Embree cannot build the ray-tracing scene: out of memory, or the CPU is not supported";
     return nullptr;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/mesh/mesh.h>
+#include <vmlight/trace/curves.h>
 #include <vmlight/trace/cutouts.h>
 #include <vmlight/trace/embree.h>
 #include <vmlight/trace/occluder.h>
@@ -17,7 +18,7 @@
 
 namespace vmlight::embree {
 
-/// Embree's buffers of a mesh, or of some of its triangles: the user data of its geometry.
+/// Embree's buffers of a mesh, or of some of its triangles: the user data of its geometry. Curves have neither.
 struct Buffers
 {
     const Imath::V3f* vertices;
@@ -44,6 +45,10 @@ inline float weight_error(float distance, float longest_edge, float normal_dot)
 /// Embree's filter of hits on mixed triangles, of shadow rays and others: rejects those where light passes.
 void reject_open_hits(const RTCFilterFunctionNArguments* arguments);
 
+/// Add curves to a scene as geometry `id`. They must outlive it.
+void attach_curves(RTCDevice device, RTCScene scene, const Curves& curves, CurveShape shape, unsigned id,
+                   void* user_data, RTCFilterFunctionN occluded = nullptr);
+
 class Scene
 {
 public:
@@ -53,7 +58,8 @@ public:
     Scene& operator=(const Scene&) = delete;
 
     /// Build the scene from the triangles of all `meshes`; the geometry of each has its index as its ID. Traversal is
-    /// robust. nullptr, with the reason in `error`, if Embree fails (out of memory).
+    /// robust. nullptr, with the reason in `error`, if Embree fails (out of memory). The strands of mesh i are flat
+    /// curves, the geometry 2 meshes.size() + i.
     ///
     /// @param cutouts  of each mesh, nullptr where all of it is opaque; or none: no mesh is cut out. Must outlive the
     ///                 scene. The mixed triangles of mesh i are the geometry meshes.size() + i
@@ -64,8 +70,11 @@ public:
     RTCScene handle() const { return m_scene; }
     /// Those of each geometry.
     const std::deque<Buffers>& buffers() const { return m_buffers; }
+    /// Whether a mesh has strands.
+    bool has_curves() const { return !m_curves.empty(); }
 
 private:
+    bool attach_strands(const Strands& strands, const SceneFrame& frame, unsigned id, std::string& error);
     bool attach(const Mesh& mesh, const SceneFrame& frame, unsigned id);
     bool attach_sorted(const Mesh& mesh, const Cutouts& cutouts, const SceneFrame& frame, unsigned id,
                        unsigned mixed_id);
@@ -74,7 +83,9 @@ private:
 
     RTCDevice m_device = nullptr;
     RTCScene m_scene = nullptr;
-    std::deque<Buffers> m_buffers; // Embree keeps pointers to its elements
+    std::deque<Buffers> m_buffers; // Embree keeps pointers to elements of both
+    std::deque<Curves> m_curves;
+    Buffers m_no_triangles { nullptr, nullptr, 0 }; // of all curves
 };
 
 /// Set all of a lane of RTCRay8 but its origin, direction and length.

@@ -50,6 +50,8 @@ void reject_hits_behind_origin(const RTCFilterFunctionNArguments* arguments)
     for (unsigned i = 0; i < n; ++i) {
         if (!arguments->valid[i])
             continue;
+        if (!buffers.triangles) // a strand's ribbon faces the ray
+            continue;
         const auto& corners = buffers.triangles[RTCHitN_primID(arguments->hit, n, i)];
         const V3d a(buffers.vertices[corners[0]]), b(buffers.vertices[corners[1]]), c(buffers.vertices[corners[2]]);
         const V3d origin(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
@@ -82,6 +84,11 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
     begin_step(at_step, "build");
     m_scene = embree::Scene::build(traced, frame, nthreads, error, m_cutouts);
     return m_scene != nullptr;
+}
+
+bool Occluder::has_strands() const
+{
+    return m_scene->has_curves();
 }
 
 bool Occluder::has_cutouts_of(size_t mesh, const Occluder& other, size_t its_mesh) const
@@ -164,13 +171,15 @@ void Occluder::find_nearest(const V3f* origins, const V3f* directions, const flo
         if (geometry == RTC_INVALID_GEOMETRY_ID)
             continue;
         hit.mesh = geometry % meshes;
+        hit.distance = rays.ray.tfar[lane];
+        if (geometry >= 2 * meshes)
+            continue;
         const Cutouts* cutouts = m_cutouts[hit.mesh].get();
         hit.triangle = !cutouts ? triangle
             : geometry < meshes ? cutouts->opaque()[triangle]
                                 : cutouts->mixed()[triangle];
         hit.u = rays.hit.u[lane];
         hit.v = rays.hit.v[lane];
-        hit.distance = rays.ray.tfar[lane];
         hit.normal = V3f(rays.hit.Ng_x[lane], rays.hit.Ng_y[lane], rays.hit.Ng_z[lane]);
     }
 }

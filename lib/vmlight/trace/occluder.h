@@ -54,12 +54,12 @@ struct NearestHit
     uint32_t triangle = 0; ///< of that mesh
     float u = 0, v = 0; ///< weights of the triangle's second and third corners
     float distance = 0; ///< in lengths of the ray's direction
-    Imath::V3f normal { 0 }; ///< of the triangle, by its winding; of any length
+    Imath::V3f normal { 0 }; ///< of the triangle, by its winding; of any length; 0 of a strand, which has no triangle
 
     bool exists() const { return mesh != kNone; }
 };
 
-/// Triangles in an Embree scene: built once, then traced from any number of threads.
+/// Triangles and curves in an Embree scene: built once, then traced from any number of threads.
 class Occluder
 {
 public:
@@ -71,6 +71,8 @@ public:
     /// Build the scene from the triangles of all `meshes`; nullptr is one that is left out, and keeps its number, on
     /// which chance depends where opacity is in between. False, with the reason in `error`, if Embree fails (out of
     /// memory). Traversal is robust: rays do not leak between triangles that share vertices.
+    ///
+    /// Mesh::strands are ribbons that face each ray: their shade is that of tubes from 3 radii on.
     ///
     /// What Mesh::opacity says of a mesh is honoured: rays pass where it is transparent, and as often as it says where
     /// it is in between.
@@ -100,6 +102,8 @@ public:
     bool has_cutouts_of(size_t mesh, const Occluder& other, size_t its_mesh) const;
     /// What rays have asked so far.
     CutoutWork cutout_work() const { return { m_hits, m_lookups }; }
+    /// Whether rays can meet strands, too.
+    bool has_strands() const;
     /// All triangles that rays can meet. Valid as long as this is.
     std::vector<TracedTriangles> triangles() const;
 

@@ -33,6 +33,8 @@ std::string choice_fault(const BakeScene& base, const BakeScene& pose)
     const SceneChoice &before = base.choice(), &after = pose.choice();
     if (base.reach().size() != pose.reach().size())
         return format("{} occluders are given, and {} in the other pose", pose.reach().size(), base.reach().size());
+    if (base.occluder().has_strands() || pose.occluder().has_strands())
+        return "strands among the occluders are not compared";
     return before.self == after.self && before.occluders == after.occluders && before.own_parts == after.own_parts
         ? ""
         : "other meshes occlude";

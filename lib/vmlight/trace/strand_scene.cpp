@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/strand_scene.h>
 
-#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
-#include <vmlight/mesh/strand_curve.h>
 #include <vmlight/trace/bake_scene.h>
+#include <vmlight/trace/curves.h>
 #include <vmlight/trace/embree_scene.h>
 #include <vmlight/trace/fan_query.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace vmlight {
@@ -17,12 +15,6 @@ namespace {
 
 using Imath::V3d;
 using Imath::V3f;
-
-// Embree's round curves keep their width up to about 6000 radii a span.
-constexpr double kLongestSpan = 2000;
-constexpr size_t kMostSpans = 65536;
-// Measured: what Embree needs for a span of a round B-spline.
-constexpr double kBytesOfSpan = 160;
 
 // Embree's filter of hits: rays pass the strand that they start in.
 void pass_own_strand(const RTCFilterFunctionNArguments* arguments)
@@ -39,44 +31,19 @@ void pass_own_strand(const RTCFilterFunctionNArguments* arguments)
 
 } // namespace
 
-class StrandScene::Curves
+class StrandScene::Rounds
 {
 public:
-    Curves() = default;
-    ~Curves()
+    Rounds() = default;
+    ~Rounds()
     {
         if (m_scene)
             rtcReleaseScene(m_scene);
         if (m_device)
             rtcReleaseDevice(m_device);
     }
-    Curves(const Curves&) = delete;
-    Curves& operator=(const Curves&) = delete;
-
-    bool append(const Strands& strands, size_t strand, const SceneFrame& frame, double available, std::string& error)
-    {
-        StrandCurve curve(strands, strand);
-        if (!curve.cut(kLongestSpan, kMostSpans)) {
-            error = format("\"{}\": strand {} is more than {} times as long as it is thick: rays would miss it",
-                           strands.path, strand, int64_t(kLongestSpan) * int64_t(kMostSpans));
-            return false;
-        }
-        const auto& controls = curve.controls();
-        for (size_t k = 0; k + 3 < controls.size(); ++k) {
-            m_indices.push_back(uint32_t(m_controls.size() + k));
-            m_strand_of.push_back(uint32_t(strand));
-        }
-        for (const StrandCurve::Control& control : controls) {
-            const V3f p = frame.to_scene(control.position);
-            m_controls.push_back({ p.x, p.y, p.z, float(control.radius * frame.scale) });
-        }
-        const double bytes = kBytesOfSpan * double(m_indices.size());
-        if (m_controls.size() <= UINT32_MAX && bytes < available)
-            return true;
-        error = format("\"{}\": out of memory: up to strand {} alone, curves need {:.3g} GB", strands.path, strand,
-                       bytes * 1e-9);
-        return false;
-    }
+    Rounds(const Rounds&) = delete;
+    Rounds& operator=(const Rounds&) = delete;
 
     bool build(int nthreads)
     {
@@ -86,28 +53,19 @@ public:
             return false;
         m_scene = rtcNewScene(m_device);
         rtcSetSceneFlags(m_scene, RTC_SCENE_FLAG_ROBUST);
-        RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE);
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, m_controls.data(), 0,
-                                   sizeof(m_controls[0]), m_controls.size());
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, m_indices.data(), 0,
-                                   sizeof(m_indices[0]), m_indices.size());
-        rtcSetGeometryUserData(geometry, m_strand_of.data());
-        rtcSetGeometryOccludedFilterFunction(geometry, pass_own_strand);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(m_scene, geometry, 0);
-        rtcReleaseGeometry(geometry);
+        embree::attach_curves(m_device, m_scene, curves, CurveShape::round, 0,
+                              const_cast<uint32_t*>(curves.strand_of().data()), pass_own_strand);
         rtcCommitScene(m_scene);
         return rtcGetDeviceError(m_device) == RTC_ERROR_NONE;
     }
 
     RTCScene handle() const { return m_scene; }
-    size_t spans() const { return m_indices.size(); }
+
+    Curves curves; // Embree keeps pointers into it
 
 private:
     RTCDevice m_device = nullptr;
     RTCScene m_scene = nullptr;
-    std::vector<std::array<float, 4>> m_controls; // Embree keeps pointers to these three
-    std::vector<uint32_t> m_indices, m_strand_of;
 };
 
 StrandScene::StrandScene() = default;
@@ -123,22 +81,24 @@ bool StrandScene::build(const Strands& strands, const std::vector<Mesh>& occlude
             high[axis] = std::max(high[axis], p[axis]);
         }
     m_frame = SceneFrame::around(low, high);
+    m_rounds = std::make_unique<Rounds>();
+    Curves& curves = m_rounds->curves;
+    if (!curves.add(strands, m_frame, CurveShape::round, 0, error))
+        return false;
+    m_spans = int64_t(curves.spans().size());
     std::vector<const Mesh*> casters;
     for (const Mesh& occluder : occluders) {
-        if (!check_mesh(occluder, error) || !check_reach(occluder, m_frame, error))
+        if (!check_mesh(occluder, error) || !check_reach(occluder, m_frame, error)
+            || (occluder.strands
+                && !curves.add(*occluder.strands, m_frame, CurveShape::round, Curves::kNoOwner, error)))
             return false;
-        casters.push_back(&occluder);
+        if (!occluder.triangles.empty())
+            casters.push_back(&occluder);
         m_triangles += int64_t(occluder.triangles.size());
     }
     m_has_meshes = !casters.empty();
     begin_step(at_step, "build");
-    m_curves = std::make_unique<Curves>();
-    const double available = double(available_memory()); // reads files of the system
-    for (size_t strand = 0; strand < strands.count(); ++strand)
-        if (!m_curves->append(strands, strand, m_frame, available, error))
-            return false;
-    m_spans = int64_t(m_curves->spans());
-    if (!m_curves->build(nthreads)) {
+    if (!m_rounds->build(nthreads)) {
         error = "Embree cannot build the ray-tracing scene: out of memory, or the CPU is not supported";
         return false;
     }
@@ -147,7 +107,7 @@ bool StrandScene::build(const Strands& strands, const std::vector<Mesh>& occlude
 
 size_t StrandScene::bytes() const
 {
-    return size_t(kBytesOfSpan) * size_t(m_spans) + 100 * size_t(m_triangles); // as BakeScene::bytes()
+    return size_t(kBytesOfSpan) * m_rounds->curves.spans().size() + 100 * size_t(m_triangles); // as BakeScene::bytes()
 }
 
 void StrandScene::clear_blocked(RayFan& fan, const V3f& origin, float radius, uint32_t own, float length) const
@@ -159,7 +119,7 @@ void StrandScene::clear_blocked(RayFan& fan, const V3f& origin, float radius, ui
     const embree::FlushDenormals flush;
     embree::Query query;
     query.pass_strand(own);
-    embree::clear_blocked(fan, query, m_curves->handle(), origin, radius, length);
+    embree::clear_blocked(fan, query, m_rounds->handle(), origin, radius, length);
 }
 
 } // namespace vmlight

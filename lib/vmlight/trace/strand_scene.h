@@ -30,7 +30,7 @@ public:
     /// their width.
     ///
     /// @param strands  must have passed check_strands(); not kept
-    /// @param occluders are not kept
+    /// @param occluders are not kept; other strands among them are traced round, too
     /// @returns false, with the reason in `error`, if an occluder fails check_mesh() or is too far away to be traced, a
     ///          strand is so thin that it would be cut into more than 65536 spans, or memory runs out
     bool build(const Strands& strands, const std::vector<Mesh>& occluders, int nthreads, std::string& error,
@@ -38,7 +38,7 @@ public:
 
     /// After build(): fits the strands.
     const SceneFrame& frame() const { return m_frame; }
-    /// Spans of all curves.
+    /// Spans of the strands' curves.
     int64_t span_count() const { return m_spans; }
     /// Approximate memory use.
     size_t bytes() const;
@@ -48,9 +48,9 @@ public:
     void clear_blocked(RayFan& fan, const Imath::V3f& origin, float radius, uint32_t own, float length) const;
 
 private:
-    class Curves;
+    class Rounds;
     SceneFrame m_frame;
-    std::unique_ptr<Curves> m_curves;
+    std::unique_ptr<Rounds> m_rounds;
     Occluder m_meshes;
     bool m_has_meshes = false;
     int64_t m_spans = 0, m_triangles = 0;

@@ -17,6 +17,7 @@ bool VisibleSurface::build(const std::vector<const Mesh*>& meshes, const SceneFr
                            std::string& error)
 {
     m_frame = frame;
+    m_meshes = uint32_t(meshes.size());
     m_scene = embree::Scene::build(meshes, frame, nthreads, error);
     return m_scene != nullptr;
 }
@@ -43,9 +44,16 @@ void VisibleSurface::find(const SurfaceRay* rays, int count, SurfaceHit* hits) c
     }
     embree::intersect8(valid, m_scene->handle(), packet);
     for (int lane = 0; lane < count; ++lane) {
-        hits[lane].mesh
-            = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? SurfaceHit::kNone : packet.hit.geomID[lane];
-        hits[lane].triangle = packet.hit.primID[lane];
+        SurfaceHit& hit = hits[lane];
+        hit = {};
+        const uint32_t geometry = packet.hit.geomID[lane];
+        if (geometry == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        const bool is_strand = geometry >= m_meshes;
+        hit.mesh = geometry % m_meshes;
+        (is_strand ? hit.span : hit.triangle) = packet.hit.primID[lane];
+        hit.along = double(packet.hit.u[lane]);
+        hit.distance = rays[lane].start + double(packet.ray.tfar[lane]) / m_frame.scale;
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Camera rays: the nearest triangle of a set of meshes.
+/// Camera rays: the nearest triangle or strand of a set of meshes.
 #pragma once
 
 #include <vmlight/mesh/mesh.h>
@@ -17,8 +17,13 @@ struct SurfaceHit
 {
     static constexpr uint32_t kNone = ~0u;
     uint32_t mesh = kNone, triangle = 0;
+    /// Of a strand, instead: its span, counted through all strands of the mesh; how far along it, from 0 to 1; and the
+    /// distance, in units of the ray's direction.
+    uint32_t span = kNone;
+    double along = 0, distance = 0;
 
     bool exists() const { return mesh != kNone; }
+    bool is_strand() const { return span != kNone; }
 };
 
 /// A ray in object space; what lies before `start`, in units of the direction's length, is passed.
@@ -37,8 +42,8 @@ public:
     VisibleSurface(const VisibleSurface&) = delete;
     VisibleSurface& operator=(const VisibleSurface&) = delete;
 
-    /// Build the scene from the triangles of all `meshes`, whose indices the hits have. False, with the reason in
-    /// `error`, if Embree fails (out of memory).
+    /// Build the scene from the triangles and strands of all `meshes`, whose indices the hits have. False, with the
+    /// reason in `error`, if Embree fails (out of memory).
     bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error);
 
     /// The nearest hits of the first `count` of kPacketSize rays, faster if they run side by side. Embree finds the
@@ -47,6 +52,7 @@ public:
 
 private:
     SceneFrame m_frame;
+    uint32_t m_meshes = 0;
     std::unique_ptr<embree::Scene> m_scene;
 };
 

@@ -97,6 +97,8 @@ void OpenTriangles::find(const BakeScene& scene, double reach, double rays)
         all += part.count;
     m_open.clear();
     m_report = {};
+    if (scene.occluder().has_strands()) // which the tree does not hold
+        return;
     const double share = promise(scene, traced, all, reach, m_report.tests);
     const double triangles = double(all + mesh.triangles.size());
     m_report.searched = share > 0 && (triangles <= kFewTriangles || share * rays >= kRaysPerTriangle * triangles);

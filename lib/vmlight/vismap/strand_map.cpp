@@ -12,6 +12,7 @@
 #include <vmlight/mesh/strand_curve.h>
 #include <vmlight/version.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/strand_order.h>
 
 #include <algorithm>
 #include <atomic>
@@ -27,6 +28,7 @@ using Imath::V3d;
 using Imath::V3f;
 
 constexpr int kStrandChannels = 7;
+constexpr int64_t kStrandsAtOnce = 16; // strands that a thread bakes at a time
 
 // Of VismapParams, and those of the recipe that say what is read.
 constexpr const char* kStrandKeys[]
@@ -63,6 +65,12 @@ Size StrandLayout::size() const
 int64_t StrandLayout::strand_at(int x, int y) const
 {
     return std::min(strands, int64_t(x / texels) * rows + y);
+}
+
+OIIO::ROI StrandLayout::roi(int64_t strand) const
+{
+    const int x = int(strand / rows) * texels, y = int(strand % rows);
+    return { x, x + texels, y, y + 1, 0, 1 };
 }
 
 Imath::V2d StrandLayout::uv(int64_t strand, double share) const
@@ -193,11 +201,16 @@ bool make_strand_map(OIIO::ImageBuf& dst, const OIIO::ImageSpec& spec, const Str
     if (!pixels)
         return fail_with(dst, format("out of memory for {}x{} texels", spec.width, spec.height));
     std::atomic<int64_t> traced { 0 };
-    const size_t row = size_t(spec.width) * size_t(spec.nchannels);
-    const auto bake_row = [&](int64_t y, int) {
-        traced += baker.bake({ 0, spec.width, int(y), int(y) + 1, 0, 1 }, pixels + size_t(y) * row);
+    std::fill_n(pixels, size_t(spec.image_pixels()) * size_t(spec.nchannels), 0.0f);
+    const std::vector<uint32_t> order = strands_by_place(baker.strands());
+    const auto count = int64_t(order.size());
+    const auto bake_block = [&](int64_t block, int) {
+        for (int64_t i = block * kStrandsAtOnce; i < std::min(count, (block + 1) * kStrandsAtOnce); ++i) {
+            const OIIO::ROI roi = baker.layout().roi(order[size_t(i)]);
+            traced += baker.bake(roi, pixels + spec.nchannels * (int64_t(roi.ybegin) * spec.width + roi.xbegin));
+        }
     };
-    if (!parallel_items(spec.height, nthreads, bake_row, progress))
+    if (!parallel_items((count + kStrandsAtOnce - 1) / kStrandsAtOnce, nthreads, bake_block, progress))
         return fail_with(dst, "interrupted");
     rays = traced;
     return true;

@@ -35,6 +35,8 @@ struct StrandLayout
     Size size() const;
     /// The strand of texel (x, y); `strands` if it has none.
     int64_t strand_at(int x, int y) const;
+    /// The texels of a strand.
+    OIIO::ROI roi(int64_t strand) const;
     /// How far from root to tip the centre of column x is, as a share of the strand's length.
     double share_at(int x) const { return (x % texels + 0.5) / texels; }
     /// Where a texture lookup finds the point of a strand at this share of its length: v up, between texel centres of
@@ -62,6 +64,9 @@ public:
     /// of strands, scene, parameters and texel alone. Texels without a strand are 0.
     /// @returns the number of rays traced
     int64_t bake(OIIO::ROI roi, float* dst) const;
+
+    const Strands& strands() const { return m_strands; }
+    const StrandLayout& layout() const { return m_layout; }
 
 private:
     class Point;

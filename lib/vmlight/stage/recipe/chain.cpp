@@ -111,12 +111,11 @@ std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)
     if (recipe.environment.empty())
         return missing("environment", chain);
     const FilterKernel* const kernel = find_filter_kernel(recipe.cfem_params.kernel);
-    const char* const key = recipe.stack ? "stack" : recipe.suns != "off" ? "suns" : "";
-    return !*key || !kernel || kernel->has_stack
+    const char* const key = "stack";
+    return !recipe.stack || !kernel || kernel->has_stack
         ? ""
         : with_location(recipe, key, chain,
-                        format("{}not with the kernel {}", chain.empty() ? std::string(key) + ": " : "",
-                               recipe.cfem_params.kernel));
+                        format("{}not with the kernel {}", chain.empty() ? "stack: " : "", recipe.cfem_params.kernel));
 }
 
 std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)

@@ -71,7 +71,7 @@ struct VismapRecipe
     VismapParams vismap_params;
     /// Of the mesh and its occluders.
     CutoutParams cutout_params;
-    /// If `mesh` is a file of strands: see bakes_strands().
+    /// If `mesh` or an occluder is a file of strands: see bakes_strands().
     StrandParams strand_params;
     /// Switches of effects: see effects/switches.h. "auto" is what the scene calls for.
     std::string effects = "auto";
@@ -86,7 +86,7 @@ struct VismapRecipe
     template <class Visit> void visit(Visit&& field)
     {
         field("mesh", mesh, Path {}, "Mesh to bake");
-        field("occluder", occluder, Paths {}, "Mesh that occludes but is not baked");
+        field("occluder", occluder, Paths {}, "Mesh or strands that occlude but are not baked");
         selection.visit(field);
         field("unwrap", unwrap, Flag {},
               "Replace the mesh's UVs, if any, by an atlas made for this resolution and margin");

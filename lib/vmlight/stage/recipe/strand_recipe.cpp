@@ -20,7 +20,17 @@ constexpr const char* kNotOfStrands = "a map of strands does not use it";
 
 bool bakes_strands(const VismapRecipe& recipe)
 {
-    return !recipe.strand_params.radius.empty() || is_strand_file(recipe.mesh);
+    const auto is_strands = [&](const std::string& path) { return is_strand_occluder(recipe, path); };
+    if (is_strand_file(recipe.mesh))
+        return true;
+    if (recipe.strand_params.radius.empty())
+        return false;
+    return std::none_of(recipe.occluder.begin(), recipe.occluder.end(), is_strands) || has_lines_alone(recipe.mesh);
+}
+
+bool is_strand_occluder(const VismapRecipe& recipe, const std::string& path)
+{
+    return is_strand_file(path) || (!recipe.strand_params.radius.empty() && has_lines_alone(path));
 }
 
 std::string strand_fault(const VismapRecipe& recipe, std::string& key)

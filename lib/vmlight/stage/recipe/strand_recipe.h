@@ -8,8 +8,13 @@
 
 namespace vmlight {
 
-/// Whether the recipe bakes strands: it gives them a radius, or its mesh is a file of nothing else.
+/// Whether the recipe bakes strands: its mesh is a file of nothing else, or it gives strands a radius and no occluder
+/// is one. OBJ and glTF files are read to know what they hold, if there is a radius and an occluder.
 bool bakes_strands(const VismapRecipe& recipe);
+
+/// Whether an occluder of the recipe is read as strands: it is a file of nothing else; of an OBJ or glTF if there is a
+/// radius.
+bool is_strand_occluder(const VismapRecipe& recipe, const std::string& path);
 
 /// Why strands cannot be baked by this recipe, or "": what it sets is for meshes. `key` is set to what.
 std::string strand_fault(const VismapRecipe& recipe, std::string& key);

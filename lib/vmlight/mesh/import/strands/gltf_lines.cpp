@@ -105,7 +105,10 @@ private:
 
 } // namespace
 
-bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& error)
+namespace {
+
+// Calls `use` with the document. False, with the reason in `error`, if it throws.
+template <class Use> bool with_document(const StrandRequest& request, std::string& error, const Use& use)
 {
     return gltf::without_errors(error, [&] {
         Mesh ignored; // takes the warnings of what a document has beside its lines
@@ -113,8 +116,27 @@ bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& er
         const MeshFormat* const mesh_format = find_mesh_format(mesh_formats(), request.path, request.head);
         const ImportRequest whole { request.path, *mesh_format, request.head, {}, request.before_open };
         gltf::Document document(whole, builder);
-        LineWalk(dst, document).append_all();
+        use(document);
     });
+}
+
+} // namespace
+
+bool has_gltf_lines_alone(const StrandRequest& request)
+{
+    bool has_lines = false, has_others = false;
+    std::string ignored;
+    const auto look = [&](gltf::Document& document) {
+        for (const tinygltf::Mesh& mesh : document.model().meshes)
+            for (const tinygltf::Primitive& primitive : mesh.primitives)
+                (primitive.mode == TINYGLTF_MODE_LINE_STRIP ? has_lines : has_others) = true;
+    };
+    return with_document(request, ignored, look) && has_lines && !has_others;
+}
+
+bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& error)
+{
+    return with_document(request, error, [&](gltf::Document& document) { LineWalk(dst, document).append_all(); });
 }
 
 } // namespace vmlight

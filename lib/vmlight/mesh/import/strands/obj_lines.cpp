@@ -95,6 +95,20 @@ private:
 
 } // namespace
 
+bool has_obj_lines_alone(const StrandRequest& request)
+{
+    const std::string text = file_bytes(request.path);
+    obj::Statements statements(text);
+    obj::Statement statement {};
+    bool has_lines = false;
+    while (statements.next(statement)) {
+        if (statement.keyword == "f")
+            return false;
+        has_lines = has_lines || statement.keyword == "l";
+    }
+    return has_lines;
+}
+
 bool read_obj_lines(Strands& dst, const StrandRequest& request, std::string& error)
 {
     return ObjLines(dst).parse(file_bytes(request.path), error);

@@ -44,10 +44,10 @@ std::string unknown_strand_format()
 const std::vector<StrandFormat>& strand_formats()
 {
     static const std::vector<StrandFormat> formats {
-        { "HAIR", "hair", is_hair, false, read_hair },
-        { "OBJ", "obj", is_obj, true, read_obj_lines },
-        { "glTF 2.0", "gltf glb", is_gltf, true, read_gltf_lines },
-        { "TressFX", "tfx", nullptr, false, read_tfx },
+        { "HAIR", "hair", is_hair, nullptr, read_hair },
+        { "OBJ", "obj", is_obj, has_obj_lines_alone, read_obj_lines },
+        { "glTF 2.0", "gltf glb", is_gltf, has_gltf_lines_alone, read_gltf_lines },
+        { "TressFX", "tfx", nullptr, nullptr, read_tfx },
     };
     return formats;
 }
@@ -55,7 +55,18 @@ const std::vector<StrandFormat>& strand_formats()
 bool is_strand_file(const std::string& path)
 {
     const StrandFormat* format = find_strand_format(path, read_head(path));
-    return format && !format->has_meshes;
+    return format && !format->has_lines_alone;
+}
+
+bool has_lines_alone(const std::string& path)
+{
+    const MeshParams params;
+    const StrandRequest request { path, read_head(path), params, {} };
+    const StrandFormat* format = find_strand_format(path, request.head);
+    bool has_lines = false;
+    if (format && format->has_lines_alone)
+        run_on_deep_stack([&] { has_lines = format->has_lines_alone(request); });
+    return has_lines;
 }
 
 bool read_strands(Strands& dst, const std::string& path, const MeshParams& params, const std::string& radius,

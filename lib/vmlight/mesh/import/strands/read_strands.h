@@ -14,6 +14,9 @@ namespace vmlight {
 /// OBJ and glTF may hold both; of those the caller knows what is wanted.
 bool is_strand_file(const std::string& path);
 
+/// Whether a file of a format that may hold both, OBJ or glTF, has lines and no triangles. Reads all of it.
+bool has_lines_alone(const std::string& path);
+
 /// Read the strands of a TressFX 4 .tfx, a .hair (Cem Yuksel's), an OBJ (its `l` statements) or a glTF 2.0 (primitives
 /// of mode LINE_STRIP, each at the places of its nodes). The format is detected by content, and by the extension only
 /// where content cannot tell.

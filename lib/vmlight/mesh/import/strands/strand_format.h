@@ -30,8 +30,9 @@ struct StrandFormat
     const char *name, *extensions;
     /// Is a file that starts like this certainly of this format? nullptr if content cannot tell.
     bool (*has_content)(const FileHead& head);
-    /// Whether such files are read as meshes too, so that the user says what is wanted.
-    bool has_meshes;
+    /// Of formats of meshes too, where the user says what is wanted: whether a file has lines and no triangles. False
+    /// if it cannot be read. nullptr if there are no meshes.
+    bool (*has_lines_alone)(const StrandRequest& request);
     /// Append the strands of a file, in its own axes.
     /// @returns false, with the reason in `error` (on one line, without the path), if it cannot be read
     bool (*read)(Strands& dst, const StrandRequest& request, std::string& error);
@@ -49,7 +50,9 @@ inline void end_strand(Strands& dst)
 bool read_tfx(Strands& dst, const StrandRequest& request, std::string& error);
 bool is_hair(const FileHead& head);
 bool read_hair(Strands& dst, const StrandRequest& request, std::string& error);
+bool has_obj_lines_alone(const StrandRequest& request);
 bool read_obj_lines(Strands& dst, const StrandRequest& request, std::string& error);
+bool has_gltf_lines_alone(const StrandRequest& request);
 bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& error);
 
 } // namespace vmlight

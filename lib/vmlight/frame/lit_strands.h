@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Strands in a frame: their visibility map, and their light, remade for each rotation.
+#pragma once
+
+#include <vmlight/frame/frame_object.h>
+#include <vmlight/lightmap/sun_light.h>
+#include <vmlight/trace/strand_scene.h>
+#include <vmlight/vismap/strand_map.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vmlight {
+
+class LitStrands : public FrameObject
+{
+public:
+    /// Read the strands, with the radius of the recipe.
+    bool open(const ObjectRecipe& recipe, const MakeOptions& options, std::string& error) override;
+
+    /// White: files of strands have no materials.
+    bool read_materials(const std::string&, const std::string&, const MakeOptions&, std::string&) override
+    {
+        return true;
+    }
+
+    /// Models of surfaces, and the reference, are replaced by the best of strands, with a warning. Suns are traced;
+    /// there is no bounce. The light must be a stack, or the environment.
+    bool light(const SceneLight& light, const LightmapParams& params, const ReferenceParams& reference,
+               const MakeOptions& options, std::string& error, std::string* used = nullptr) override;
+
+private:
+    bool prepare_scene(const MakeOptions& options, std::string& error);
+    bool prepare_map(const std::string& model, const MakeOptions& options, std::string& error);
+    bool read_map(OIIO::ImageBuf& dst, const MakeOptions& options, std::string& error);
+    bool bake_map(OIIO::ImageBuf& dst, const MakeOptions& options, std::string& error);
+    bool filter_light(const SceneLight& light, const MakeOptions& options, std::string& error);
+    bool trace_suns(SunLight& dst, const SceneLight& light, const LightmapParams& params, const MakeOptions& options,
+                    std::string& error);
+    const std::vector<float>& weights(int, const OIIO::ImageBuf&, int) override { return m_all; }
+
+    std::shared_ptr<const Strands> m_strands;
+    StrandLayout m_layout;
+    std::unique_ptr<StrandScene> m_scene;
+    OIIO::ImageBuf m_sine; // the light filtered for the model `ao`
+    std::string m_suns_key; // what m_suns were traced for
+    SunLight m_suns;
+    const std::vector<float> m_all; // every texel counts
+    bool m_has_warned = false;
+};
+
+} // namespace vmlight
