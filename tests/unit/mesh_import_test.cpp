@@ -227,7 +227,9 @@ TEST_F(MeshFiles, AFormatOfItsOwnIsRefusedLikeAny)
     EXPECT_EQ(reason("a.tri", tri(2)), "a triangle of \"leaf\" uses vertex 7, but there are only 3");
     EXPECT_EQ(reason("a.tri", tri(std::nanf(""))).find("vertex 2 of \"leaf\" is not finite"), 0u);
     EXPECT_EQ(reason("a", "noise"),
-              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, Tri");
-    EXPECT_EQ(refusal(folder.write("a", tri())),
-              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic");
+              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, height image, scene "
+              "list, Tri");
+    EXPECT_EQ(
+        refusal(folder.write("a", tri())),
+        "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, height image, scene list");
 }

@@ -2,8 +2,10 @@
 #include <vmlight/trace/bake_scene.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/opacity_hash.h>
 #include <vmlight/trace/horizon.h>
+#include <vmlight/trace/instance_boxes.h>
 #include <vmlight/trace/surface.h>
 
 #include <algorithm>
@@ -12,9 +14,6 @@
 
 namespace vmlight {
 namespace {
-
-// Embree silently ignores geometry farther away than 1.8e18.
-constexpr double kFarthestCaster = 1e18;
 
 int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
 {
@@ -70,7 +69,7 @@ bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
                 mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
             return false;
         }
-    return true;
+    return check_instance_reach(mesh, frame, error);
 }
 
 void BakeScene::measure()
@@ -90,7 +89,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     for (const Mesh& occluder : occluders)
         casters.push_back(&occluder);
     for (const Mesh* caster : casters)
-        if (!check_mesh(*caster, error))
+        if (!check_mesh(*caster, error) || !check_instances(*caster, error))
             return false;
     m_frame = SceneFrame::around(*mesh);
     for (const Mesh* caster : casters)
@@ -103,7 +102,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     for (const Mesh& caster : occluders)
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
     for (const Mesh* caster : casters) {
-        m_triangles += int64_t(caster->triangles.size());
+        m_triangles += held_triangles(*caster);
         m_opacity_hashes += (caster == casters[0] ? "" : ",") + opacity_hash(*caster);
         for (const std::string& warning : caster->warnings)
             m_warnings.push_back(format("\"{}\": {}", caster->path.empty() ? caster->name : caster->path, warning));
@@ -128,6 +127,8 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
+        for (const SceneBox& instance : instance_boxes(occluder, m_frame))
+            box.add(instance);
         const bool is_traced = m_reach.back().is_traced(m_choice, m_reach.size() - 1);
         casters.push_back(is_traced ? &occluder : nullptr);
         if (is_traced)
@@ -136,7 +137,7 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
     const auto occluder = std::make_shared<Occluder>();
     m_occluder = occluder;
-    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step);
+    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step, m_choice.instances);
 }
 
 bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,
@@ -175,8 +176,10 @@ const CasterReach* BakeScene::culled_occluder() const
 
 size_t BakeScene::bytes() const
 {
-    // Embree needs about 100 bytes per triangle.
-    return (m_whole ? m_whole->bytes() : 100 * size_t(m_triangles) + m_occluder->cutouts().bytes)
+    // Embree needs about 100 bytes per triangle, and with what is kept here of its place 700 per instance.
+    return (m_whole ? m_whole->bytes()
+                    : 100 * size_t(m_triangles) + 700 * size_t(m_occluder->instances().instances)
+                    + m_occluder->cutouts().bytes)
         + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
 }
 

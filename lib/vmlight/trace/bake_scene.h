@@ -50,7 +50,7 @@ public:
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
     /// opacity_hash() of all meshes, separated by commas; of a part, those of the whole.
     const std::string& opacity_hashes() const { return m_opacity_hashes; }
-    /// Triangles of the mesh and all occluders.
+    /// Triangles of the mesh and all occluders, those of instances once.
     int64_t triangle_count() const { return m_triangles; }
     /// Triangles of the mesh that are smaller than kTinyTriangle.
     int64_t tiny_triangles() const { return m_tiny; }
@@ -94,6 +94,9 @@ private:
     std::vector<int> m_casters;
     std::vector<CasterReach> m_reach;
 };
+
+/// Embree silently ignores geometry farther away than 1.8e18.
+constexpr double kFarthestCaster = 1e18;
 
 /// False, with the reason in `error`, if a vertex of `mesh` is too far away to be traced in this frame.
 bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error);

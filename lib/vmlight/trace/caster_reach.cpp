@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/caster_reach.h>
 
+#include <vmlight/mesh/instances.h>
 #include <vmlight/trace/horizon.h>
+#include <vmlight/trace/instance_boxes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +28,16 @@ bool hides_all(const Horizon& horizon, const Mesh& occluder, const SceneFrame& f
     return true;
 }
 
-bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& box, const SceneFrame& frame,
-                      int64_t& tests)
+bool hides_all(const Horizon& horizon, const std::vector<SceneBox>& boxes, int64_t& left)
+{
+    for (const SceneBox& box : boxes)
+        if (--left < 0 || !horizon.hides(box))
+            return false;
+    return true;
+}
+
+bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const std::vector<SceneBox>& instances,
+                      const SceneBox& box, const SceneFrame& frame, int64_t& tests)
 {
     int64_t left = kVertices;
     bool is_below = true;
@@ -40,7 +50,8 @@ bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& bo
             corners[k] = V3d(frame.to_scene(mesh.positions[triangle[k]]));
         const Horizon horizon(corners, normal);
         ++tests;
-        is_below = horizon.hides(box) || hides_all(horizon, occluder, frame, left);
+        is_below
+            = horizon.hides(box) || (hides_all(horizon, occluder, frame, left) && hides_all(horizon, instances, left));
         if (!is_below)
             break;
     }
@@ -63,14 +74,17 @@ CasterReach find_reach(const Mesh& mesh, const Mesh& occluder, const SceneFrame&
 {
     CasterReach found;
     found.name = occluder.name;
-    found.triangles = int64_t(occluder.triangles.size());
-    const SceneBox box = scene_box(occluder, frame);
-    const double gap = occluder.triangles.empty() ? 0 : std::sqrt(box.distance2(scene_box(mesh, frame)));
+    found.triangles = int64_t(occluder.triangles.size()) + (occluder.instances ? occluder.instances->triangles() : 0);
+    SceneBox box = scene_box(occluder, frame);
+    const std::vector<SceneBox> instances = instance_boxes(occluder, frame);
+    for (const SceneBox& instance : instances)
+        box.add(instance);
+    const double gap = found.triangles == 0 ? 0 : std::sqrt(box.distance2(scene_box(mesh, frame)));
     found.gap = gap / frame.scale;
     // Ray origins are off the surface, and boxes and lengths are floats.
     if (gap > choice.reach * frame.scale * (1 + 1e-5) + 4 * kRayOffset)
         found.verdict = CasterReach::too_far;
-    else if (is_below_horizon(mesh, occluder, box, frame, found.tests))
+    else if (is_below_horizon(mesh, occluder, instances, box, frame, found.tests))
         found.verdict = CasterReach::below_horizon;
     return found;
 }

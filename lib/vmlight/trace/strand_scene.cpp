@@ -3,6 +3,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/strand_curve.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/embree_scene.h>
@@ -125,10 +126,10 @@ bool StrandScene::build(const Strands& strands, const std::vector<Mesh>& occlude
     m_frame = SceneFrame::around(low, high);
     std::vector<const Mesh*> casters;
     for (const Mesh& occluder : occluders) {
-        if (!check_mesh(occluder, error) || !check_reach(occluder, m_frame, error))
+        if (!check_mesh(occluder, error) || !check_instances(occluder, error) || !check_reach(occluder, m_frame, error))
             return false;
         casters.push_back(&occluder);
-        m_triangles += int64_t(occluder.triangles.size());
+        m_triangles += held_triangles(occluder);
     }
     m_has_meshes = !casters.empty();
     begin_step(at_step, "build");
