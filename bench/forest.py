@@ -109,7 +109,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         terrain = os.path.join(folder, "terrain.png")
         write_terrain(terrain)
-        bake = [terrain, "--height", f"{SPACING}m/px", "--height-scale", HIGHEST, "--resolution", resolution, "--samples", 16]
+        bake = [terrain, "--terrain", f"{SPACING}m/px", "--height-scale", HIGHEST, "--resolution", resolution, "--samples", 16]
         bare = None
         for trees in (0, count // 100, count // 10, count):
             forest = os.path.join(folder, "forest.glb")

@@ -48,7 +48,7 @@ protected:
     static MeshParams spaced(const char* spacing, double scale = 1)
     {
         MeshParams params;
-        params.height = spacing;
+        params.terrain = spacing;
         params.height_scale = scale;
         return params;
     }
@@ -184,9 +184,9 @@ TEST_F(HeightField, ADataWindowKeepsItsPlaceInThePicture)
 TEST_F(HeightField, WhatIsNoTerrainIsRefused)
 {
     const std::string flat = write_image("a.exr", 2, 2, [](int, int) { return 0.f; });
-    EXPECT_THAT(said(flat, {}), HasSubstr("give the distance between its pixels, as in --height 1.5m/px"));
+    EXPECT_THAT(said(flat, {}), HasSubstr("give the distance between its pixels, as in --terrain 1.5m/px"));
     for (const char* bad : { "0", "-1", "x", "1.5km/px", "1.5m", "nan", "inf", "1 2" })
-        EXPECT_THAT(said(flat, spaced(bad)), HasSubstr(std::string("height: \"") + bad + "\" is not the distance"))
+        EXPECT_THAT(said(flat, spaced(bad)), HasSubstr(std::string("terrain: \"") + bad + "\" is not the distance"))
             << bad;
     EXPECT_THAT(said(write_image("thin.exr", 1, 5, [](int, int) { return 0.f; }), spaced("1")),
                 HasSubstr("at least 2x2"));
@@ -201,8 +201,8 @@ TEST_F(HeightField, WhatIsNoTerrainIsRefused)
     EXPECT_EQ(spacing, 0.1) << "in double";
     VismapRecipe recipe;
     recipe.mesh = folder.write("m.obj", kQuadObj);
-    recipe.mesh_params.height = "1";
-    EXPECT_EQ(unused_reason(recipe, "height"), "neither the mesh nor an occluder is an image of heights");
+    recipe.mesh_params.terrain = "1";
+    EXPECT_EQ(unused_reason(recipe, "terrain"), "neither the mesh nor an occluder is an image of heights");
     recipe.occluder = { flat };
-    EXPECT_EQ(unused_reason(recipe, "height"), "");
+    EXPECT_EQ(unused_reason(recipe, "terrain"), "");
 }

@@ -25,7 +25,7 @@ using Imath::M44d;
 
 namespace {
 
-const float kEndless = std::numeric_limits<float>::infinity();
+const float kInfinite = std::numeric_limits<float>::infinity();
 
 Mesh with_places(const Mesh& distinct, const std::vector<M44d>& places)
 {
@@ -81,7 +81,7 @@ struct TracedPlaces
             }
             for (uint8_t& packet : fan.lanes)
                 packet = 0xff;
-            occluder.clear_blocked(fan, V3f(normal(random), normal(random), normal(random)), kEndless, is_near);
+            occluder.clear_blocked(fan, V3f(normal(random), normal(random), normal(random)), kInfinite, is_near);
             lanes.insert(lanes.end(), fan.lanes.begin(), fan.lanes.end());
         }
         return lanes;
@@ -170,7 +170,7 @@ TEST(Instances, NearestHitsAreThoseOfTheirTriangles)
         for (int k = 0; k < kPacketSize; ++k) {
             origins[k] = V3f(normal(random), normal(random), normal(random));
             directions[k] = V3f(normal(random), normal(random), normal(random)).normalized();
-            lengths[k] = kEndless;
+            lengths[k] = kInfinite;
         }
         instances.occluder.find_nearest(origins, directions, lengths, kPacketSize, a);
         triangles.occluder.find_nearest(origins, directions, lengths, kPacketSize, b);
@@ -257,7 +257,7 @@ TEST(Instances, CutOutsAreWhereTheyAreOnTheirTriangles)
                 fan.x[k] = d.x, fan.y[k] = d.y, fan.z[k] = d.z;
             }
             fan.lanes[0] = 0xff;
-            scene.occluder.clear_blocked(fan, V3f(0), kEndless);
+            scene.occluder.clear_blocked(fan, V3f(0), kInfinite);
             passed += bits(fan.lanes[0]);
         }
         EXPECT_NEAR(passed / 8000.0, 0.36, 5 * std::sqrt(0.36 * 0.64 / 8000));
@@ -286,7 +286,7 @@ TEST(Instances, WhatFloatsWouldMoveTooFarIsTriangles)
     EXPECT_EQ(scene.occluder.instances().instances, 1);
     const V3f up(0, 0, 1), origins[kPacketSize] = { V3f(40, 0, -5), V3f(3, 0, -5), V3f(3, 3, -5) };
     const V3f directions[kPacketSize] = { up, up, up, up, up, up, up, up };
-    EXPECT_EQ(scene.occluder.find_blocked(origins, directions, 3, kEndless), 3);
+    EXPECT_EQ(scene.occluder.find_blocked(origins, directions, 3, kInfinite), 3);
 }
 
 TEST(Instances, FewCopiesAreTheTrianglesThatTheyWouldBeAlone)

@@ -97,7 +97,7 @@ struct MeshParams
     double frame = kFirstSample;
     double fps = 24;
     /// Of images of heights: the distance between pixels in mesh units, as "1.5m/px" or "1.5". "" refuses them.
-    std::string height;
+    std::string terrain;
     /// Times what pixels say, in mesh units; integers say 0 to 1.
     double height_scale = 1;
 
@@ -119,7 +119,7 @@ struct MeshParams
         field("frame", frame, Range { -999999, 999999, "first", kFirstSample },
               "Frame of an animated Alembic mesh and its occluders; may have a fraction. first: the first sample");
         field("fps", fps, Range { 1e-3, 1e4 }, advanced("Frames per second that frame counts in"));
-        field("height", height, Text {},
+        field("terrain", terrain, Text {},
               "Read images as terrain, with this distance between pixels in mesh units, as in 1.5m/px");
         field("height_scale", height_scale, Range { 1e-9, 1e9 },
               "Height of a pixel with the value 1, in mesh units; integer pixels have 0 to 1");

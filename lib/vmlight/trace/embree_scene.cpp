@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/embree_scene.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/trace/exact_hit.h>
 
@@ -14,8 +15,14 @@ using Imath::V3f;
 
 namespace {
 
-// From here on a scene takes less memory, and rays a little longer.
-constexpr size_t kManyTriangles = size_t(1) << 22;
+// A triangle takes 65 bytes of a BVH, or 35 of a compact one, through which rays take half as long again. Both meet the
+// same triangles, so that it may depend on the machine which it is.
+constexpr double kBytesOfTriangle = 65;
+bool must_be_compact(size_t triangles)
+{
+    constexpr double kMost = size_t(1) << 22; // to ask takes reading files of the system
+    return double(triangles) > kMost && kBytesOfTriangle * double(triangles) > 0.25 * double(available_memory());
+}
 
 // Bits that are those of no other ray of a texel: where it starts and where it goes are a function of texel, ray and
 // seed, so that a number for each ray need not be passed along.
@@ -118,10 +125,10 @@ void Scene::Part::release()
     scene = nullptr;
 }
 
-void Scene::start(Part& part, bool is_large)
+void Scene::start(Part& part, bool is_compact)
 {
     part.scene = rtcNewScene(m_device);
-    const RTCSceneFlags size = is_large ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE;
+    const RTCSceneFlags size = is_compact ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE;
     rtcSetSceneFlags(part.scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilteredByQuery | size));
 }
 
@@ -211,7 +218,7 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
         triangles += mesh->triangles.size();
     Part& whole = scene->m_whole;
     whole.frame = frame;
-    scene->start(whole, triangles > kManyTriangles);
+    scene->start(whole, must_be_compact(triangles));
     bool good = true;
     for (size_t id = 0; id < meshes.size() && good; ++id) {
         const size_t first = whole.buffers.size();

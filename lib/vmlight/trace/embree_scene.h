@@ -99,7 +99,7 @@ private:
         SceneFrame frame;
         std::deque<Buffers> buffers; // Embree keeps pointers to its elements
     };
-    void start(Part& part, bool is_large);
+    void start(Part& part, bool is_compact);
     bool attach(Part& part, const Mesh& mesh, unsigned id);
     bool attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, unsigned id, unsigned mixed_id);
     bool attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& triangles,

@@ -105,7 +105,7 @@ bool parse_pixel_spacing(double& dst, const std::string& text, std::string& erro
     const bool is_number = OIIO::Strutil::parse_float(rest, spacing);
     OIIO::Strutil::skip_whitespace(rest);
     if (!is_number || !(spacing > 0) || !std::isfinite(spacing) || !(rest.empty() || rest == "m/px")) {
-        error = format("height: \"{}\" is not the distance between pixels, such as 1.5m/px or 1.5", text);
+        error = format("terrain: \"{}\" is not the distance between pixels, such as 1.5m/px or 1.5", text);
         return false;
     }
     // All digits: parse_float() has checked the form.
@@ -117,11 +117,11 @@ bool read_height_field(MeshBuilder& dst, const ImportRequest& request, std::stri
 {
     const MeshParams& params = dst.params();
     HeightGrid grid;
-    if (params.height.empty()) {
-        error = "an image: to read it as terrain, give the distance between its pixels, as in --height 1.5m/px";
+    if (params.terrain.empty()) {
+        error = "an image: to read it as terrain, give the distance between its pixels, as in --terrain 1.5m/px";
         return false;
     }
-    if (!parse_pixel_spacing(grid.spacing, params.height, error))
+    if (!parse_pixel_spacing(grid.spacing, params.terrain, error))
         return false;
     if (request.before_open)
         request.before_open(request.path);

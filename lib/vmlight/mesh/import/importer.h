@@ -66,7 +66,7 @@ struct MeshFormat
     bool (*read)(MeshBuilder& dst, const ImportRequest& request, std::string& error);
     /// Does it hold meshes that change over time? Their `read` follows MeshParams::frame.
     bool has_time = false;
-    /// Are its files images of heights? Their `read` follows MeshParams::height.
+    /// Are its files images of heights? Their `read` follows MeshParams::terrain.
     bool has_heights = false;
 };
 
@@ -89,7 +89,7 @@ bool is_mesh_name(const std::string& path);
 /// Can what is read of a file depend on MeshParams::frame? By its content; of a file that cannot be read, by its name.
 bool has_time(const std::string& path);
 
-/// Is it an image of heights, which MeshParams::height is for? As has_time().
+/// Is it an image of heights, which MeshParams::terrain is for? As has_time().
 bool has_heights(const std::string& path);
 
 /// As read_mesh(), for a table of formats.
