@@ -7,8 +7,10 @@
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/instance_plan.h>
 #include <vmlight/trace/occluder.h>
+#include <vmlight/trace/posed_parts.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/light_transport.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -365,5 +367,21 @@ TEST(Instances, PlacedMeshesKeepTheirOutside)
         const V3d normal = triangle_area_normal(mirrored, triangle);
         EXPECT_GT(normal.dot(mirrored.positions[triangle[0]] - V3d(1, 2, 3)), 0);
         EXPECT_GT(normal.dot(V3d(mirrored.normals[triangle[0]])), 0);
+    }
+}
+
+TEST(Instances, WhatCannotBeDoneWithThemIsSaid)
+{
+    const Mesh floor = floor_facing_z(1);
+    const Mesh balls = with_places(icosphere(1), { placed_at(V3d(0.3), V3d(0), V3d(0, 0, 1)) });
+    for (const InstanceMode mode : { InstanceMode::all, InstanceMode::none }) {
+        const BakeScenePointer scene = scene_with(floor, { balls }, mode);
+        LightTransport transport;
+        std::string error;
+        EXPECT_FALSE(transport.prepare(scene, small_map(8, 4), {}, {}, error));
+        EXPECT_THAT(error, testing::HasSubstr("an occluder has instances, whose light is not traced"));
+        std::string fault;
+        EXPECT_TRUE(match_parts(*scene, *scene, fault).empty());
+        EXPECT_EQ(fault, "instances are not compared");
     }
 }

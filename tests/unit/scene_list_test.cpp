@@ -250,3 +250,28 @@ TEST_F(SceneList, MillionsOfInstancesFitWhereTheirTrianglesWouldNot)
     EXPECT_EQ(caster.instances->places.size(), 50000u);
     EXPECT_EQ(caster.instances->triangles(), int64_t(50000) * (100000 / 3));
 }
+
+TEST_F(SceneList, MaterialsOfInstancesAreCutOut)
+{
+    folder.write("roof.mtl", "newmtl Glass\nd 0\nnewmtl Tile\n");
+    const std::string corners = "mtllib roof.mtl\nv 0 0 1\nv 2 0 1\nv 2 3 1\nv 0 3 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    folder.write("glass.obj", corners + "usemtl Glass\nf 1/1 2/2 3/3 4/4\n");
+    folder.write("tile.obj", corners + "usemtl Tile\nf 1/1 2/2 3/3 4/4\n");
+    const auto cutouts = [&](const char* roof, const char* mode) {
+        VismapRecipe recipe;
+        recipe.mesh = folder.write("floor.obj", kQuadObj);
+        recipe.occluder
+            = { folder.write("roof.toml", std::string("[[instance]]\nmesh = \"") + roof + "\"\nscale = [3, 3, 1]\n") };
+        recipe.cutout_params.cutouts = mode;
+        SceneStamps stamps;
+        BakeScenePointer scene;
+        std::string at, error;
+        EXPECT_TRUE(stamp_scene(stamps, recipe, at, error)) << error;
+        EXPECT_TRUE(share_scene(scene, recipe, stamps, 1, nullptr, at, error)) << error;
+        EXPECT_EQ(scene->opacity_hashes() == ",", scene->occluder().cutouts().triangles == 0);
+        return scene->occluder().cutouts();
+    };
+    EXPECT_EQ(cutouts("glass.obj", "auto").transparent, 2);
+    EXPECT_EQ(cutouts("glass.obj", "off").triangles, 0);
+    EXPECT_EQ(cutouts("tile.obj", "auto").triangles, 0);
+}
