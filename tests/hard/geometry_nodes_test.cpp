@@ -176,7 +176,8 @@ TEST(Geometry, FormatsThatNobodyLooksAt)
     HardCase row("An X3D, also under the name of an STL; a glTF 1.0; a zip archive");
     row.naive("assimp 5.2 reads what it takes the content for; some formats crash it (measured)");
     const TemporaryFolder folder;
-    const std::string none = "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic";
+    const std::string none
+        = "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, height image, scene list";
     const std::string x3d
         = "<?xml version=\"1.0\"?><X3D version=\"3.0\"><Scene><Shape><IndexedTriangleSet index=\"0 1 2\">"
           "<Coordinate point=\"0 0 0 1 0 0 0 1 0\"/></IndexedTriangleSet></Shape></Scene></X3D>";

@@ -3,6 +3,7 @@
 #include "temporary_folder.h"
 
 #include <vmlight/base/available_memory.h>
+#include <vmlight/stage/forecast_costs.h>
 
 #include <limits>
 
@@ -75,4 +76,17 @@ TEST(MemoryNeed, RefusesWhatNoMachineHolds)
     EXPECT_EQ(memory_shortage(OIIO::ImageSpec()), "");
     const std::string fault = memory_shortage(OIIO::ImageSpec(1 << 30, 1 << 30, 16));
     EXPECT_EQ(fault.find("1073741824x1073741824 pixels of 16 channels need "), 0u) << fault;
+}
+
+TEST(ExpectedBytes, AreNoLessThanWhatTheInputsTook)
+{
+    constexpr size_t kBytes = size_t(1) << 28;
+    const OIIO::ImageSpec small(4, 4, 4, OIIO::TypeFloat);
+    const double before = vmlight::expected_bytes(small, 1);
+    {
+        const std::vector<char> input(kBytes, 1);
+        EXPECT_EQ(input[kBytes / 2], 1);
+    }
+    EXPECT_GE(vmlight::expected_bytes(small, 1), double(kBytes));
+    EXPECT_GE(vmlight::expected_bytes(small, 1), before);
 }

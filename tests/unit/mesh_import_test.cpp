@@ -152,6 +152,8 @@ TEST_F(MeshFiles, EachFormatIsReadWhateverTheFileIsCalled)
     for (const MeshFormat& format : mesh_formats()) {
         if (std::string(format.name) == "Alembic") // its files are written by its library: alembic_test.cpp
             continue;
+        if (format.has_heights) // more than a triangle: height_field_test.cpp, scene_list_test.cpp
+            continue;
         ASSERT_GT(all.count(format.name), 0u) << "add a sample of " << format.name;
         const std::string usual = OIIO::Strutil::splits(format.extensions).front();
         for (auto [sample, end] = all.equal_range(format.name); sample != end; ++sample)
@@ -176,7 +178,7 @@ TEST_F(MeshFiles, TheExtensionCountsWhereContentCannotTell)
         }
     EXPECT_EQ(format_of("a", "obj"), nullptr);
     EXPECT_EQ(format_of("a.txt", "various things"), nullptr);
-    EXPECT_EQ(format_of("a.png", "\x89PNG\r\n\x1a\n\nv 1 2 3\n"), nullptr);
+    EXPECT_EQ(format_of("a.png", "\x89PNG\r\n\x1a\n\nv 1 2 3\n")->name, std::string("height image"));
     EXPECT_EQ(format_of("a", "{\"scene\":0}"), nullptr);
     EXPECT_EQ(format_of("a", utf16(kCollada))->name, std::string("Collada"));
     EXPECT_EQ(format_of("a.obj", std::string(5000, '#') + "\nv 0 0 0\n")->name, std::string("OBJ"));
@@ -227,7 +229,9 @@ TEST_F(MeshFiles, AFormatOfItsOwnIsRefusedLikeAny)
     EXPECT_EQ(reason("a.tri", tri(2)), "a triangle of \"leaf\" uses vertex 7, but there are only 3");
     EXPECT_EQ(reason("a.tri", tri(std::nanf(""))).find("vertex 2 of \"leaf\" is not finite"), 0u);
     EXPECT_EQ(reason("a", "noise"),
-              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, Tri");
-    EXPECT_EQ(refusal(folder.write("a", tri())),
-              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic");
+              "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, height image, scene "
+              "list, Tri");
+    EXPECT_EQ(
+        refusal(folder.write("a", tri())),
+        "unknown mesh format; supported: OBJ, PLY, STL, glTF 2.0, Collada, FBX, Alembic, height image, scene list");
 }

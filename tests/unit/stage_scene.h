@@ -68,7 +68,7 @@ public:
         EXPECT_TRUE(read_mesh(mesh, *this / "spot.obj", {}, error)) << error;
         EXPECT_TRUE(make_vismap(image, mesh, {}, params)) << image.geterror();
         append_params(image.specmod(), MeshParams {});
-        for (const char* name : { "frame", "fps" }) // no frame is given
+        for (const char* name : { "frame", "fps", "terrain", "height_scale" }) // none is given
             image.specmod().erase_attribute(metadata_name(name));
         return image;
     }

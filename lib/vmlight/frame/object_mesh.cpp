@@ -26,6 +26,10 @@ bool read_part(Mesh& dst, const VismapRecipe& recipe, int uv_set, std::string& e
     params.uv_set = uv_set;
     if (!read_mesh(dst, recipe.mesh, params, error))
         return false;
+    if (dst.instances) {
+        error = format("\"{}\": a scene list, whose instances are not drawn; bake it with makevismap", recipe.mesh);
+        return false;
+    }
     if (recipe.selection.is_all())
         return true;
     std::vector<bool> chosen;

@@ -2,11 +2,13 @@
 #include <vmlight/mesh/mesh.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/strands.h>
 
 #include <OpenImageIO/hash.h>
 
 #include <array>
+#include <vector>
 
 namespace vmlight {
 
@@ -20,8 +22,19 @@ std::string mesh_hash(const Mesh& mesh)
     };
     const std::array<uint64_t, 4> parts { fingerprint(mesh.positions), fingerprint(mesh.normals), fingerprint(mesh.uvs),
                                           fingerprint(mesh.triangles) };
-    const uint64_t hash = fingerprint(parts);
-    return format("{:016x}", hash);
+    const std::string own = format("{:016x}", fingerprint(parts));
+    if (!mesh.instances)
+        return own;
+    std::string all = own;
+    for (const Mesh& distinct : mesh.instances->meshes)
+        all += mesh_hash(distinct);
+    std::vector<double> places;
+    for (const MeshInstances::Place& place : mesh.instances->places) {
+        places.push_back(place.mesh);
+        places.insert(places.end(), place.to_object.getValue(), place.to_object.getValue() + 16);
+    }
+    const std::array<uint64_t, 2> whole { fingerprint(all), fingerprint(places) };
+    return format("{:016x}", fingerprint(whole));
 }
 
 } // namespace vmlight

@@ -39,6 +39,7 @@ struct MeshCamera
 };
 
 struct MeshOpacity;
+struct MeshInstances;
 struct Strands;
 
 /// Triangles in object space (the file's own, right-handed, y up), counter-clockwise seen from outside. Every vertex
@@ -68,6 +69,8 @@ struct Mesh
     std::shared_ptr<const MeshOpacity> opacity;
     /// What an occluder has instead of triangles that is a file of strands; nullptr for none.
     std::shared_ptr<const Strands> strands;
+    /// What else the file shows, and only casts: meshes in many places; nullptr: nothing. See read_instanced_mesh().
+    std::shared_ptr<MeshInstances> instances;
     /// Parents come before their children.
     std::vector<MeshNode> nodes;
     /// Of formats whose reader knows them: glTF.
@@ -96,6 +99,10 @@ struct MeshParams
     /// it stands still. kFirstSample is the first sample of everything; as text, only the word "first" is.
     double frame = kFirstSample;
     double fps = 24;
+    /// Of images of heights: the distance between pixels in mesh units, as "1.5m/px" or "1.5". "" refuses them.
+    std::string terrain;
+    /// Times what pixels say, in mesh units; integers say 0 to 1.
+    double height_scale = 1;
 
     template <class Visit> void visit(Visit&& field)
     {
@@ -115,6 +122,10 @@ struct MeshParams
         field("frame", frame, Range { -999999, 999999, "first", kFirstSample },
               "Frame of an animated Alembic mesh and its occluders; may have a fraction. first: the first sample");
         field("fps", fps, Range { 1e-3, 1e4 }, advanced("Frames per second that frame counts in"));
+        field("terrain", terrain, Text {},
+              "Read images as terrain, with this distance between pixels in mesh units, as in 1.5m/px");
+        field("height_scale", height_scale, Range { 1e-9, 1e9 },
+              "Height of a pixel with the value 1, in mesh units; integer pixels have 0 to 1");
     }
 };
 

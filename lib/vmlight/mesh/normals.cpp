@@ -15,10 +15,11 @@ using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
 
-// Rebuild the vertices from corners: corner_normal(t, triangle, k) is the normal of corner k of triangle t.
-template <class CornerNormal> void rebuild(Mesh& mesh, const CornerNormal& corner_normal)
+// Rebuild the vertices from corners: corner_normal(t, triangle, k) is the normal of corner k of triangle t. At most
+// `most` will differ.
+template <class CornerNormal> void rebuild(Mesh& mesh, size_t most, const CornerNormal& corner_normal)
 {
-    UniqueIndex<VertexKey> vertices(mesh.triangles.size() * 3);
+    UniqueIndex<VertexKey> vertices(std::min(most, mesh.triangles.size() * 3));
     const bool has_uvs = !mesh.uvs.empty();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() needs all three
@@ -139,7 +140,7 @@ struct TriangleFans
 
 void make_flat_normals(Mesh& mesh)
 {
-    rebuild(mesh,
+    rebuild(mesh, mesh.triangles.size() * 3,
             [&](size_t, const auto& triangle, int) { return V3f(triangle_area_normal(mesh, triangle).normalized()); });
 }
 
@@ -157,7 +158,7 @@ void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uin
     }
     const TriangleFans fans(mesh);
     const Smoothing smoothing(crease_angle, seam_angle, groups);
-    rebuild(mesh, [&](size_t t, const auto& triangle, int k) {
+    rebuild(mesh, mesh.triangles.size() * 3, [&](size_t t, const auto& triangle, int k) {
         const uint32_t vertex = triangle[k];
         const V3f& normal = mesh.normals[vertex];
         return is_missing_normal(normal) ? fans.smooth_normal(mesh, vertex, uint32_t(t), smoothing) : normal;
@@ -166,7 +167,8 @@ void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uin
 
 void merge_equal_vertices(Mesh& mesh)
 {
-    rebuild(mesh, [&](size_t, const auto& triangle, int k) { return mesh.normals[triangle[k]]; });
+    rebuild(mesh, mesh.positions.size(),
+            [&](size_t, const auto& triangle, int k) { return mesh.normals[triangle[k]]; });
 }
 
 } // namespace vmlight

@@ -2,6 +2,7 @@
 #include <vmlight/mesh/opacity_hash.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/opacity.h>
 
 #include <OpenImageIO/hash.h>
@@ -22,6 +23,16 @@ template <class Element> uint64_t fingerprint_of(const std::vector<Element>& ele
 
 std::string opacity_hash(const Mesh& mesh)
 {
+    if (mesh.instances) {
+        std::string all;
+        for (const Mesh& distinct : mesh.instances->meshes)
+            all += opacity_hash(distinct);
+        Mesh own;
+        own.opacity = mesh.opacity;
+        own.triangle_materials = mesh.triangle_materials;
+        const std::string first = opacity_hash(own);
+        return all.empty() ? first : format("{}{:016x}", first, OIIO::farmhash::Fingerprint64(all.data(), all.size()));
+    }
     if (!mesh.opacity)
         return "";
     std::vector<uint64_t> parts { fingerprint_of(mesh.triangle_materials) };

@@ -4,10 +4,13 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel.h>
 
+#include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
 #include <ctime>
+#include <fstream>
+#include <string>
 
 namespace vmlight {
 namespace {
@@ -15,6 +18,16 @@ namespace {
 // CPU seconds per texel and channel, to compress the file on all threads. Measured on maps of 1024 and 2048, half
 // covered.
 constexpr double kWriteSeconds = 100e-9;
+
+// The most that the process has held so far; 0 if that is not known.
+double peak_bytes()
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (OIIO::Strutil::starts_with(line, "VmHWM:"))
+            return 1024.0 * double(OIIO::Strutil::stoi(line.substr(6)));
+    return 0;
+}
 
 double values_of(const OIIO::ImageSpec& spec)
 {
@@ -55,7 +68,8 @@ std::string Forecasts::text() const
 
 double expected_bytes(const OIIO::ImageSpec& spec, double images)
 {
-    return double(OIIO::Sysutil::memory_used(true)) + values_of(spec) * sizeof(float) * images;
+    const double held = double(OIIO::Sysutil::memory_used(true));
+    return std::max(peak_bytes(), held + values_of(spec) * sizeof(float) * images);
 }
 
 } // namespace vmlight

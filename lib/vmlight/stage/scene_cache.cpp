@@ -3,9 +3,11 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/base/work_counts.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/import/strands/read_strands.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/cutouts.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
@@ -104,6 +106,12 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     for (size_t i = 0; i < stamps.files.size(); ++i)
         if (!read_scene_file(i ? occluders[i - 1] : *mesh, scene->files, recipe, stamps, i, at_step, at, error))
             return false;
+    if (mesh->instances) { // they cast, as an occluder does
+        Mesh& rest = occluders.emplace_back();
+        rest.name = mesh->name;
+        rest.path = mesh->path;
+        rest.instances = std::move(mesh->instances);
+    }
     at = recipe.unwrap ? "unwrap" : key_of(0);
     if (recipe.unwrap)
         begin_step(at_step, "unwrap");
@@ -119,6 +127,11 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
         return false;
     ++work_counts().scenes_built;
     seconds = timer();
+    if (const InstanceCounts& counts = scene->occluder().instances(); scene->occluder().has_instances())
+        scene->remarks.push_back(
+            format("instances: {} of {}, {:.4g} triangles; {}", counts.instances,
+                   count_text(counts.distinct, "mesh", "meshes"), double(counts.triangles),
+                   count_text(counts.copies, "further copy is triangles", "further copies are triangles")));
     dst = std::move(scene);
     return true;
 }
@@ -134,6 +147,14 @@ bool build_small_part(BakeScene& dst, const BakeScene& whole, std::shared_ptr<co
     for (size_t i = 1; i < stamps.files.size(); ++i)
         if (!read_scene_file(occluders[i], again, recipe, stamps, i, at_step, at, error))
             return false;
+    if (whole.reach().size() > recipe.occluder.size()) { // what a scene list does not bake
+        Mesh again_whole;
+        if (!read_scene_file(again_whole, again, recipe, stamps, 0, at_step, at, error))
+            return false;
+        occluders.emplace_back().instances = std::move(again_whole.instances);
+        occluders.back().name = again_whole.name;
+        occluders.back().path = again_whole.path;
+    }
     at = key_of(0);
     dst.files = whole.files;
     ++work_counts().scenes_built;
@@ -232,8 +253,8 @@ bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecip
     if (index && is_strand_occluder(recipe, mesh_path))
         return read_strand_occluder(dst, recipe, mesh_path, note, error)
             && check_stamp(stamps.files[index], mesh_path, error);
-    if (!read_mesh(dst, mesh_path, recipe.mesh_params, error, note)
-        || !check_stamp(stamps.files[index], mesh_path, error))
+    const auto read = index ? read_instanced_mesh : read_mesh;
+    if (!read(dst, mesh_path, recipe.mesh_params, error, note) || !check_stamp(stamps.files[index], mesh_path, error))
         return false;
     if (recipe.cutout_params.cutouts == "off")
         return true;
@@ -242,12 +263,26 @@ bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecip
         params.uv_set = uv_set;
         std::string ignored;
         ++work_counts().meshes_read;
-        return read_mesh(again, mesh_path, params, ignored);
+        return read(again, mesh_path, params, ignored, {});
     };
-    if (std::any_of(dst.materials.begin(), dst.materials.end(),
-                    [](const Material& material) { return material.alpha_mode != AlphaMode::opaque; }))
-        begin_step(at_step, "read cut-outs");
-    return read_cutouts(dst, { recipe.mesh_params.uv_set, recipe.unwrap && index == 0, read_again }, &files, error);
+    const auto add_cutouts = [&](Mesh& mesh, bool loses_uvs, const std::function<bool(Mesh&, int)>& again) {
+        if (std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                        [](const Material& material) { return material.alpha_mode != AlphaMode::opaque; }))
+            begin_step(at_step, "read cut-outs");
+        return read_cutouts(mesh, { recipe.mesh_params.uv_set, loses_uvs, again }, &files, error);
+    };
+    for (size_t i = 0; dst.instances && i < dst.instances->meshes.size(); ++i) {
+        const auto read_distinct = [&](Mesh& again, int uv_set) {
+            Mesh whole;
+            if (!read_again(whole, uv_set) || !whole.instances || whole.instances->meshes.size() <= i)
+                return false;
+            again = std::move(whole.instances->meshes[i]);
+            return true;
+        };
+        if (!add_cutouts(dst.instances->meshes[i], false, read_distinct))
+            return false;
+    }
+    return add_cutouts(dst, recipe.unwrap && index == 0, read_again);
 }
 
 bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error)

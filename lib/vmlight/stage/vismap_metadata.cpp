@@ -18,6 +18,9 @@ void append_mesh_metadata(OIIO::ImageSpec& spec, const VismapRecipe& recipe)
     if (recipe.mesh_params.frame == MeshParams::kFirstSample)
         for (const char* name : { "frame", "fps" })
             spec.erase_attribute(metadata_name(name));
+    if (recipe.mesh_params.terrain.empty())
+        for (const char* name : { "terrain", "height_scale" })
+            spec.erase_attribute(metadata_name(name));
     if (recipe.cutout_params.cutouts == "off") // `auto` is known once the files are read
         append_params(spec, recipe.cutout_params);
     if (!recipe.strand_params.radius.empty()) // of occluders

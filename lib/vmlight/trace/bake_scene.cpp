@@ -2,10 +2,12 @@
 #include <vmlight/trace/bake_scene.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/opacity_hash.h>
 #include <vmlight/mesh/strands.h>
 #include <vmlight/trace/curves.h>
 #include <vmlight/trace/horizon.h>
+#include <vmlight/trace/instance_boxes.h>
 #include <vmlight/trace/surface.h>
 
 #include <algorithm>
@@ -14,9 +16,6 @@
 
 namespace vmlight {
 namespace {
-
-// Embree silently ignores geometry farther away than 1.8e18.
-constexpr double kFarthestCaster = 1e18;
 
 int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
 {
@@ -72,6 +71,8 @@ bool check_reach(const Mesh& mesh, const SceneFrame& frame, std::string& error)
                 mesh.path.empty() ? mesh.name : mesh.path, vertex, reach, kFarthestCaster);
             return false;
         }
+    if (!check_instance_reach(mesh, frame, error))
+        return false;
     if (!mesh.strands)
         return true;
     for (size_t p = 0; p < mesh.strands->points.size(); ++p) {
@@ -102,7 +103,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     for (const Mesh& occluder : occluders)
         casters.push_back(&occluder);
     for (const Mesh* caster : casters)
-        if (!check_mesh(*caster, error))
+        if (!check_mesh(*caster, error) || !check_instances(*caster, error))
             return false;
     m_frame = SceneFrame::around(*mesh);
     for (const Mesh* caster : casters)
@@ -115,7 +116,7 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     for (const Mesh& caster : occluders)
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
     for (const Mesh* caster : casters) {
-        m_triangles += int64_t(caster->triangles.size());
+        m_triangles += held_triangles(*caster);
         m_spans += caster->strands ? int64_t(caster->strands->points.size() - caster->strands->count()) : 0;
         m_opacity_hashes += (caster == casters[0] ? "" : ",") + opacity_hash(*caster);
         for (const std::string& warning : caster->warnings)
@@ -141,6 +142,8 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     for (const Mesh& occluder : occluders) {
         m_reach.push_back(find_reach(*m_mesh, occluder, m_frame, m_choice));
         box.add(scene_box(occluder, m_frame));
+        for (const SceneBox& instance : instance_boxes(occluder, m_frame))
+            box.add(instance);
         const bool is_traced = m_reach.back().is_traced(m_choice, m_reach.size() - 1);
         casters.push_back(is_traced ? &occluder : nullptr);
         if (is_traced)
@@ -149,7 +152,7 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
     const auto occluder = std::make_shared<Occluder>();
     m_occluder = occluder;
-    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step);
+    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step, m_choice.instances);
 }
 
 bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,
@@ -189,9 +192,10 @@ const CasterReach* BakeScene::culled_occluder() const
 
 size_t BakeScene::bytes() const
 {
-    // Embree needs about 100 bytes per triangle.
+    // Embree needs about 100 bytes per triangle, and with what is kept here of its place 700 per instance.
     return (m_whole ? m_whole->bytes()
-                    : 100 * size_t(m_triangles) + size_t(kBytesOfSpan) * size_t(m_spans) + m_occluder->cutouts().bytes)
+                    : 100 * size_t(m_triangles) + size_t(kBytesOfSpan) * size_t(m_spans)
+                    + 700 * size_t(m_occluder->instances().instances) + m_occluder->cutouts().bytes)
         + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
 }
 

@@ -50,7 +50,7 @@ public:
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
     /// opacity_hash() of all meshes, separated by commas; of a part, those of the whole.
     const std::string& opacity_hashes() const { return m_opacity_hashes; }
-    /// Triangles of the mesh and all occluders, and spans of strands among them.
+    /// Triangles of the mesh and all occluders, those of instances once; and spans of strands among them.
     int64_t triangle_count() const { return m_triangles; }
     int64_t span_count() const { return m_spans; }
     /// Triangles of the mesh that are smaller than kTinyTriangle.
@@ -95,6 +95,9 @@ private:
     std::vector<int> m_casters;
     std::vector<CasterReach> m_reach;
 };
+
+/// Embree silently ignores geometry farther away than 1.8e18.
+constexpr double kFarthestCaster = 1e18;
 
 /// False, with the reason in `error`, if a vertex or a strand's point of `mesh` is too far away to be traced in this
 /// frame.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/caster_reach.h>
 
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/strands.h>
 #include <vmlight/trace/horizon.h>
+#include <vmlight/trace/instance_boxes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,8 +50,16 @@ bool hides_all(const Horizon& horizon, const Mesh& occluder, const SceneFrame& f
         || for_points(*occluder.strands, frame, [&](const SceneBox& box) { return --left >= 0 && horizon.hides(box); });
 }
 
-bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& box, const SceneFrame& frame,
-                      int64_t& tests)
+bool hides_all(const Horizon& horizon, const std::vector<SceneBox>& boxes, int64_t& left)
+{
+    for (const SceneBox& box : boxes)
+        if (--left < 0 || !horizon.hides(box))
+            return false;
+    return true;
+}
+
+bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const std::vector<SceneBox>& instances,
+                      const SceneBox& box, const SceneFrame& frame, int64_t& tests)
 {
     int64_t left = kVertices;
     bool is_below = true;
@@ -62,7 +72,8 @@ bool is_below_horizon(const Mesh& mesh, const Mesh& occluder, const SceneBox& bo
             corners[k] = V3d(frame.to_scene(mesh.positions[triangle[k]]));
         const Horizon horizon(corners, normal);
         ++tests;
-        is_below = horizon.hides(box) || hides_all(horizon, occluder, frame, left);
+        is_below
+            = horizon.hides(box) || (hides_all(horizon, occluder, frame, left) && hides_all(horizon, instances, left));
         if (!is_below)
             break;
     }
@@ -90,18 +101,21 @@ CasterReach find_reach(const Mesh& mesh, const Mesh& occluder, const SceneFrame&
 {
     CasterReach found;
     found.name = occluder.name;
-    found.triangles = int64_t(occluder.triangles.size());
+    found.triangles = int64_t(occluder.triangles.size()) + (occluder.instances ? occluder.instances->triangles() : 0);
     if (occluder.strands) {
         found.strands = int64_t(occluder.strands->count());
         found.spans = int64_t(occluder.strands->points.size()) - found.strands;
     }
-    const SceneBox box = scene_box(occluder, frame);
+    SceneBox box = scene_box(occluder, frame);
+    const std::vector<SceneBox> instances = instance_boxes(occluder, frame);
+    for (const SceneBox& instance : instances)
+        box.add(instance);
     const double gap = found.triangles + found.strands == 0 ? 0 : std::sqrt(box.distance2(scene_box(mesh, frame)));
     found.gap = gap / frame.scale;
     // Ray origins are off the surface, and boxes and lengths are floats.
     if (gap > choice.reach * frame.scale * (1 + 1e-5) + 4 * kRayOffset)
         found.verdict = CasterReach::too_far;
-    else if (is_below_horizon(mesh, occluder, box, frame, found.tests))
+    else if (is_below_horizon(mesh, occluder, instances, box, frame, found.tests))
         found.verdict = CasterReach::below_horizon;
     return found;
 }

@@ -24,6 +24,8 @@ struct SceneChoice
     size_t own_parts = 0;
     /// How triangles are asked that are transparent in part: the same visibility either way.
     CutoutMode cutouts = CutoutMode::micromaps;
+    /// How Mesh::instances are traced: the same visibility but for rounding.
+    InstanceMode instances = InstanceMode::many;
     /// Length of rays, in mesh units.
     double reach = std::numeric_limits<double>::infinity();
 

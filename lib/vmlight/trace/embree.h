@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <Imath/ImathVec.h>
 #include <vmlight/trace/cutouts.h>
 
 #include <cstdint>
@@ -21,6 +22,16 @@ namespace vmlight::embree {
 /// Of a query whose rays pass no strand.
 constexpr uint32_t kNoStrand = ~0u;
 
+class Placements;
+
+/// The rays of a packet as they are asked, in the scene. Within an instance Embree's own are in the space of its mesh;
+/// their `id` is the place here.
+struct SceneRays
+{
+    const Placements* placements = nullptr;
+    Imath::V3f origins[8], directions[8];
+};
+
 #if RTC_VERSION_MAJOR >= 4
 /// Required by a scene whose queries have a filter.
 constexpr RTCSceneFlags kFilteredByQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
@@ -30,6 +41,7 @@ struct QueryContext : RTCRayQueryContext
 {
     CutoutWork cutouts;
     uint32_t own_strand = kNoStrand;
+    const SceneRays* scene_rays = nullptr;
 };
 
 /// The arguments of a query besides its rays, which are marked incoherent.
@@ -61,6 +73,8 @@ public:
     const CutoutWork& cutouts() const { return m_context.cutouts; }
     /// Rays pass this strand: see StrandScene.
     void pass_strand(uint32_t strand) { m_context.own_strand = strand; }
+    /// For filters, of a scene with instances. Must stay until the query is done.
+    void set_scene_rays(const SceneRays* rays) { m_context.scene_rays = rays; }
 
 private:
     QueryContext m_context;
@@ -82,6 +96,7 @@ struct QueryContext : RTCIntersectContext
 {
     CutoutWork cutouts;
     uint32_t own_strand = kNoStrand;
+    const SceneRays* scene_rays = nullptr;
 };
 
 class Query
@@ -101,6 +116,8 @@ public:
     const CutoutWork& cutouts() const { return m_context.cutouts; }
     /// Rays pass this strand: see StrandScene.
     void pass_strand(uint32_t strand) { m_context.own_strand = strand; }
+    /// For filters, of a scene with instances. Must stay until the query is done.
+    void set_scene_rays(const SceneRays* rays) { m_context.scene_rays = rays; }
 
 private:
     QueryContext m_context;

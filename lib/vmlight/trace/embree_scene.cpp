@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/embree_scene.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/trace/exact_hit.h>
 
 #include <algorithm>
 #include <cstring>
@@ -12,6 +14,15 @@ using Imath::V3d;
 using Imath::V3f;
 
 namespace {
+
+// A triangle takes 65 bytes of a BVH, or 35 of a compact one, through which rays take half as long again. Both meet the
+// same triangles, so that it may depend on the machine which it is.
+constexpr double kBytesOfTriangle = 65;
+bool must_be_compact(size_t triangles)
+{
+    constexpr double kMost = size_t(1) << 22; // to ask takes reading files of the system
+    return double(triangles) > kMost && kBytesOfTriangle * double(triangles) > 0.25 * double(available_memory());
+}
 
 // Bits that are those of no other ray of a texel: where it starts and where it goes are a function of texel, ray and
 // seed, so that a number for each ray need not be passed along.
@@ -46,15 +57,11 @@ std::vector<float> longest_edges(const Buffers& buffers)
     return result;
 }
 
-// Opacity at lane `i` of a filter's hits, exactly.
-double opacity_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments& arguments, unsigned i,
-                      const V3f& start, const V3f& along, CutoutWork& work)
+// Opacity at a hit, exactly: Embree's own u and v differ in their last bits from one instruction set to another.
+double opacity_at_hit(const Buffers& buffers, unsigned triangle, const ExactHit& hit, CutoutWork& work)
 {
-    const unsigned triangle = RTCHitN_primID(arguments.hit, arguments.N, i);
-    const auto& corners = buffers.triangles[triangle];
-    // Embree's own u and v differ in their last bits from one instruction set to another.
-    const V3d a(buffers.vertices[corners[0]]), origin(start), direction(along);
-    const V3d side1 = V3d(buffers.vertices[corners[1]]) - a, side2 = V3d(buffers.vertices[corners[2]]) - a;
+    const V3d origin(hit.origin), direction(hit.direction), &a = hit.corners[0];
+    const V3d side1 = hit.corners[1] - a, side2 = hit.corners[2] - a;
     const V3d p = direction.cross(side2), s = origin - a, q = s.cross(side1);
     const double scale = 1 / side1.dot(p);
     const double u = s.dot(p) * scale, v = direction.dot(q) * scale;
@@ -63,30 +70,40 @@ double opacity_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments&
     return buffers.cutouts->opacity(triangle, inside_u, inside_v, work);
 }
 
+// What the micromap says of a hit by Embree's own u and v; within an instance their error is not known.
+CellState known_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments& arguments, unsigned i)
+{
+    if (placement_of(arguments, i))
+        return CellState::unknown;
+    RTCRayN* ray = arguments.ray;
+    RTCHitN* hit = arguments.hit;
+    const unsigned n = arguments.N, triangle = RTCHitN_primID(hit, n, i);
+    const V3f along(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
+    const V3f normal(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
+    const float error = weight_error(RTCRayN_tfar(ray, n, i), buffers.longest_edges[triangle], normal.dot(along));
+    return buffers.cutouts->known(triangle, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i), error);
+}
+
 } // namespace
 
 void reject_open_hits(const RTCFilterFunctionNArguments* arguments)
 {
     const auto& buffers = *static_cast<const Buffers*>(arguments->geometryUserPtr);
     CutoutWork& work = static_cast<QueryContext*>(arguments->context)->cutouts;
-    RTCRayN* ray = arguments->ray;
-    RTCHitN* hit = arguments->hit;
-    const unsigned n = arguments->N;
-    for (unsigned lanes = valid_lanes(arguments->valid, n); lanes; lanes &= lanes - 1) {
+    for (unsigned lanes = valid_lanes(arguments->valid, arguments->N); lanes; lanes &= lanes - 1) {
         const unsigned i = first_lane(lanes);
-        const unsigned triangle = RTCHitN_primID(hit, n, i);
-        const V3f along(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
-        const V3f normal(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
-        const float error = weight_error(RTCRayN_tfar(ray, n, i), buffers.longest_edges[triangle], normal.dot(along));
-        const CellState known = buffers.cutouts->known(triangle, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i), error);
+        const CellState known = known_at_hit(buffers, *arguments, i);
         if (known != CellState::unknown) { // nearly always
             ++work.hits;
             arguments->valid[i] = known == CellState::opaque ? -1 : 0;
             continue;
         }
-        const V3f start(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
-        const double opacity = opacity_at_hit(buffers, *arguments, i, start, along, work);
-        if (opacity <= 0 || (opacity < 1 && buffers.cutouts->passes(triangle, opacity, ray_bits(start, along))))
+        const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+        const ExactHit hit(buffers, *arguments, i);
+        const double opacity = opacity_at_hit(buffers, triangle, hit, work);
+        if (opacity <= 0
+            || (opacity < 1
+                && buffers.cutouts->passes(triangle, opacity, ray_bits(hit.origin, hit.direction) ^ hit.bits)))
             arguments->valid[i] = 0;
     }
 }
@@ -111,23 +128,39 @@ void attach_curves(RTCDevice device, RTCScene scene, const Curves& curves, Curve
     rtcReleaseGeometry(geometry);
 }
 
+Scene::Scene() = default;
+
 Scene::~Scene()
 {
-    if (m_scene)
-        rtcReleaseScene(m_scene);
+    m_whole.release();
+    m_distinct.clear();
     if (m_device)
         rtcReleaseDevice(m_device);
 }
 
-bool Scene::attach_strands(const Strands& strands, const SceneFrame& frame, unsigned id, std::string& error)
+bool Scene::attach_strands(const Strands& strands, unsigned id, std::string& error)
 {
-    if (!m_curves.emplace_back().add(strands, frame, CurveShape::flat, Curves::kNoOwner, error))
+    if (!m_curves.emplace_back().add(strands, m_whole.frame, CurveShape::flat, Curves::kNoOwner, error))
         return false;
-    attach_curves(m_device, m_scene, m_curves.back(), CurveShape::flat, id, &m_no_triangles);
+    attach_curves(m_device, m_whole.scene, m_curves.back(), CurveShape::flat, id, &m_no_triangles);
     return true;
 }
 
-bool Scene::attach(const Mesh& mesh, const SceneFrame& frame, unsigned id)
+void Scene::Part::release()
+{
+    if (scene)
+        rtcReleaseScene(scene);
+    scene = nullptr;
+}
+
+void Scene::start(Part& part, bool is_compact)
+{
+    part.scene = rtcNewScene(m_device);
+    const RTCSceneFlags size = is_compact ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(part.scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilteredByQuery | size));
+}
+
+bool Scene::attach(Part& part, const Mesh& mesh, unsigned id)
 {
     if (mesh.triangles.empty())
         return true; // Embree refuses empty buffers
@@ -139,49 +172,49 @@ bool Scene::attach(const Mesh& mesh, const SceneFrame& frame, unsigned id)
     const bool good = vertices && indices;
     if (good) {
         for (size_t v = 0; v < mesh.positions.size(); ++v)
-            static_cast<V3f*>(vertices)[v] = frame.to_scene(mesh.positions[v]);
+            static_cast<V3f*>(vertices)[v] = part.frame.to_scene(mesh.positions[v]);
         std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(uint32_t));
-        m_buffers.push_back(
+        part.buffers.push_back(
             { static_cast<V3f*>(vertices), static_cast<std::array<uint32_t, 3>*>(indices), mesh.triangles.size() });
-        rtcSetGeometryUserData(geometry, &m_buffers.back());
+        rtcSetGeometryUserData(geometry, &part.buffers.back());
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(m_scene, geometry, id);
+        rtcAttachGeometryByID(part.scene, geometry, id);
     }
     rtcReleaseGeometry(geometry);
     return good;
 }
 
-bool Scene::attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& part, const Cutouts* cutouts,
-                        unsigned id)
+bool Scene::attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& triangles,
+                        const Cutouts* cutouts, unsigned id)
 {
-    if (part.empty())
+    if (triangles.empty())
         return true;
     RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(V3f),
                          mesh.positions.size());
     auto* indices = static_cast<std::array<uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), part.size()));
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles.size()));
     if (indices) {
-        for (size_t i = 0; i < part.size(); ++i)
-            indices[i] = mesh.triangles[part[i]];
-        m_buffers.push_back({ static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, part.size(), cutouts });
+        for (size_t i = 0; i < triangles.size(); ++i)
+            indices[i] = mesh.triangles[triangles[i]];
+        part.buffers.push_back(
+            { static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, triangles.size(), cutouts });
         if (cutouts)
-            m_buffers.back().longest_edges = longest_edges(m_buffers.back());
-        rtcSetGeometryUserData(geometry, &m_buffers.back());
+            part.buffers.back().longest_edges = longest_edges(part.buffers.back());
+        rtcSetGeometryUserData(geometry, &part.buffers.back());
         if (cutouts) {
             rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);
             rtcSetGeometryIntersectFilterFunction(geometry, reject_open_hits);
         }
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(m_scene, geometry, id);
+        rtcAttachGeometryByID(part.scene, geometry, id);
     }
     rtcReleaseGeometry(geometry);
     return indices != nullptr;
 }
 
 // Transparent triangles are in neither geometry. The two share their vertices.
-bool Scene::attach_sorted(const Mesh& mesh, const Cutouts& cutouts, const SceneFrame& frame, unsigned id,
-                          unsigned mixed_id)
+bool Scene::attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, unsigned id, unsigned mixed_id)
 {
     // Embree reads four floats of each vertex.
     RTCBuffer vertices = rtcNewBuffer(m_device, mesh.positions.size() * sizeof(V3f) + 16);
@@ -189,44 +222,49 @@ bool Scene::attach_sorted(const Mesh& mesh, const Cutouts& cutouts, const SceneF
     if (!positions)
         return false;
     for (size_t v = 0; v < mesh.positions.size(); ++v)
-        positions[v] = frame.to_scene(mesh.positions[v]);
-    const bool good = attach_part(vertices, mesh, cutouts.opaque(), nullptr, id)
-        && attach_part(vertices, mesh, cutouts.mixed(), &cutouts, mixed_id);
+        positions[v] = part.frame.to_scene(mesh.positions[v]);
+    const bool good = attach_part(part, vertices, mesh, cutouts.opaque(), nullptr, id)
+        && attach_part(part, vertices, mesh, cutouts.mixed(), &cutouts, mixed_id);
     rtcReleaseBuffer(vertices);
     return good;
 }
 
 std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
-                                    std::string& error, const std::vector<std::unique_ptr<const Cutouts>>& cutouts)
+                                    std::string& error, const std::vector<std::unique_ptr<const Cutouts>>& cutouts,
+                                    const std::vector<PlacedMeshes>& placed)
 {
     auto scene = std::make_unique<Scene>();
-    error.clear();
+    scene->m_placements = std::make_unique<Placements>();
+    error = "Embree cannot build the ray-tracing scene: out of memory, or the CPU is not supported";
     // A thread count limits all of the process's TBB work for good: set it only if the user did.
     const std::string threads = nthreads > 0 ? format("threads={},", nthreads) : "";
     scene->m_device = rtcNewDevice((threads + "set_affinity=0").c_str());
-    bool good = scene->m_device != nullptr;
-    if (good) {
-        scene->m_scene = rtcNewScene(scene->m_device);
-        rtcSetSceneFlags(scene->m_scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilteredByQuery));
-        for (size_t id = 0; id < meshes.size(); ++id) {
-            const size_t first = scene->m_buffers.size();
-            good = good
-                && (id < cutouts.size() && cutouts[id] ? scene->attach_sorted(
-                        *meshes[id], *cutouts[id], frame, unsigned(id), unsigned(meshes.size() + id))
-                                                       : scene->attach(*meshes[id], frame, unsigned(id)));
-            if (good && meshes[id]->strands)
-                good = scene->attach_strands(*meshes[id]->strands, frame, unsigned(2 * meshes.size() + id), error);
-            for (size_t i = first; i < scene->m_buffers.size(); ++i)
-                scene->m_buffers[i].mesh = id;
-        }
-        rtcCommitScene(scene->m_scene);
-        good = good && rtcGetDeviceError(scene->m_device) == RTC_ERROR_NONE;
+    if (!scene->m_device)
+        return nullptr;
+    size_t triangles = 0;
+    for (const Mesh* mesh : meshes)
+        triangles += mesh->triangles.size();
+    Part& whole = scene->m_whole;
+    whole.frame = frame;
+    scene->start(whole, must_be_compact(triangles));
+    bool good = true;
+    for (size_t id = 0; id < meshes.size() && good; ++id) {
+        const size_t first = whole.buffers.size();
+        good = id < cutouts.size() && cutouts[id]
+            ? scene->attach_sorted(whole, *meshes[id], *cutouts[id], unsigned(id), unsigned(meshes.size() + id))
+            : scene->attach(whole, *meshes[id], unsigned(id));
+        if (good && meshes[id]->strands)
+            good = scene->attach_strands(*meshes[id]->strands, unsigned(2 * meshes.size() + id), error);
+        for (size_t i = first; i < whole.buffers.size(); ++i)
+            whole.buffers[i].mesh = id;
     }
+    good = good && scene->attach_placed(placed, unsigned(3 * meshes.size()), error);
     if (good)
-        return scene;
-    if (error.empty())
-        error = "Embree cannot build the ray-tracing scene: out of memory, or the CPU is not supported";
-    return nullptr;
+        rtcCommitScene(whole.scene);
+    if (!good || rtcGetDeviceError(scene->m_device) != RTC_ERROR_NONE)
+        return nullptr;
+    error.clear();
+    return scene;
 }
 
 } // namespace vmlight::embree

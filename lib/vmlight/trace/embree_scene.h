@@ -2,6 +2,7 @@
 /// An Embree scene of triangles, which Occluder and VisibleSurface trace.
 #pragma once
 
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/curves.h>
 #include <vmlight/trace/cutouts.h>
@@ -29,6 +30,18 @@ struct Buffers
     /// The longest edge of each of those.
     std::vector<float> longest_edges {};
     size_t mesh = 0; ///< its place among those that Scene::build() was given
+    uint64_t bits = 0; ///< as those of Placements, of a copy
+    bool is_mirrored = false; ///< of a copy: its winding is that before the mirror
+};
+
+/// The instances of one of the meshes of a scene.
+struct PlacedMeshes
+{
+    size_t mesh = 0; ///< its place among those that Scene::build() is given
+    const MeshInstances* instances;
+    /// Of each distinct mesh, as those of Scene::build().
+    std::vector<const Cutouts*> cutouts;
+    InstanceMode mode = InstanceMode::many;
 };
 
 /// How far Embree's barycentric weights of a hit are off at most, robust traversal at unit directions: by the rounding
@@ -52,7 +65,7 @@ void attach_curves(RTCDevice device, RTCScene scene, const Curves& curves, Curve
 class Scene
 {
 public:
-    Scene() = default;
+    Scene();
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -61,31 +74,56 @@ public:
     /// robust. nullptr, with the reason in `error`, if Embree fails (out of memory). The strands of mesh i are flat
     /// curves, the geometry 2 meshes.size() + i.
     ///
+    /// Instances of meshes follow, each a geometry. Their distinct meshes are scenes of their own.
+    ///
     /// @param cutouts  of each mesh, nullptr where all of it is opaque; or none: no mesh is cut out. Must outlive the
     ///                 scene. The mixed triangles of mesh i are the geometry meshes.size() + i
     static std::unique_ptr<Scene> build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
                                         std::string& error,
-                                        const std::vector<std::unique_ptr<const Cutouts>>& cutouts = {});
+                                        const std::vector<std::unique_ptr<const Cutouts>>& cutouts = {},
+                                        const std::vector<PlacedMeshes>& placed = {});
 
-    RTCScene handle() const { return m_scene; }
-    /// Those of each geometry.
-    const std::deque<Buffers>& buffers() const { return m_buffers; }
+    RTCScene handle() const { return m_whole.scene; }
+    /// Those of each geometry that is no instance.
+    const std::deque<Buffers>& buffers() const { return m_whole.buffers; }
+    const InstanceCounts& instances() const { return m_counts; }
+    /// Of a geometry that is no instance.
+    const Buffers& buffers_of(unsigned id) const
+    {
+        return *static_cast<const Buffers*>(rtcGetGeometryUserData(rtcGetGeometry(m_whole.scene, id)));
+    }
     /// Whether a mesh has strands.
     bool has_curves() const { return !m_curves.empty(); }
+    /// Where Embree's instances are.
+    const Placements& placements() const { return *m_placements; }
 
 private:
-    bool attach_strands(const Strands& strands, const SceneFrame& frame, unsigned id, std::string& error);
-    bool attach(const Mesh& mesh, const SceneFrame& frame, unsigned id);
-    bool attach_sorted(const Mesh& mesh, const Cutouts& cutouts, const SceneFrame& frame, unsigned id,
-                       unsigned mixed_id);
-    bool attach_part(RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& part, const Cutouts* cutouts,
-                     unsigned id);
+    /// Triangles: all that are none of an instance, or a distinct mesh.
+    struct Part
+    {
+        ~Part() { release(); }
+        void release();
+        RTCScene scene = nullptr;
+        SceneFrame frame;
+        std::deque<Buffers> buffers; // Embree keeps pointers to its elements
+    };
+    void start(Part& part, bool is_compact);
+    bool attach_strands(const Strands& strands, unsigned id, std::string& error);
+    bool attach(Part& part, const Mesh& mesh, unsigned id);
+    bool attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, unsigned id, unsigned mixed_id);
+    bool attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& triangles,
+                     const Cutouts* cutouts, unsigned id);
+    bool attach_placed(const std::vector<PlacedMeshes>& placed, unsigned next_id, std::string& error);
+    bool attach_copy(const PlacedMeshes& placed, size_t place, unsigned& next_id);
+    void attach_instance(const Part& distinct, const InstanceTransform& transform, unsigned id);
 
     RTCDevice m_device = nullptr;
-    RTCScene m_scene = nullptr;
-    std::deque<Buffers> m_buffers; // Embree keeps pointers to elements of both
-    std::deque<Curves> m_curves;
+    Part m_whole;
+    std::deque<Curves> m_curves; // Embree keeps pointers to its elements
     Buffers m_no_triangles { nullptr, nullptr, 0 }; // of all curves
+    std::vector<std::unique_ptr<Part>> m_distinct;
+    std::unique_ptr<Placements> m_placements;
+    InstanceCounts m_counts;
 };
 
 /// Set all of a lane of RTCRay8 but its origin, direction and length.
@@ -94,7 +132,7 @@ inline void prepare_lane(RTCRay8& rays, int lane)
     rays.tnear[lane] = 0;
     rays.time[lane] = 0;
     rays.mask[lane] = ~0u;
-    rays.id[lane] = 0;
+    rays.id[lane] = unsigned(lane);
     rays.flags[lane] = 0;
 }
 

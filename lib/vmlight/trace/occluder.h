@@ -7,6 +7,7 @@
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/trace/cutouts.h>
+#include <vmlight/trace/instance_plan.h>
 
 #include <array>
 #include <atomic>
@@ -51,7 +52,7 @@ struct NearestHit
 {
     static constexpr uint32_t kNone = ~0u;
     uint32_t mesh = kNone; ///< its number among those that Occluder::build() was given
-    uint32_t triangle = 0; ///< of that mesh
+    uint32_t triangle = 0; ///< of that mesh; of Mesh::instances, not to be used
     float u = 0, v = 0; ///< weights of the triangle's second and third corners
     float distance = 0; ///< in lengths of the ray's direction
     Imath::V3f normal { 0 }; ///< of the triangle, by its winding; of any length; 0 of a strand, which has no triangle
@@ -76,8 +77,12 @@ public:
     ///
     /// What Mesh::opacity says of a mesh is honoured: rays pass where it is transparent, and as often as it says where
     /// it is in between.
+    ///
+    /// Mesh::instances are met as if they were triangles of their mesh, but for the rounding of their transforms: of
+    /// some 1e-6 of the frame's size.
     bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
-               CutoutMode mode = CutoutMode::micromaps, const StepListener& at_step = {});
+               CutoutMode mode = CutoutMode::micromaps, const StepListener& at_step = {},
+               InstanceMode instances = InstanceMode::many);
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`, which must be off
     /// the surface: see SurfacePoint. Not checked: that build() succeeded.
@@ -104,13 +109,17 @@ public:
     CutoutWork cutout_work() const { return { m_hits, m_lookups }; }
     /// Whether rays can meet strands, too.
     bool has_strands() const;
-    /// All triangles that rays can meet. Valid as long as this is.
+    /// All triangles that rays can meet, but for those of instances. Valid as long as this is.
     std::vector<TracedTriangles> triangles() const;
+    /// Of Mesh::instances.
+    const InstanceCounts& instances() const { return m_instances; }
+    bool has_instances() const { return m_instances.instances + m_instances.copies > 0; }
 
 private:
     void count(const CutoutWork& work) const;
 
-    std::vector<std::unique_ptr<const Cutouts>> m_cutouts;
+    std::vector<std::unique_ptr<const Cutouts>> m_cutouts, m_distinct_cutouts;
+    InstanceCounts m_instances;
     CutoutCounts m_counts;
     mutable std::atomic<int64_t> m_hits { 0 }, m_lookups { 0 };
     std::unique_ptr<embree::Scene> m_scene; // refers to m_cutouts

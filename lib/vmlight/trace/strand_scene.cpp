@@ -2,6 +2,7 @@
 #include <vmlight/trace/strand_scene.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/instances.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/curves.h>
 #include <vmlight/trace/embree_scene.h>
@@ -88,13 +89,13 @@ bool StrandScene::build(const Strands& strands, const std::vector<Mesh>& occlude
     m_spans = int64_t(curves.spans().size());
     std::vector<const Mesh*> casters;
     for (const Mesh& occluder : occluders) {
-        if (!check_mesh(occluder, error) || !check_reach(occluder, m_frame, error)
+        if (!check_mesh(occluder, error) || !check_instances(occluder, error) || !check_reach(occluder, m_frame, error)
             || (occluder.strands
                 && !curves.add(*occluder.strands, m_frame, CurveShape::round, Curves::kNoOwner, error)))
             return false;
-        if (!occluder.triangles.empty())
+        if (held_triangles(occluder) > 0)
             casters.push_back(&occluder);
-        m_triangles += int64_t(occluder.triangles.size());
+        m_triangles += held_triangles(occluder);
     }
     m_has_meshes = !casters.empty();
     begin_step(at_step, "build");

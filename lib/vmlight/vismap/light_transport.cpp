@@ -166,6 +166,12 @@ bool LightTransport::prepare(BakeScenePointer scene, const VismapParams& map, OI
                        culled->name);
         return false;
     }
+    if (scene->occluder().has_instances()) {
+        error
+            = "an occluder has instances, whose light is not traced: list their meshes one by one with --occluder, or "
+              "light without a bounce";
+        return false;
+    }
     // Normals and patches of texels, their light, and what they get; then what is kept of rays, at most.
     const double needed = double(texels) * (16 + 4 + 4 + 12 + 12);
     const double available = std::min(double(available_memory()), double(params.memory));

@@ -91,6 +91,11 @@ void OpenTriangles::find(const BakeScene& scene, double reach, double rays)
 {
     const Stopwatch timer;
     const Mesh& mesh = scene.mesh();
+    if (scene.occluder().instances().instances > 0) { // whose triangles are not there to be searched
+        m_open.clear();
+        m_report = {};
+        return;
+    }
     const std::vector<TracedTriangles> traced = scene.occluder().triangles();
     size_t all = 0;
     for (const TracedTriangles& part : traced)

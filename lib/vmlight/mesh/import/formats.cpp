@@ -3,9 +3,11 @@
 #include <vmlight/mesh/import/assimp_importer.h>
 #include <vmlight/mesh/import/format_checks.h>
 #include <vmlight/mesh/import/gltf.h>
+#include <vmlight/mesh/import/height_field.h>
 #include <vmlight/mesh/import/importer.h>
 #include <vmlight/mesh/import/obj.h>
 #include <vmlight/mesh/import/ply.h>
+#include <vmlight/mesh/import/scene_list.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -33,6 +35,8 @@ const std::vector<MeshFormat>& mesh_formats()
         { "Collada", "dae xml", is_collada, inspect_collada, read_with_assimp },
         { "FBX", "fbx", is_fbx, inspect_fbx, read_with_assimp },
         { "Alembic", "abc", is_alembic, nullptr, read_alembic, true },
+        { "height image", "", is_height_field, nullptr, read_height_field, false, true },
+        { "scene list", "", is_scene_list, nullptr, read_scene_list, true, true }, // whose meshes may be
     };
     return formats;
 }

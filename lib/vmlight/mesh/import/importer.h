@@ -45,6 +45,8 @@ struct ImportRequest
     Inspection inspection;
     /// Call it for each file: the mesh itself, and what it refers to (buffers, materials). May be empty.
     BeforeOpen before_open;
+    /// What is shown in several places goes to Mesh::instances where the format knows of it; else all is triangles.
+    bool keeps_instances = false;
 };
 
 /// A mesh format.
@@ -64,6 +66,8 @@ struct MeshFormat
     bool (*read)(MeshBuilder& dst, const ImportRequest& request, std::string& error);
     /// Does it hold meshes that change over time? Their `read` follows MeshParams::frame.
     bool has_time = false;
+    /// Are its files images of heights? Their `read` follows MeshParams::terrain.
+    bool has_heights = false;
 };
 
 /// Every format that read_mesh() reads.
@@ -85,8 +89,12 @@ bool is_mesh_name(const std::string& path);
 /// Can what is read of a file depend on MeshParams::frame? By its content; of a file that cannot be read, by its name.
 bool has_time(const std::string& path);
 
+/// Is it an image of heights, which MeshParams::terrain is for? As has_time().
+bool has_heights(const std::string& path);
+
 /// As read_mesh(), for a table of formats.
 bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
-                 const BeforeOpen& before_open = {}, const std::vector<MeshFormat>& formats = mesh_formats());
+                 const BeforeOpen& before_open = {}, const std::vector<MeshFormat>& formats = mesh_formats(),
+                 bool keeps_instances = false);
 
 } // namespace vmlight

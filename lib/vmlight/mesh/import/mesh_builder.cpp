@@ -3,12 +3,14 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/mesh/instances.h>
 
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace vmlight {
 
@@ -50,6 +52,58 @@ uint32_t MeshBuilder::add_node(const std::string& name, int parent)
 {
     m_mesh.nodes.push_back({ name, parent });
     return uint32_t(m_mesh.nodes.size() - 1);
+}
+
+uint32_t MeshBuilder::add_distinct(Mesh mesh)
+{
+    if (!m_mesh.instances)
+        m_mesh.instances = std::make_shared<MeshInstances>();
+    m_mesh.instances->meshes.push_back(std::move(mesh));
+    return uint32_t(m_mesh.instances->meshes.size() - 1);
+}
+
+void MeshBuilder::add_place(uint32_t distinct, const Imath::M44d& to_object)
+{
+    m_mesh.instances->places.push_back({ distinct, to_object });
+}
+
+void MeshBuilder::append_mesh(const Mesh& mesh, const Imath::M44d& to_object, uint32_t node)
+{
+    const auto first_node = int(m_mesh.nodes.size());
+    const auto first_material = uint32_t(m_mesh.materials.size());
+    for (const MeshNode& inner : mesh.nodes)
+        add_node(inner.name, inner.parent < 0 ? int(node) : first_node + inner.parent);
+    for (const Material& material : mesh.materials)
+        add_material(material);
+    for (const std::string& warning : mesh.warnings)
+        warn(warning);
+    begin_part(mesh.name, to_object, node);
+    for (size_t v = 0; v < mesh.positions.size(); ++v)
+        add_vertex(mesh.positions[v], V3d(mesh.normals[v]), has_uv(mesh, uint32_t(v)) ? &mesh.uvs[v] : nullptr);
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (t < mesh.triangle_nodes.size())
+            set_node(uint32_t(first_node) + mesh.triangle_nodes[t]);
+        add_triangle(mesh.triangles[t],
+                     first_material + (t < mesh.triangle_materials.size() ? mesh.triangle_materials[t] : 0));
+    }
+    if (!mesh.instances)
+        return;
+    std::vector<uint32_t> numbers;
+    for (const Mesh& distinct : mesh.instances->meshes)
+        numbers.push_back(add_distinct(distinct));
+    for (const MeshInstances::Place& place : mesh.instances->places)
+        add_place(numbers[place.mesh], place.to_object * to_object);
+}
+
+void MeshBuilder::reserve(size_t vertices, size_t triangles)
+{
+    m_mesh.positions.reserve(vertices);
+    m_mesh.normals.reserve(vertices);
+    m_mesh.uvs.reserve(vertices);
+    m_mesh.triangles.reserve(triangles);
+    m_mesh.triangle_materials.reserve(triangles);
+    m_mesh.triangle_nodes.reserve(triangles);
+    m_groups.reserve(triangles);
 }
 
 void MeshBuilder::warn(const std::string& sentence)
@@ -144,12 +198,13 @@ void MeshBuilder::compute_normals()
     if (flat + smooth + grouped < count)
         rules.push_back(rules.empty() ? "from the file" : "else from the file");
     m_mesh.normals_from = OIIO::Strutil::join(rules, ", ");
-    fill_missing_normals(m_mesh, m_params.crease_angle, m_groups, m_seam_angle);
+    if (!m_has_unique_vertices)
+        fill_missing_normals(m_mesh, m_params.crease_angle, m_groups, m_seam_angle);
 }
 
 bool MeshBuilder::finish(std::string& error)
 {
-    if (!m_error.empty() || m_mesh.triangles.empty()) {
+    if (!m_error.empty() || (m_mesh.triangles.empty() && !m_mesh.instances)) {
         error = m_error.empty() ? "no triangles" : shortened_line(m_error);
         return false;
     }

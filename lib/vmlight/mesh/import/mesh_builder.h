@@ -62,6 +62,22 @@ public:
     /// Normals that the file lacks are hard where its UVs part along an edge sharper than this, in degrees.
     void set_seam_angle(double degrees) { m_seam_angle = degrees; }
 
+    /// Another mesh, held once, which add_place() shows in many places: see Mesh::instances.
+    /// @returns the index that add_place() takes
+    uint32_t add_distinct(Mesh mesh);
+    /// Show it there.
+    void add_place(uint32_t distinct, const Imath::M44d& to_object);
+    const std::vector<Material>& materials() const { return m_mesh.materials; }
+    /// Append a whole mesh with its materials and nodes, its triangles below `node`, where its file is in the object.
+    /// Its instances come along.
+    void append_mesh(const Mesh& mesh, const Imath::M44d& to_object, uint32_t node);
+
+    /// So many vertices and triangles will be added.
+    void reserve(size_t vertices, size_t triangles);
+
+    /// No two of the vertices added agree in all, and all have a normal: finish() need not compare them.
+    void set_unique_vertices() { m_has_unique_vertices = true; }
+
     /// The positions are the file's own, without rounding to float.
     void set_exact_positions() { m_mesh.has_exact_positions = true; }
 
@@ -79,7 +95,7 @@ private:
 
     std::string m_part, m_error;
     Imath::M44d m_to_object, m_normals_to_object;
-    bool m_is_mirrored = false, m_has_uvs = false;
+    bool m_is_mirrored = false, m_has_uvs = false, m_has_unique_vertices = false;
     size_t m_first = 0; // vertex of the part
     uint32_t m_node = 0;
     double m_seam_angle = 180;

@@ -48,6 +48,7 @@ public:
     {
         if (m_is_far)
             dst.set_exact_positions();
+        dst.reserve(file.positions.size(), file.ends.size());
         dst.begin_part("", dst.root_transform(false), dst.add_node("", -1));
         for (size_t i = 0; i < file.positions.size(); ++i)
             add_vertex(i, file.uvs.empty() ? nullptr : &file.uvs[i]);

@@ -36,7 +36,7 @@ Inspection inspect(const MeshFormat& format, const std::string& path)
 }
 
 bool import_parts(MeshBuilder& dst, const std::string& path, const BeforeOpen& before_open,
-                  const std::vector<MeshFormat>& formats, std::string& error)
+                  const std::vector<MeshFormat>& formats, bool keeps_instances, std::string& error)
 {
     const FileHead head = read_head(path);
     if (OIIO::Strutil::starts_with(head.bytes, "PK\3\4")) {
@@ -48,7 +48,7 @@ bool import_parts(MeshBuilder& dst, const std::string& path, const BeforeOpen& b
         error = unknown_format(formats);
         return false;
     }
-    const ImportRequest request { path, *format, head, inspect(*format, path), before_open };
+    const ImportRequest request { path, *format, head, inspect(*format, path), before_open, keeps_instances };
     error = request.inspection.error;
     return error.empty() && format->read(dst, request, error);
 }
@@ -69,13 +69,18 @@ FileHead read_head(const std::string& path)
 
 bool has_time(const std::string& path)
 {
-    const FileHead head = read_head(path);
-    const MeshFormat* format = find_mesh_format(mesh_formats(), path, head);
+    const MeshFormat* format = find_mesh_format(mesh_formats(), path, read_head(path));
     return format && format->has_time;
 }
 
+bool has_heights(const std::string& path)
+{
+    const MeshFormat* format = find_mesh_format(mesh_formats(), path, read_head(path));
+    return format && format->has_heights;
+}
+
 bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
-                 const BeforeOpen& before_open, const std::vector<MeshFormat>& formats)
+                 const BeforeOpen& before_open, const std::vector<MeshFormat>& formats, bool keeps_instances)
 {
     dst = Mesh();
     dst.name = OIIO::Filesystem::filename(path);
@@ -87,7 +92,7 @@ bool import_mesh(Mesh& dst, const std::string& path, const MeshParams& params, s
     bool good = false;
     run_on_deep_stack([&] { // inspections and libraries recurse down the node hierarchy
         MeshBuilder builder(dst, params);
-        good = import_parts(builder, path, before_open, formats, error) && builder.finish(error);
+        good = import_parts(builder, path, before_open, formats, keeps_instances, error) && builder.finish(error);
     });
     if (good)
         return true;
@@ -100,6 +105,12 @@ bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std
                const std::function<void(const std::string& path)>& before_open)
 {
     return import_mesh(dst, path, params, error, before_open);
+}
+
+bool read_instanced_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
+                         const std::function<void(const std::string& path)>& before_open)
+{
+    return import_mesh(dst, path, params, error, before_open, mesh_formats(), true);
 }
 
 } // namespace vmlight

@@ -11,7 +11,8 @@
 namespace vmlight {
 
 /// Read all meshes of an OBJ, PLY, STL, glTF 2.0 (.gltf, .glb), Collada, FBX or Alembic file, each at its place in the
-/// node hierarchy. The format is detected by content, and by the extension only where content cannot tell.
+/// node hierarchy; an image as terrain (height_grid.h); or a scene list (scene_list.h). The format is detected by
+/// content, and by the extension only where content cannot tell.
 ///
 /// Polygons are triangulated, points, lines and curves dropped, vertices that agree bit for bit merged. Triangles
 /// without area are kept (they occlude nothing).
@@ -43,5 +44,11 @@ namespace vmlight {
 ///          whether it needs one.
 VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                            const std::function<void(const std::string& path)>& before_open = {});
+
+/// As read_mesh(), of what only casts: a mesh that a glTF shows in several places (nodes that share it, or
+/// EXT_mesh_gpu_instancing) is in Mesh::instances, once, and not among the triangles; skinned ones are. So is all of a
+/// scene list that is not baked, as by read_mesh().
+VMLIGHT_API bool read_instanced_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
+                                     const std::function<void(const std::string& path)>& before_open = {});
 
 } // namespace vmlight

@@ -90,24 +90,6 @@ bool lines_text(std::string& text, const toml::node& node, const char* noun, std
 
 } // namespace
 
-bool parse_toml(toml::table& dst, OIIO::string_view text, const std::string& path, std::string& error)
-{
-    std::string ascii;
-    if (!to_ascii(ascii, text, path, error))
-        return false;
-    toml::parse_result result = toml::parse(ascii);
-    if (!result) {
-        const toml::parse_error& fault = result.error();
-        error = at_line(path, fault.source().begin.line)
-            + ": not TOML: " + shortened_line(std::string(fault.description()));
-        if (error.find("could not determine value type") != std::string::npos)
-            error += "; strings need quotes";
-        return false;
-    }
-    dst = std::move(result).table();
-    return true;
-}
-
 bool node_text(std::string& text, const toml::node& node, const int&, const Range& allowed, std::string& reason)
 {
     return number_text(text, node, true) || word_text(text, node, allowed, "an integer", reason);

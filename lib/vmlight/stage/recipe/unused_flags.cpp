@@ -25,6 +25,9 @@ std::string unused_reason(const VismapRecipe& recipe, const std::string& key)
         return "only Alembic files have frames";
     if (key == "fps" && recipe.mesh_params.frame == MeshParams::kFirstSample)
         return "no frame is given";
+    if ((key == "terrain" || key == "height_scale") && !has_heights(recipe.mesh)
+        && std::none_of(recipe.occluder.begin(), recipe.occluder.end(), has_heights))
+        return "neither the mesh nor an occluder is an image of heights";
     if ((key == "normal_map_space" || key == "normal_map_green") && !recipe.has_normal_map())
         return "no normal map is given";
     if (key == "normal_map_space" && recipe.material_normals)

@@ -14,6 +14,7 @@
 
 #include <OpenImageIO/strutil.h>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,13 +30,18 @@ using Imath::V3d;
 class Walk
 {
 public:
-    explicit Walk(Document& document)
+    Walk(Document& document, bool keeps_instances)
         : m_document(document)
         , m_model(document.model())
         , m_roots(root_nodes(m_model))
     {
         check_hierarchy(m_model, m_roots);
         m_transforms = node_transforms(m_model);
+        if (!keeps_instances)
+            return;
+        m_shown.assign(m_model.meshes.size(), 0);
+        for (const int root : m_roots)
+            count_shown(root);
     }
 
     void append_all()
@@ -76,6 +82,49 @@ private:
             append_node(child, int(number), to_object);
     }
 
+    // How many nodes show each mesh; one with instances counts as several.
+    void count_shown(int index)
+    {
+        if (!is_node_visible(m_model, index))
+            return;
+        const tinygltf::Node& node = m_model.nodes[size_t(index)];
+        if (node.mesh >= 0 && size_t(node.mesh) < m_shown.size() && node.skin < 0)
+            m_shown[size_t(node.mesh)] += node.extensions.count("EXT_mesh_gpu_instancing") ? 2 : 1;
+        for (const int child : node.children)
+            count_shown(child);
+    }
+
+    // A mesh that is shown in several places, to be held once.
+    void add_places(int mesh, const std::vector<double>& weights, const std::vector<M44d>& places)
+    {
+        MeshBuilder& builder = m_document.builder();
+        const auto [known, is_new] = m_distinct.emplace(std::make_pair(mesh, weights), 0);
+        if (is_new) {
+            Mesh distinct;
+            distinct.name = m_model.meshes[size_t(mesh)].name;
+            MeshBuilder own(distinct, builder.params());
+            const std::vector<Primitive> parts = read_parts(mesh, weights, -1);
+            check_memory(parts, 1);
+            const uint32_t node = own.add_node(distinct.name, -1);
+            for (const Material& material : builder.materials())
+                own.add_material(material);
+            size_t triangles = 0;
+            for (size_t i = 0; i < parts.size(); ++i) {
+                append_part(own, parts[i], m_model.meshes[size_t(mesh)].primitives[i].material, distinct.name, node,
+                            M44d());
+                triangles += parts[i].triangles.size();
+            }
+            std::string error;
+            if (triangles > 0 && !own.finish(error))
+                throw Error(error);
+            for (const std::string& warning : distinct.warnings)
+                builder.warn(warning);
+            known->second = builder.add_distinct(std::move(distinct));
+        }
+        for (const M44d& place : places)
+            builder.add_place(known->second, place);
+    }
+
     // What is wrong with a camera does not keep the mesh from being read.
     void add_camera(const tinygltf::Node& node, const M44d& to_object)
     {
@@ -89,13 +138,18 @@ private:
     void append_mesh(int mesh, const std::vector<double>& weights, int skin, uint32_t node,
                      const std::vector<M44d>& places)
     {
+        if (!m_shown.empty() && skin < 0 && m_shown[size_t(mesh)] > 1) {
+            add_places(mesh, weights, places);
+            return;
+        }
         const auto& primitives = m_model.meshes[size_t(mesh)].primitives;
         const bool is_last = mesh == m_last_mesh && weights == m_last_weights && skin < 0;
         std::vector<Primitive> parts = is_last ? std::move(m_last_parts) : read_parts(mesh, weights, skin);
         check_memory(parts, places.size());
         for (const M44d& place : places)
             for (size_t i = 0; i < parts.size(); ++i)
-                append_part(parts[i], primitives[i].material, m_model.meshes[size_t(mesh)].name, node, place);
+                append_part(m_document.builder(), parts[i], primitives[i].material, m_model.meshes[size_t(mesh)].name,
+                            node, place);
         m_last_mesh = skin < 0 ? mesh : -1;
         m_last_weights = weights;
         m_last_parts = std::move(parts);
@@ -113,10 +167,10 @@ private:
         return parts;
     }
 
-    void append_part(const Primitive& part, int material, const std::string& name, uint32_t node, const M44d& place)
+    void append_part(MeshBuilder& builder, const Primitive& part, int material, const std::string& name, uint32_t node,
+                     const M44d& place)
     {
         const size_t materials = m_model.materials.size(); // the one after them is for parts without
-        MeshBuilder& builder = m_document.builder();
         builder.begin_part(name, place, node);
         for (size_t v = 0; v < part.positions.size(); ++v)
             builder.add_vertex(part.positions[v], part.normals.empty() ? V3d(0) : part.normals[v],
@@ -148,6 +202,9 @@ private:
     int m_last_mesh = -1;
     std::vector<double> m_last_weights;
     std::vector<Primitive> m_last_parts;
+    // Empty, or what count_shown() found; and distinct meshes by their number and weights of morph targets.
+    std::vector<size_t> m_shown;
+    std::map<std::pair<int, std::vector<double>>, uint32_t> m_distinct;
 };
 
 } // namespace
@@ -164,7 +221,7 @@ bool read_gltf(MeshBuilder& dst, const ImportRequest& request, std::string& erro
     return gltf::without_errors(error, [&] {
         Document document(request, dst);
         add_materials(document);
-        Walk(document).append_all();
+        Walk(document, request.keeps_instances).append_all();
         if (document.animations() > 0)
             dst.warn(format("{} not played: nodes stay as they are; bake other poses from a file each, or from Alembic",
                             count_text(int64_t(document.animations()), "animation is", "animations are")));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vmlight/stage/recipe/toml.h>
+#include <vmlight/base/toml_text.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 #include <vmlight/base/utf8.h>
 
 #include <OpenImageIO/strutil.h>
@@ -89,6 +90,24 @@ bool to_ascii(std::string& dst, string_view text, const std::string& path, std::
         dst += '\n';
         text.remove_prefix(std::min(end + 1, text.size()));
     }
+    return true;
+}
+
+bool parse_toml(toml::table& dst, OIIO::string_view text, const std::string& path, std::string& error)
+{
+    std::string ascii;
+    if (!to_ascii(ascii, text, path, error))
+        return false;
+    toml::parse_result result = toml::parse(ascii);
+    if (!result) {
+        const toml::parse_error& fault = result.error();
+        error = at_line(path, fault.source().begin.line)
+            + ": not TOML: " + shortened_line(std::string(fault.description()));
+        if (error.find("could not determine value type") != std::string::npos)
+            error += "; strings need quotes";
+        return false;
+    }
+    dst = std::move(result).table();
     return true;
 }
 
