@@ -59,7 +59,8 @@ TEST_F(CostEffects, WhatIsLeftOutIsOffByAsMuchAsItIsSeen)
 {
     // A wall on the ground sees half of the sky: without the ground, light of 1, 2, 3 is off by half of that.
     write("step.obj", kQuad);
-    EXPECT_THAT(measured_effects("sky.exr --ground"), ElementsAre("ground"));
+    EXPECT_THAT(measured_effects("sky.exr --ground"), ElementsAre("ground", "reconstruction"));
+    EXPECT_EQ(double(effect("reconstruction")["light_error_without"]), 0) << "the ground's share is exact";
     EXPECT_NEAR(double(effect("ground")["visibility_error_without"]), 0.5, 1e-6);
     EXPECT_NEAR(double(effect("ground")["light_error_without"]), std::sqrt((0.25 + 1 + 2.25) / 3), 1e-5);
     EXPECT_GT(double(effect("ground")["seconds"]), 0);
@@ -78,7 +79,7 @@ TEST_F(CostEffects, SunsAndWhatIsInTheirWay)
     ASSERT_TRUE(sunny.write(path("sunny.exr"))) << sunny.geterror();
     write("roof.obj", "v -1 -1 1.5\nv 0 -1 1.5\nv 0 1 1.5\nf 1 2 3\n");
     EXPECT_THAT(measured_effects("sunny.exr --occluder roof.obj --max-distance 3"),
-                ElementsAre("self-occlusion", "occluders", "max-distance", "suns", "bounce"));
+                ElementsAre("self-occlusion", "occluders", "max-distance", "reconstruction", "suns", "bounce"));
     for (const char* name : { "self-occlusion", "occluders" })
         EXPECT_GT(double(effect(name)["visibility_error_without"]), 0.01) << name;
     EXPECT_EQ(double(effect("suns")["visibility_error_without"]), 0);
@@ -91,7 +92,8 @@ TEST_F(CostEffects, SunsAndWhatIsInTheirWay)
 TEST_F(CostEffects, ABounceBetweenSurfaces)
 {
     write("wall.obj", "v -1 -1 0\nv -1 1 0\nv -1 1 2\nv -1 -1 2\nf 1 2 3 4\n");
-    EXPECT_THAT(measured_effects("sky.exr --occluder wall.obj"), ElementsAre("self-occlusion", "occluders", "bounce"));
+    EXPECT_THAT(measured_effects("sky.exr --occluder wall.obj"),
+                ElementsAre("self-occlusion", "occluders", "reconstruction", "bounce"));
     const nlohmann::json bounce = effect("bounce");
     EXPECT_EQ(double(bounce["visibility_error_without"]), 0);
     EXPECT_GT(double(bounce["light_error_without"]), 0.06 / 0.9);

@@ -222,28 +222,28 @@ TEST_F(Effects, ReconstructionIsOffWhereItIsUnsoundAndSaidToBe)
 {
     const std::string scene = "--explain --occluder over.obj --margin 0 ";
     EXPECT_THAT(
-        bake("auto.exr", scene + "--reconstruct auto"),
+        bake("auto.exr", scene),
         testing::AllOf(testing::ContainsRegex("reconstruction +on +[0-9<]+ [^ ]* *each of 256 texels is averaged "
                                               "with those of the 48 around it that see the same"),
                        HasSubstr("  reconstruction: 0.000 M texels")));
     EXPECT_EQ(attribute("auto.exr", "vmlight:reconstruct"), "auto");
     EXPECT_EQ(attribute("auto.exr", "vmlight:no_reconstruct"), "");
-    write("mask.vismap", "mesh = \"quad.obj\"\nresolution = 16\nbasis = \"mask\"\nreconstruct = \"auto\"\n");
+    write("mask.vismap", "mesh = \"quad.obj\"\nresolution = 16\nbasis = \"mask\"\n");
     EXPECT_THAT(
         done("makevismap mask.vismap --explain -o mask.exr"),
         testing::ContainsRegex("reconstruction +off +- +what the basis mask packs of each ray has no mean: each "
                                "of 256 texels has what its own rays see"));
     EXPECT_EQ(attribute("mask.exr", "vmlight:reconstruct"), "");
     EXPECT_EQ(attribute("mask.exr", "vmlight:no_reconstruct"), "what the basis mask packs of each ray has no mean");
-    EXPECT_THAT(bake("off.exr", scene),
+    EXPECT_THAT(bake("off.exr", scene + "--reconstruct off"),
                 testing::ContainsRegex("reconstruction +off +- +reconstruct is off: each of 256 texels"));
     EXPECT_EQ(attribute("off.exr", "vmlight:reconstruct") + attribute("off.exr", "vmlight:no_reconstruct"), "");
-    EXPECT_THAT(bake("switched.exr", scene + "--reconstruct auto --effects -reconstruction"),
+    EXPECT_THAT(bake("switched.exr", scene + "--effects -reconstruction"),
                 testing::AllOf(testing::ContainsRegex("reconstruction +switched off"), Not(HasSubstr("WARNING"))));
     EXPECT_EQ(attribute("switched.exr", "vmlight:effects"), "-reconstruction");
     expect_same_pixels("switched.exr", "off.exr", 0);
     refused(2, "effects: +reconstruction is impossible: reconstruct is off",
-            std::string(kBake) + "x.exr --effects +reconstruction");
+            std::string(kBake) + "x.exr --reconstruct off --effects +reconstruction");
 }
 
 // The same flags in a recipe, by the tool and by a reader.

@@ -15,7 +15,7 @@ namespace {
 class Errors : public CommandTest
 {
 protected:
-    const std::string bake = "makevismap {spot} --resolution 64 ";
+    const std::string bake = "makevismap {spot} --resolution 64 --reconstruct off ";
 
     struct Printed
     {
@@ -56,7 +56,7 @@ TEST_F(Errors, ATargetErrorIsMetPrintedAndStored)
 
 TEST_F(Errors, ATargetOfAReconstructedMapTakesFewerRays)
 {
-    const std::string reconstructed = "makevismap {spot} --resolution 64 --reconstruct auto ";
+    const std::string reconstructed = "makevismap {spot} --resolution 64 ";
     const int rays = error_line(done(bake + "--target-error 0.02 -o a.exr")).rays;
     EXPECT_THAT(done(reconstructed + "--target-error 0.02 -o b.exr"),
                 ContainsRegex("error: 0.0[12][0-9]* \\(RMS of V, from texels that were traced with more rays\\) at "));
@@ -79,7 +79,7 @@ TEST_F(Errors, TheChannelHoldsAnEstimate)
 TEST_F(Errors, WhereNothingIsOccludedOneRayIsEnough)
 {
     make_vismap();
-    EXPECT_THAT(done("makevismap quad.obj -o a.exr --resolution 32 --target-error 1e-3"),
+    EXPECT_THAT(done("makevismap quad.obj -o a.exr --resolution 32 --reconstruct off --target-error 1e-3"),
                 HasSubstr("error: 0 (1024 texels baked twice are identical) at 1 ray per texel"));
     EXPECT_EQ(attribute("a.exr", "vmlight:error"), "0");
 }
@@ -87,7 +87,7 @@ TEST_F(Errors, WhereNothingIsOccludedOneRayIsEnough)
 TEST_F(Errors, OneTexelThatAgreesWithItselfTakes64Rays)
 {
     write("quad.obj", kQuad);
-    EXPECT_THAT(done("makevismap quad.obj -o a.exr --resolution 1 --target-error 1e-3"),
+    EXPECT_THAT(done("makevismap quad.obj -o a.exr --resolution 1 --reconstruct off --target-error 1e-3"),
                 HasSubstr("error: 0 (1 texel baked twice is identical) at 64 rays per texel; "));
     EXPECT_EQ(samples("a.exr"), "64");
 }
@@ -112,7 +112,7 @@ TEST_F(Errors, ATimeGivesTheRaysAndTheFileStoresThem)
 TEST_F(Errors, ATimeTooShortForOneRayTakesOneWithAWarning)
 {
     EXPECT_THAT(
-        done("makevismap {spot} --resolution 2048 --margin 0 --time-budget 0.001 -o a.exr"),
+        done("makevismap {spot} --resolution 2048 --margin 0 --reconstruct off --time-budget 0.001 -o a.exr"),
         ContainsRegex("WARNING: time_budget: even 1 ray per texel, the minimum, takes about .* s, more than 0.001\n"));
     EXPECT_EQ(samples("a.exr"), "1");
 }
@@ -122,7 +122,7 @@ TEST_F(Errors, ATimeIsNoPartOfARecipe)
     refused(2, "--time-budget cannot be saved in a recipe", bake + "--time-budget 1 --print-recipe");
     refused(2, "time_budget: 0 is not in [0.001, 1e+06]", bake + "--time-budget 0 -o x.exr");
     const std::string recipe = run(bake + "--target-error 0.05 --channels error,normal --print-recipe").out;
-    EXPECT_THAT(recipe, HasSubstr("target_error = 0.05\nchannels = [\"normal\", \"error\"]\n"));
+    EXPECT_THAT(recipe, HasSubstr("target_error = 0.05\nreconstruct = \"off\"\nchannels = [\"normal\", \"error\"]\n"));
     write("hero.vismap", recipe);
     error_line(done("makevismap hero.vismap -o a.exr"));
     refused(2, "--time-budget 1: target_error sets", "makevismap hero.vismap -o x.exr --time-budget 1");

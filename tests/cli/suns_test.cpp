@@ -32,7 +32,10 @@ protected:
               "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 1 0\n"
               "f 1/1/1 2/2/1 3/3/1 4/4/1\n");
         write("wall.obj", "v 1 0 9\nv 1 0 -9\nv 1 1 -9\nv 1 1 9\nf 1 2 3 4\n");
-        write("hero.vismap", "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 64\n");
+        write("hero.vismap",
+              "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 64\n"
+              "reconstruct = \"off\"\n" // what is tested is the light of single texels
+        );
     }
 
     // Of the middle row.

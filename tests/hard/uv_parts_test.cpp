@@ -25,6 +25,7 @@ VismapRecipe recipe_of(const std::string& path, const MeshSelection& selection =
     recipe.mesh_params.normals = "flat";
     recipe.vismap_params.resolution = { 64, 64 };
     recipe.vismap_params.samples = 64;
+    recipe.vismap_params.reconstruct = "off"; // a part's texels have the neighbours of the part
     recipe.vismap_params.margin = 0;
     return recipe;
 }
