@@ -32,6 +32,7 @@ public:
         recipe.vismap_params.resolution = { 32, 32 };
         recipe.vismap_params.samples = 32;
         recipe.vismap_params.margin = 0;
+        recipe.vismap_params.reconstruct = "off"; // a part's texels have the neighbours of the part
         return recipe;
     }
 };
@@ -81,7 +82,7 @@ TEST(SelectionStage, ReadersAndMetadataKnowThePart)
     const Room room;
     room.write("part.vismap",
                "mesh = \"room.obj\"\nmaterial = [\"Stone\"]\nnode = \"House\"\nresolution = 32\n"
-               "samples = 32\nmargin = 0\n");
+               "samples = 32\nmargin = 0\nreconstruct = \"off\"\n");
     const ImageBuf part = made_map(room.recipe({ { "Stone" }, { "House" } }));
     ImageBuf opened(room / "part.vismap");
     ASSERT_TRUE(opened.read(0, 0, true, OIIO::TypeFloat)) << opened.geterror();

@@ -276,7 +276,7 @@ TEST_F(StrandStage, WhatIsOfMeshesAloneIsRefused)
                                                                                        { "material", "Body" },
                                                                                        { "ground", "true" },
                                                                                        { "target_error", "0.1" },
-                                                                                       { "reconstruct", "auto" },
+                                                                                       { "reconstruct", "off" },
                                                                                        { "measure", "uniform" },
                                                                                        { "margin", "2" },
                                                                                        { "channels", "normal" },

@@ -30,13 +30,13 @@ BounceRays::BounceRays(const MapPoints& map, const MapPatches& patches, const Sa
 }
 
 BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met,
-                                    Rays which)
+                                    int round)
 {
-    const bool is_own = which == Rays::own;
+    const bool is_own = round != kRaysOfBake;
     const SamplePattern& pattern = is_own ? m_pattern : m_bake_pattern;
     RayFan& fan = is_own ? m_fan : m_bake_fan;
     const auto seed = uint32_t(m_map.params().seed);
-    const Point32 hash = texel_hash(uint32_t(x), uint32_t(y), is_own ? seed ^ kOtherSeed : seed);
+    const Point32 hash = texel_hash(uint32_t(x), uint32_t(y), is_own ? seed ^ (kOtherSeed + uint32_t(round)) : seed);
     const bool is_mapped = point.normal != point.mesh_normal;
     pattern.directions(fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, hash);
     const float lowest = m_ground.lowest_ray(point);

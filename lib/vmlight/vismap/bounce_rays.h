@@ -21,12 +21,12 @@ public:
     /// What a ray met is a patch, or with this bit a cell of cells().
     static constexpr uint32_t kCell = 0x80000000u;
 
-    /// Which rays to trace: others than those of the bake, so that their errors are independent; or those of the bake,
-    /// which have met something wherever V is below 1.
-    enum class Rays
+    /// Which rays to trace: 0 others than those of the bake, so that their errors are independent; 1 those of the bake,
+    /// which have met something wherever V is below 1, unless it is reconstructed; from 2 on others each time.
+    enum : int
     {
-        own,
-        of_bake
+        kOwnRays = 0,
+        kRaysOfBake = 1
     };
 
     /// @param map, patches, pattern, bake_pattern  must outlive this
@@ -42,7 +42,7 @@ public:
     /// Trace the rays of `point`, which is texel number `texel` at (x, y), and append what each meets to `met`, but for
     /// what is black.
     Count trace(const SurfacePoint& point, size_t texel, int x, int y, std::vector<uint32_t>& met,
-                Rays which = Rays::own);
+                int round = kOwnRays);
 
     LightCells& cells() { return m_cells; }
     int64_t rays() const { return m_rays; }

@@ -23,6 +23,8 @@ namespace {
 static_assert(TransportParams::kRays.max <= TransportTile::kMostCount);
 // Of the bake, traced again for a texel: more would find nothing that matters.
 constexpr int kMostBakeRays = 4096;
+// Of rays for a texel, until one meets something.
+constexpr int kMostRounds = 16;
 
 } // namespace
 
@@ -77,16 +79,17 @@ void LightTransport::trace(int tile, Worker& worker) const
         const double hidden = has_visibility ? std::min(1.0, 1 - double(m_setup->visibility[texel])) : 1;
         if (!(hidden > 0))
             continue;
-        const auto cast = [&](BounceRays::Rays which) {
+        const auto cast = [&](int round) {
             return worker.rays.trace(point.surface, texel, map.left(tile) + point.x, map.top(tile) + point.y,
-                                     traced.met, which);
+                                     traced.met, round);
         };
-        // What is blocked is known better from the map. What these rays miss, those of the bake have met; without
-        // them, small things would send too little: of hidden x mean of what hits bring, the times without a hit.
+        // What is blocked is known better from the map. What these rays miss, those of the bake have met, or in a map
+        // that is reconstructed those of neighbours: then more rays are traced. Without a hit, small things would
+        // send too little: of hidden x mean of what hits bring, the times without one.
         const bool is_known = has_visibility && is_cosine;
-        BounceRays::Count count = cast(BounceRays::Rays::own);
-        if (is_known && count.blocked == 0)
-            count = cast(BounceRays::Rays::of_bake);
+        BounceRays::Count count = cast(BounceRays::kOwnRays);
+        for (int round = BounceRays::kRaysOfBake; is_known && count.blocked == 0 && round <= kMostRounds; ++round)
+            count = cast(round);
         const size_t met = traced.met.size() - before;
         if (met == 0)
             continue;

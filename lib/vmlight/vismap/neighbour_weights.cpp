@@ -134,7 +134,8 @@ void weigh_neighbours_target(Window& window)
                 const auto tolerated = hn::Max(hn::Mul(expected, hn::Set(d, 8 * kTolerance * kTolerance)), least);
                 const auto x8 = hn::Div(beyond, tolerated);
                 const auto alike = square(square(square(hn::Max(zero, hn::Sub(one, x8)))));
-                const auto weight = hn::Mul(hn::Mul(alike, near), load(window.scratch_surface, i));
+                const auto gives = load(window.gives, Window::index(x + to.x, y + to.y));
+                const auto weight = hn::Mul(hn::Mul(hn::Mul(alike, near), load(window.scratch_surface, i)), gives);
                 hn::StoreU(weight, d, weights);
                 float* sum = window.scale.data() + size_t(y) * kTileSize + size_t(x);
                 hn::StoreU(hn::Add(hn::LoadU(d, sum), weight), d, sum);
@@ -213,6 +214,7 @@ void NeighbourWindow::clear()
     constexpr size_t kTexels = size_t(kSide) * kStride + 8;
     for (Plane* plane : { &visibility, &x, &y, &z, &variance, &spacing })
         plane->assign(kTexels, 0);
+    gives.assign(kTexels, 1);
     for (size_t c = 0; c < 3; ++c) {
         normal[c].assign(kTexels, 0);
         position[c].assign(kTexels, 0);

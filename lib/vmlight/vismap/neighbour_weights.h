@@ -45,6 +45,9 @@ struct NeighbourWindow
     std::array<Plane, 3> normal, position;
     Plane spacing;
 
+    /// 1 where a texel gives to others, 0 where it does not: all do, unless it is set after clear().
+    Plane gives;
+
     /// Set by weigh_neighbours(): for each neighbour its weight in each texel of the tile, row by row, and one over
     /// their sum, in which the texel itself has the weight 1.
     std::vector<float> weights, scale;

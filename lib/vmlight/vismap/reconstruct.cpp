@@ -160,20 +160,25 @@ int64_t Reconstruction::apply(const float* raw, float* texels, size_t pitch, int
     return dark;
 }
 
+// A texel that keeps what it has gives nothing either: where few rays are blocked, others would lose to it what it does
+// not take from them, and less would be hidden than rays have met.
 void Reconstruction::want_scattered(const std::array<uint64_t, kTileSize>& texels)
 {
-    constexpr int kPatch = NeighbourWindow::kPatch;
-    for (int row = 0; row < kTileSize; ++row) {
-        uint64_t& wanted = m_window.wanted[size_t(row)];
-        wanted = texels[size_t(row)];
-        for (int x = 0; x < kTileSize; ++x) {
+    constexpr int kPatch = NeighbourWindow::kPatch, kReach = NeighbourWindow::kReach;
+    for (int row = -kReach; row < kTileSize + kReach; ++row)
+        for (int x = -kReach; x < kTileSize + kReach; ++x) {
             bool scatters = false;
             for (int y = row - kPatch; y <= row + kPatch; ++y)
                 for (int column = x - kPatch; column <= x + kPatch; ++column)
                     scatters |= m_window.variance[NeighbourWindow::index(column, y)] > 0;
-            if (!scatters)
-                wanted &= ~(uint64_t(1) << x);
+            m_window.gives[NeighbourWindow::index(x, row)] = scatters ? 1.0f : 0.0f;
         }
+    for (int row = 0; row < kTileSize; ++row) {
+        uint64_t& wanted = m_window.wanted[size_t(row)];
+        wanted = texels[size_t(row)];
+        for (int x = 0; x < kTileSize; ++x)
+            if (!(m_window.gives[NeighbourWindow::index(x, row)] > 0))
+                wanted &= ~(uint64_t(1) << x);
     }
 }
 
