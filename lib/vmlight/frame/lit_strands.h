@@ -46,7 +46,7 @@ private:
     OIIO::ImageBuf m_sine; // the light filtered for the model `ao`
     std::string m_suns_key; // what m_suns were traced for
     SunLight m_suns;
-    const std::vector<float> m_all; // every texel counts
+    const std::vector<float> m_all {}; // every texel counts
     bool m_has_warned = false;
 };
 

@@ -17,6 +17,9 @@ constexpr float kStretch = 2.25f;
 // By how much more than by chance texels may differ, in what they differ by chance. Measured: below 1.2 less is gained,
 // from 1.4 on single texels near edges become worse.
 constexpr float kTolerance = 1.25f;
+// By how much more two texels alone may differ: by chance they hardly ever do, and a patch around both may hide it.
+constexpr float kAlone = 10;
+constexpr float kPatchTexels = (2 * NeighbourWindow::kPatch + 1) * (2 * NeighbourWindow::kPatch + 1);
 // Of the weight by distance, in texels.
 constexpr float kSpread = 2;
 
@@ -133,7 +136,11 @@ void weigh_neighbours_target(Window& window)
                 // (1 - x / 8)^8: exp(-x) to within .03, and exactly 0 from x = 8 on.
                 const auto tolerated = hn::Max(hn::Mul(expected, hn::Set(d, 8 * kTolerance * kTolerance)), least);
                 const auto x8 = hn::Div(beyond, tolerated);
-                const auto alike = square(square(square(hn::Max(zero, hn::Sub(one, x8)))));
+                // Of a few rays that agree by chance the scatter is 0: that of the patches tells more.
+                const auto alone = hn::Mul(load(window.scratch_difference, i), hn::Set(d, kPatchTexels));
+                const auto is_alike = hn::Le(alone, hn::Mul(expected, hn::Set(d, kAlone)));
+                const auto alike
+                    = hn::IfThenElseZero(is_alike, square(square(square(hn::Max(zero, hn::Sub(one, x8))))));
                 const auto gives = load(window.gives, Window::index(x + to.x, y + to.y));
                 const auto weight = hn::Mul(hn::Mul(hn::Mul(alike, near), load(window.scratch_surface, i)), gives);
                 hn::StoreU(weight, d, weights);
