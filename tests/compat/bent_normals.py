@@ -33,34 +33,9 @@ def pixels_of(path):
 
 def decode(corners, tangents, local):
     """[SIDE, SIDE, 3]: x T + y B + z N of each texel, normalised; not a number where no triangle is, or several are."""
-    axes = [oracle.expected_normals(corners, tangents, axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
-    lengths = [lengths_of(corners, tangents, axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
-    mapped = sum(axis * length[..., None] * local[..., k:k + 1] for k, (axis, length) in enumerate(zip(axes, lengths)))
+    axes = [oracle.mapped_directions(corners, tangents, axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    mapped = sum(axis * local[..., k:k + 1] for k, axis in enumerate(axes))
     return mapped / numpy.linalg.norm(mapped, axis=-1, keepdims=True)
-
-
-def lengths_of(corners, tangents, axis):
-    """Of the interpolated axes, which the oracle normalises: rasterized as it does, from |x T + y B + z N|."""
-    _, normals, uvs = corners
-    image = numpy.full((SIDE, SIDE), numpy.nan)
-    for k in range(len(uvs)):
-        (ax, ay), (bx, by), (cx, cy) = uvs[k, :, :2] * SIDE
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        if area == 0:
-            continue
-        xs = numpy.arange(max(int(min(ax, bx, cx)) - 1, 0), min(int(max(ax, bx, cx)) + 2, SIDE))
-        ys = numpy.arange(max(int(min(ay, by, cy)) - 1, 0), min(int(max(ay, by, cy)) + 2, SIDE))
-        x, y = numpy.meshgrid(xs + 0.5, ys + 0.5)
-        b = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
-        c = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
-        weights = numpy.stack([1 - b - c, b, c], axis=-1)
-        inside = (weights >= 0).all(axis=-1)
-        weights = weights[inside]
-        normal, tangent = weights @ normals[k], weights @ tangents[k, :, :3]
-        bitangent = numpy.cross(normal, tangent) * tangents[k, 0, 3]
-        image[SIDE - 1 - (y[inside] - 0.5).astype(int), (x[inside] - 0.5).astype(int)] = numpy.linalg.norm(
-            tangent * axis[0] + bitangent * axis[1] + normal * axis[2], axis=-1)
-    return image
 
 
 def check(mesh):

@@ -53,8 +53,8 @@ def tangents_of(corners, folder):
         return numpy.array(json.load(file)).reshape(-1, 3, 4)
 
 
-def expected_normals(corners, tangents, leaning):
-    """[SIDE, SIDE, 3], not a number where no triangle is, or several are."""
+def mapped_directions(corners, tangents, leaning):
+    """[SIDE, SIDE, 3]: x T + y B + z N of each texel, not normalised; not a number where no triangle is, or several are."""
     _, normals, uvs = corners
     image, seen = numpy.full((SIDE, SIDE, 3), numpy.nan), numpy.zeros((SIDE, SIDE), int)
     for k in range(len(uvs)):
@@ -73,11 +73,15 @@ def expected_normals(corners, tangents, leaning):
         columns, rows = (x[inside] - 0.5).astype(int), SIDE - 1 - (y[inside] - 0.5).astype(int)
         normal, tangent = weights @ normals[k], weights @ tangents[k, :, :3]
         bitangent = numpy.cross(normal, tangent) * tangents[k, 0, 3]
-        mapped = tangent * leaning[0] + bitangent * leaning[1] + normal * leaning[2]
-        image[rows, columns] = mapped / numpy.linalg.norm(mapped, axis=-1, keepdims=True)
+        image[rows, columns] = tangent * leaning[0] + bitangent * leaning[1] + normal * leaning[2]
         seen[rows, columns] += 1
     image[seen != 1] = numpy.nan
     return image
+
+
+def expected_normals(corners, tangents, leaning):
+    mapped = mapped_directions(corners, tangents, leaning)
+    return mapped / numpy.linalg.norm(mapped, axis=-1, keepdims=True)
 
 
 def check(makevismap, mesh, folder):
