@@ -79,10 +79,10 @@ class Machine(HardCase):
                 if int(info.readline().split()[1]) > 100 << 20:
                     self.skipTest("a machine that may have the memory")
             self.told(self.run_tool(*words, "-o", "x.exr"), 1, text)
-        self.file("wide.vismap", 'mesh = "quad.obj"\nresolution = 32768\nbasis = "sh"\norder = 8\nmargin = "infinite"\n')
+        self.file("wide.vismap", 'mesh = "quad.obj"\nresolution = 32768\nbasis = "sh"\norder = 8\nmargin = "infinite"\nreconstruct = "off"\n')
         code, told = self.reader("wide.vismap")
         self.assertEqual(code, 1)
-        self.assertIn("256.0 GB of memory, ", told)
+        self.assertTrue("256.0 GB of memory, " in told, told[:500])
         os.remove(self.path("wide.vismap"))
         self.assertEqual(self.contents(), before)
         self.row("A map of 256 GB", "the system grants the memory and kills the process that fills it",
