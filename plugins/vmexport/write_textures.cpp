@@ -203,15 +203,15 @@ private:
             put_half("lightmap", *m_light, "linear Rec.709");
             return true;
         }
-        TextureFile file { "hdr", "", "linear Rec.709" };
-        double range = params.rgbm_range;
-        if (params.lightmap_encoding == "rgbe" ? encode_rgbe(file.bytes, *m_light, error)
-                                               : encode_rgbm(file, *m_light, range, params.texture_depth(), error)) {
-            put("lightmap", file);
-            return true;
+        std::vector<LightmapFile> files;
+        if (!encode_lightmap(files, *m_light, params.lightmap_encoding, params.rgbm_range, params.texture_depth(),
+                             error)) {
+            error = format("\"{}\": {}", udim_path(m_request.files.lightmap, m_tile.udim), error);
+            return false;
         }
-        error = format("\"{}\": {}", udim_path(m_request.files.lightmap, m_tile.udim), error);
-        return false;
+        for (const LightmapFile& file : files)
+            put("lightmap" + file.suffix, file.texture);
+        return true;
     }
 
     bool make_gltf(std::string& error)

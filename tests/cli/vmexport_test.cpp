@@ -138,6 +138,9 @@ TEST_F(Vmexport, LightmapsAreEncoded)
     EXPECT_THAT(done(line + "rgbe"), HasSubstr("out/vm_lightmap.hdr: linear Rec.709"));
     EXPECT_THAT(done(line + "rgbm"), HasSubstr("out/vm_lightmap.png: light = 3 * alpha * rgb"));
     expect_all("out/vm_lightmap.png", { 85, 170, 255, 255 });
+    EXPECT_THAT(done(line + "gain_map"), HasSubstr("out/vm_lightmap_gain.json: numbers of the gain"));
+    expect_all("out/vm_lightmap.png", { 255, 255, 255 });
+    EXPECT_TRUE(exists("out/vm_lightmap_gain.png"));
     expect_same_pixels("out/vm_lightmap.exr", "lit.exr", 1e-3f);
     expect_same_pixels("out/vm_lightmap.hdr", "lit.exr", 0.02f);
     refused(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What vmexport's files hold, decoded as docs/export.md says.
+#include "exported_image.h"
 #include "scenes.h"
 #include "stack_maps.h"
 
@@ -22,29 +23,6 @@ using namespace vmlight;
 using namespace scene;
 using testing::HasSubstr;
 using testing::Not;
-
-namespace {
-
-ImageBuf image_of(int channels, const std::vector<float>& values)
-{
-    ImageBuf image(ImageSpec(int(values.size()) / channels, 1, channels, OIIO::TypeFloat));
-    std::copy(values.begin(), values.end(), pixels(image));
-    return image;
-}
-
-ImageBuf exported_image(const std::string& bytes, const char* name)
-{
-    OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-    ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    ImageBuf image(name, 0, 0, nullptr, &config, &reader);
-    EXPECT_TRUE(image.read(0, 0, true, OIIO::TypeFloat)) << image.geterror();
-    return image;
-}
-
-const std::vector<float> kLight { 0, 0, 0, 1, 0.5f, 0.25f, 3, 0.001f, 2.9f, 0.01f, 0.011f, 0.012f, 1e-5f, 0, 3 };
-
-} // namespace
 
 TEST(ExportFiles, EachTargetIsOneEntryWithANameOfItsOwn)
 {
@@ -72,67 +50,6 @@ TEST(ExportFiles, PngSaysNothingOfColour)
         EXPECT_EQ(png.find(chunk), std::string::npos) << chunk;
     const ImageBuf read = exported_image(png, "a.png");
     EXPECT_NEAR(read.getchannel(0, 0, 0, 0), 0.5f, 1e-5f); // not multiplied by alpha
-}
-
-TEST(ExportFiles, RgbmDecodesWithinHalfAStepOfItsAlpha)
-{
-    const ImageBuf light = image_of(3, kLight);
-    for (const TextureDepth depth : { TextureDepth::Eight, TextureDepth::Sixteen })
-        for (double range : { 0.0, 8.0 }) {
-            TextureFile file;
-            std::string error;
-            ASSERT_TRUE(encode_rgbm(file, light, range, depth, error)) << error;
-            EXPECT_THAT(file.decode, HasSubstr("alpha * rgb"));
-            EXPECT_GE(range, 3);
-            const ImageBuf read = exported_image(file.bytes, "a.png");
-            for (int x = 0; x < light.spec().width; ++x) {
-                const double alpha = double(read.getchannel(x, 0, 0, 3));
-                for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(range * alpha * double(read.getchannel(x, 0, 0, c)),
-                                double(light.getchannel(x, 0, 0, c)),
-                                0.5001 * range * alpha / largest_of(depth) + 1e-6);
-            }
-        }
-    TextureFile file;
-    std::string error;
-    double range = 2;
-    EXPECT_FALSE(encode_rgbm(file, light, range, TextureDepth::Eight, error));
-    EXPECT_THAT(error, HasSubstr("its greatest value is 3"));
-}
-
-TEST(ExportFiles, RgbeDecodesWithinA256thOfTheLargestChannel)
-{
-    const ImageBuf light = image_of(3, kLight);
-    std::string hdr, error;
-    ASSERT_TRUE(encode_rgbe(hdr, light, error)) << error;
-    const ImageBuf read = exported_image(hdr, "a.hdr");
-    for (int x = 0; x < light.spec().width; ++x) {
-        const float most = std::max({ kLight[size_t(3 * x)], kLight[size_t(3 * x + 1)], kLight[size_t(3 * x + 2)] });
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(read.getchannel(x, 0, 0, c), light.getchannel(x, 0, 0, c), most / 128) << x;
-    }
-}
-
-// White stays white; red of ACEScg is beyond that of Rec.709, whose green is then negative.
-TEST(ExportFiles, EnginesGetRec709)
-{
-    ImageBuf light = image_of(3, { 1, 1, 1, 1, 0, 0 }), engine;
-    std::string error;
-    tag_scene_linear(light.specmod(), "lin_ap1_scene");
-    ASSERT_TRUE(engine_light(engine, light, error)) << error;
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(engine.getchannel(0, 0, 0, c), 1, 1e-4f);
-    EXPECT_NEAR(engine.getchannel(1, 0, 0, 0), 1.705f, 2e-3f);
-    EXPECT_EQ(engine.getchannel(1, 0, 0, 1), 0);
-    tag_scene_linear(light.specmod(), "lin_rec709_scene");
-    ASSERT_TRUE(engine_light(engine, light, error)) << error;
-    EXPECT_EQ(engine.getchannel(1, 0, 0, 0), 1);
-    tag_scene_linear(light.specmod(), "lin_crayon_scene");
-    EXPECT_FALSE(engine_light(engine, light, error));
-    EXPECT_THAT(error, HasSubstr("lin_crayon_scene"));
-    light = image_of(3, { 1, NAN, 1 });
-    EXPECT_FALSE(engine_light(engine, light, error));
-    EXPECT_THAT(error, HasSubstr("pixel (0, 0) is nan"));
 }
 
 TEST(ExportFiles, PackingReplacesOneChannelAndKeepsTheOthers)

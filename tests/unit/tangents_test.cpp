@@ -2,11 +2,16 @@
 // Tangents where they are known by hand.
 #include "scenes.h"
 
+#include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/tangents.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <string>
 
 using namespace vmlight;
 using Imath::V2f;
@@ -134,4 +139,38 @@ TEST(Tangents, HardTrianglesGiveFiniteOnes)
             EXPECT_TRUE(std::isfinite(corner.tangent.length())) << corner.tangent;
             EXPECT_LT(corner.tangent.length(), 1.001f);
         }
+}
+
+// Corners of gazebo.obj, and of spot.obj with the normals of a sphere, as npm's mikktspace has them.
+TEST(Tangents, AreThoseOfMikktspace)
+{
+    std::ifstream file(VMLIGHT_TEST_DATA "/tangents/mikktspace_corners.txt");
+    std::map<std::string, Mesh> meshes;
+    std::map<std::string, std::vector<std::array<CornerTangent, 3>>> tangents;
+    for (const std::string name : { "gazebo", "spot" }) {
+        Mesh& mesh = meshes[name];
+        std::string error;
+        ASSERT_TRUE(read_mesh(mesh, std::string(VMLIGHT_TEST_DATA "/") + name + ".obj", {}, error)) << error;
+        if (name == "spot")
+            for (size_t v = 0; v < mesh.positions.size(); ++v)
+                mesh.normals[v] = V3f(mesh.positions[v] / mesh.positions[v].length());
+        tangents[name] = make_tangents(mesh);
+    }
+    std::string line, name;
+    std::getline(file, line);
+    size_t triangle = 0, corner = 0;
+    V3f tangent;
+    float sign = 0;
+    std::vector<float> apart;
+    while (file >> name >> triangle >> corner >> tangent.x >> tangent.y >> tangent.z >> sign) {
+        const CornerTangent& ours = tangents.at(name).at(triangle).at(corner);
+        EXPECT_EQ(ours.sign, sign) << name << " " << triangle << " " << corner;
+        apart.push_back((ours.tangent - tangent).length());
+    }
+    ASSERT_EQ(apart.size(), 537u);
+    std::sort(apart.begin(), apart.end());
+    // At one corner of spot, with these normals, six triangles' directions nearly cancel, with angles near 0 and 180
+    // degrees as weights, which mikktspace has in single precision.
+    EXPECT_LT(apart[535], 1e-5f);
+    EXPECT_LT(apart[536], 1e-3f);
 }

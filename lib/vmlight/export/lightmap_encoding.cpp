@@ -29,13 +29,55 @@ bool space_of(const LinearSpace*& space, const OIIO::ImageSpec& spec, std::strin
     return false;
 }
 
+bool as_rgbe(std::vector<LightmapFile>& dst, const OIIO::ImageBuf& light, double, TextureDepth, std::string& error)
+{
+    TextureFile& file = dst.emplace_back().texture;
+    file.extension = "hdr";
+    file.decode = "linear Rec.709";
+    return encode_rgbe(file.bytes, light, error);
+}
+
+bool as_rgbm(std::vector<LightmapFile>& dst, const OIIO::ImageBuf& light, double range, TextureDepth depth,
+             std::string& error)
+{
+    return encode_rgbm(dst.emplace_back().texture, light, range, depth, error);
+}
+
+bool as_gain_map(std::vector<LightmapFile>& dst, const OIIO::ImageBuf& light, double, TextureDepth depth,
+                 std::string& error)
+{
+    return encode_gain_map(dst, light, depth, error);
+}
+
+struct Encoding
+{
+    const char *name, *help;
+    bool (*encode)(std::vector<LightmapFile>&, const OIIO::ImageBuf&, double range, TextureDepth, std::string& error);
+};
+
+const Encoding kEncodings[] = {
+    { "half", "EXR of half floats", nullptr },
+    { "rgbe", "Radiance .hdr", as_rgbe },
+    { "rgbm", "PNG: light = range * alpha * rgb", as_rgbm },
+    { "gain_map", "PNG in sRGB, a PNG of gains and JSON, as three.js' GainMapLoader reads them", as_gain_map },
+};
+
 } // namespace
 
 Choices lightmap_encoding_choices()
 {
-    return { { { "half", "EXR of half floats" },
-               { "rgbe", "Radiance .hdr" },
-               { "rgbm", "PNG: light = range * alpha * rgb" } } };
+    Choices choices;
+    for (const Encoding& encoding : kEncodings)
+        choices.choices.push_back({ encoding.name, encoding.help });
+    return choices;
+}
+
+bool encode_lightmap(std::vector<LightmapFile>& dst, const OIIO::ImageBuf& light, const std::string& encoding,
+                     double range, TextureDepth depth, std::string& error)
+{
+    const auto* found = std::find_if(std::begin(kEncodings), std::end(kEncodings),
+                                     [&](const Encoding& each) { return encoding == each.name; });
+    return found->encode(dst, light, range, depth, error);
 }
 
 bool engine_light(OIIO::ImageBuf& dst, const OIIO::ImageBuf& lightmap, std::string& error)

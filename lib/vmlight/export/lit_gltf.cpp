@@ -5,8 +5,9 @@
 #include <vmlight/image/texture_file.h>
 #include <vmlight/mesh/export/gltf_model.h>
 
+#include <OpenImageIO/color.h>
+
 #include <algorithm>
-#include <cmath>
 
 namespace vmlight {
 namespace {
@@ -35,11 +36,6 @@ void add_sampler(tinygltf::Model& model)
     sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
     sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     model.samplers.push_back(sampler);
-}
-
-float srgb(float linear)
-{
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
 void use_extension(tinygltf::Model& model, tinygltf::Material& material, const char* name,
@@ -76,7 +72,7 @@ bool add_textures(GltfTextures& dst, tinygltf::Model& model, const OIIO::ImageBu
         if (std::max({ values[0], values[1], values[2] }) > float(dst.strength))
             ++cut_off;
         for (int c = 0; c < 3; ++c)
-            values[c] = srgb(std::min(1.0f, float(double(values[c]) / dst.strength)));
+            values[c] = OIIO::linear_to_sRGB(std::min(1.0f, float(double(values[c]) / dst.strength)));
     }
     if (!encode_png(png, encoded, TextureDepth::Eight, error))
         return false;
