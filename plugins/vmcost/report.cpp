@@ -28,6 +28,7 @@ figure { margin: 1em 0; } figcaption { color: #555; font-size: .92em; max-width:
 figure svg { width: 100%; height: auto; max-width: 760px; }
 .heat { display: flex; flex-wrap: wrap; gap: .6em; } .heat figure { margin: 0; text-align: center; }
 .heat img { width: 128px; image-rendering: pixelated; } h3 { font-size: 1em; margin-bottom: .3em; }
+iframe { width: 100%; height: 32em; border: 1px solid #ddd; }
 .effects td:last-child, .effects th:last-child { text-align: left; max-width: 26em; } .none { color: #777; } dl { display: grid; grid-template-columns: max-content auto; gap: .1em 1.2em; }
 dt { color: #555; } dd { margin: 0; overflow-wrap: anywhere; }
 @media print { body { margin: 0; font-size: 11px; max-width: none; } figure, table { break-inside: avoid; } }
@@ -156,6 +157,14 @@ std::string heat_maps(const Report& report)
     return text;
 }
 
+// The page is text of an attribute, so that the report stays one file.
+std::string live_view(const std::string& page)
+{
+    if (page.empty())
+        return "<p class=none>This mesh is too large to be shown live in a report.</p>\n";
+    return format("<iframe title=\"The mesh, lit live\" loading=lazy srcdoc=\"{}\"></iframe>\n", escaped(page));
+}
+
 std::string effects_table(const std::vector<EffectCost>& effects)
 {
     if (effects.empty())
@@ -235,6 +244,12 @@ std::string report_html(const Report& report)
                    "dark, full colour is {:g} % of the mean light or more. Grey is not covered by the mesh.</p>\n",
                    100.0 * kHeatRange)
         + heat_maps(report);
+    text += "<h2>What it looks like</h2>\n<p>The mesh, white, baked at the reference's size with the default number of "
+            "rays, "
+            "in the light of the first environments. Drag to orbit, Shift and drag to turn the light; the panel "
+            "compares "
+            "models.</p>\n"
+        + live_view(report.live_page);
     text += "<h2>How it was measured</h2>\n<p>The reference traces pairs of rays, one sampling the cosine and one the "
             "light, with independent "
             "random numbers. Its variance, estimated per texel, is subtracted from the mean square error. &plusmn; is "

@@ -31,6 +31,8 @@ struct Report
     /// By environment, one picture per model.
     std::vector<std::pair<std::string, std::vector<Picture>>> heat_maps;
     Facts facts;
+    /// The page of make_live_page(), or "".
+    std::string live_page;
 };
 
 /// The report as HTML with everything embedded.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects.h"
 #include "gnuplot.h"
+#include "live_page.h"
 #include "report.h"
 #include "write_report.h"
 
@@ -52,6 +53,7 @@ int main(int argc, const char** argv)
         Inputs inputs;
         Measured measured;
         std::vector<EffectCost> effects;
+        std::string live_page;
         mesh.mesh = operands[0];
         params.set_scene(mesh.vismap_params);
         const CommandInputs commands { mesh, operands[1], light, params.sanitize };
@@ -74,10 +76,11 @@ int main(int argc, const char** argv)
         if (!trace_references(inputs, params, folder, options, progress, error)
             || !measure(measured, settings, inputs, params, folder, options, progress, error)
             || !measure_effects(effects, inputs, mesh, params, options, progress.part(effects_weight(environments)),
-                                error))
+                                error)
+            || !make_live_page(live_page, inputs, light, params, options, {}, error))
             return false;
         progress.finish();
-        if (!write_report(measured, effects, inputs, params, commands, folder, options, error))
+        if (!write_report(measured, effects, inputs, params, commands, live_page, folder, options, error))
             return false;
         options.say("measured " + count_text(measured.measured, "row", "rows") + ", reused "
                     + std::to_string(measured.reused));

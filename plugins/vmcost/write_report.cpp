@@ -74,8 +74,8 @@ Facts facts_of(const Inputs& inputs, const CostParams& params, const MakeOptions
 } // namespace
 
 bool write_report(const Measured& measured, const std::vector<EffectCost>& effects, const Inputs& inputs,
-                  const CostParams& params, const CommandInputs& commands, const std::string& folder,
-                  const MakeOptions& options, std::string& error)
+                  const CostParams& params, const CommandInputs& commands, const std::string& live_page,
+                  const std::string& folder, const MakeOptions& options, std::string& error)
 {
     const DeferInterrupts writing;
     Report report;
@@ -84,6 +84,7 @@ bool write_report(const Measured& measured, const std::vector<EffectCost>& effec
     report.spread = typical_spread(measured.rows);
     report.commands = commands;
     report.effects = effects;
+    report.live_page = live_page;
     report.facts = facts_of(inputs, params, options);
     return (params.no_plots || draw(report.plots, report.points, folder, error))
         && read_heat_maps(report, measured, inputs, folder, error)

@@ -2,7 +2,8 @@
 #include "write_textures.h"
 
 #include "inputs.h"
-#include "page.h"
+
+#include "page/page.h"
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>

@@ -108,6 +108,20 @@ class Page(unittest.TestCase):
                 for value, linear in zip(data[middle:middle + 3], light):
                     self.assertLessEqual(abs(value - 255 * (1.055 * (linear * 2 ** exposure) ** (1 / 2.4) - 0.055)), 2, (model, exposure))
 
+    def test_vmcosts_report_has_it_inside(self):
+        run("vmcost", os.path.join(DATA, "spot.obj"), os.path.join(DATA, SKIES[0]), "--quick", "--resolution", "32", "--reference-samples",
+            "8", "--no-plots", "-o", "report")
+        browser = self.browse()
+        browser.open("file://" + os.path.join(FOLDER, "report", "report.html"))
+        browser.run("document.querySelector('iframe').scrollIntoView()")
+        browser.enter_frame(0)
+        self.assertEqual(browser.run("return document.getElementById('fault').textContent"), "")
+        state, before = browser.run("return vmlight.state"), browser.picture()
+        self.assertGreater(len(set(before[2])), 50)
+        browser.run("vmlight.state.turn += 90")
+        self.assertNotEqual(browser.picture(), before, state)
+        self.assertEqual(browser.messages(), [])
+
     def test_input_changes_what_is_seen(self):
         browser = self.browse()
 

@@ -50,6 +50,13 @@ class Browser:
     def open(self, address):
         self.ask("POST", "/url", {"url": address})
 
+    def enter_frame(self, number):
+        """Run further scripts in a frame of the page, once it has loaded."""
+        self.ask("POST", "/frame", {"id": number})
+        self.ask("POST", "/execute/async",
+                 {"script": "if (document.readyState === 'complete') arguments[0](); else addEventListener('load', arguments[0]);",
+                  "args": []})
+
     def run(self, script, *arguments):
         return self.ask("POST", "/execute/sync", {"script": script, "args": arguments})
 

@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vmlight::exporting {
+namespace vmlight {
 namespace {
 
 using Imath::V3d;
@@ -208,4 +208,4 @@ std::string make_page(const Mesh& mesh, const MapTexels& texels, const TexelSurf
     return page;
 }
 
-} // namespace vmlight::exporting
+} // namespace vmlight

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-namespace vmlight::exporting {
+namespace vmlight {
 
-/// The most that --html stores of a map, in texels a side, and the width of its filtered environments.
+/// The most that a page stores of a map, in texels a side, and the width of its filtered environments.
 constexpr int kPageMapSide = 256, kPageLightWidth = 64;
 
 struct PageLight
@@ -36,4 +36,4 @@ bool read_page_light(PageLight& dst, const std::string& path, const CfemRecipe& 
 std::string make_page(const Mesh& mesh, const MapTexels& texels, const TexelSurface& surface,
                       const std::vector<PageLight>& lights);
 
-} // namespace vmlight::exporting
+} // namespace vmlight
