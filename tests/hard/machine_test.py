@@ -98,6 +98,10 @@ class Machine(HardCase):
         words = ["makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--samples", "1", "--resolution"]
         self.told(self.run_tool(*words, "16384x4096", preexec_fn=limit), 1,
                   "16384x4096 pixels of 4 channels need 1.0 GB of memory, ")
+        # What reconstruction needs besides can be left out.
+        result = self.run_tool("makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--resolution", "4096", preexec_fn=limit)
+        self.told(result, 1, "4096x4096 pixels of 4 channels need 1.1 GB of memory, ")
+        self.assertIn("; with --reconstruct off it fits", result.stderr)
         self.assertEqual(self.contents(), before)
         result = self.run_tool(*words, "2048", preexec_fn=limit)
         self.assertEqual(result.returncode, 0, result.stderr)

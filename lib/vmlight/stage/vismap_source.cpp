@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/make_stage.h>
 
-#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/stage/bake_forecast.h>
@@ -245,7 +244,7 @@ private:
             return false;
         m_tiles = std::make_unique<VismapTiles>(m_baker, m_recipe.vismap_params.margin);
         if (m_tiles->is_whole())
-            error = memory_shortage(m_spec, reconstruct_bytes(m_baker.params()));
+            error = map_memory_shortage(m_spec, m_baker.params());
         if (!error.empty())
             return false;
         // This source owns the triangle lists, and the map if it was baked as a whole.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/reconstruct.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/longest_direction.h>
@@ -65,6 +66,15 @@ double reconstruct_bytes(const VismapParams& params)
     return is_reconstructed(params)
         ? texels * double(size_t(describe_vismap("", params).nchannels) * sizeof(float) + sizeof(TexelContext))
         : 0;
+}
+
+std::string map_memory_shortage(const OIIO::ImageSpec& spec, const VismapParams& params)
+{
+    const double more = reconstruct_bytes(params);
+    const std::string shortage = memory_shortage(spec, more);
+    return shortage.empty() || more == 0 || !memory_shortage(spec).empty()
+        ? shortage
+        : shortage + "; with --reconstruct off it fits";
 }
 
 Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, double error_scale)

@@ -30,6 +30,11 @@ inline bool is_reconstructed(const VismapParams& params)
 /// contexts. 0 if it is not reconstructed.
 double reconstruct_bytes(const VismapParams& params);
 
+/// "" if a whole map of these parameters fits in memory with its reconstruction, else the reason why not, and whether
+/// it fits without.
+/// @param spec     of the map
+std::string map_memory_shortage(const OIIO::ImageSpec& spec, const VismapParams& params);
+
 /// What a bake knows of a texel beside its channels.
 struct TexelContext
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/vismap.h>
 
-#include <vmlight/base/available_memory.h>
 #include <vmlight/base/fail_with.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
@@ -76,7 +75,7 @@ bool prepare_map(VismapBaker& baker, OIIO::ImageSpec& spec, VismapReport& report
     const Stopwatch timer;
     const BakeScene& scene = *job.scene;
     if (check_params(job.params, error))
-        error = memory_shortage(describe_vismap("", job.params), reconstruct_bytes(job.params));
+        error = map_memory_shortage(describe_vismap("", job.params), job.params);
     begin_step(job.at_step, "prove");
     if (!error.empty()
         || !baker.prepare(job.scene, job.params, error, job.nthreads, job.progress, job.time_budget, job.normal_map))
