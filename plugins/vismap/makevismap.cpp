@@ -2,7 +2,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/cli/main.h>
-#include <vmlight/cli/material_files.h>
+#include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/cli/part_run.h>
 #include <vmlight/cli/pose_list.h>
 #include <vmlight/cli/udim_run.h>
@@ -30,6 +30,7 @@ int main(int argc, const char** argv)
                     "  makevismap hero.glb --list\n"
                     "  makevismap hero.glb --material Body --material Face -o hero_vismap.exr\n"
                     "  makevismap hero.glb -o 'hero_<MATERIAL>.exr'\n"
+                    "  makevismap village.toml -o 'village_<INSTANCE>.exr'\n"
                     "  makevismap scan.ply --unwrap --write-mesh scan_uv.glb -o scan_vismap.exr\n"
                     "  makevismap 'walk.####.obj' --frames 1-24 -o 'walk_vismap.####.exr'\n"
                     "  makevismap hero.obj --pose hero_bent.obj -o hero_vismap.exr\n"
@@ -118,12 +119,13 @@ int main(int argc, const char** argv)
     });
 
     stage.check([&] {
-        const char* const flag = !write_path.empty()                                   ? "--write-mesh"
-            : explain                                                                  ? "--explain"
-            : stage.is_dry_run()                                                       ? "--dry-run"
-            : poses.count() > 1 || !poses.compared(recipe).empty()                     ? "--frames and --pose"
-            : has_udim_pattern(stage.output()) || has_material_pattern(stage.output()) ? "-o with <UDIM> or <MATERIAL>"
-                                                                                       : "";
+        const char* const flag = !write_path.empty()               ? "--write-mesh"
+            : explain                                              ? "--explain"
+            : stage.is_dry_run()                                   ? "--dry-run"
+            : poses.count() > 1 || !poses.compared(recipe).empty() ? "--frames and --pose"
+            : has_udim_pattern(stage.output()) || mesh_part_pattern(stage.output())
+            ? "-o with <UDIM>, <MATERIAL> or <INSTANCE>"
+            : "";
         return *flag && bakes_strands(recipe) ? format("\"{}\": {}: not of strands, only of meshes", recipe.mesh, flag)
                                               : std::string();
     });

@@ -6,7 +6,7 @@
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/text_format.h>
-#include <vmlight/cli/material_files.h>
+#include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/cli/progress_line.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/uv/udim.h>
@@ -158,7 +158,7 @@ bool StageMain::do_work(const std::function<bool(std::string& error)>& work, std
 {
     settle_threads();
     catch_interrupts(m_command.line.name, int(ExitCode::Failed));
-    if (!has_udim_pattern(output()) && !has_material_pattern(output())) // otherwise each file is checked
+    if (!has_udim_pattern(output()) && !mesh_part_pattern(output())) // otherwise each file is checked
         error = m_command.output_fault();
     if (interrupted()) // deferred while the output folder was checked
         error = "interrupted";

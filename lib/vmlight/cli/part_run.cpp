@@ -6,7 +6,7 @@
 #include <vmlight/base/part_number.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/base/tile_size.h>
-#include <vmlight/cli/material_files.h>
+#include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/bake_report.h>
 #include <vmlight/stage/map_parts.h>
@@ -141,6 +141,16 @@ bool PartRun::write_joined(const std::vector<std::string>& parts, const std::str
     return true;
 }
 
+static std::string same_output_fault(const std::string& output, const PartFiles& one, const PartFiles& other)
+{
+    for (const MeshPartPattern& pattern : mesh_part_patterns())
+        if (const std::string& a = one.*pattern.of_parts, &b = other.*pattern.of_parts; a != b)
+            return format("\"{}\": the parts are of {} \"{}\" and \"{}\", which need {} in the file name", output,
+                          pattern.nouns, a, b, pattern.text);
+    return format("\"{}\": the parts are of tiles {} and {}, which need <UDIM> in the file name", output, one.udim,
+                  other.udim);
+}
+
 bool PartRun::join(std::string& error) const
 {
     std::vector<PartFiles> maps;
@@ -148,14 +158,13 @@ bool PartRun::join(std::string& error) const
         return false;
     std::map<std::string, const PartFiles*> outputs;
     for (const PartFiles& map : maps) {
-        const std::string output = udim_path(material_path(m_stage.output(), map.material), map.udim);
+        std::string output = udim_path(m_stage.output(), map.udim);
+        const MeshPartPattern* const pattern = mesh_part_pattern(output);
+        if (pattern)
+            output = mesh_part_path(output, *pattern, map.*pattern->of_parts);
         const auto [other, is_new] = outputs.emplace(output, &map);
         if (!is_new)
-            error = map.udim != other->second->udim
-                ? format("\"{}\": the parts are of tiles {} and {}, which need <UDIM> in the file name", output,
-                         other->second->udim, map.udim)
-                : format("\"{}\": the parts are of materials \"{}\" and \"{}\", which need <MATERIAL> in the file name",
-                         output, other->second->material, map.material);
+            error = same_output_fault(output, *other->second, map);
         if (error.empty())
             error = output_fault(output);
         if (!error.empty())

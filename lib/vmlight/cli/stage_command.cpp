@@ -4,7 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/utf8.h>
-#include <vmlight/cli/material_files.h>
+#include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/paths.h>
 #include <vmlight/stage/recipe/recipe.h>
@@ -52,8 +52,8 @@ std::string StageCommand::unsavable() const
     if (saves_recipe() && has_udim_pattern(output))
         return format("\"{}\": use <UDIM> in the paths of the recipe instead of its name: one recipe makes all tiles",
                       output);
-    if (saves_recipe() && has_material_pattern(output))
-        return format("\"{}\": <MATERIAL> is for the maps, not for the recipe that makes them", output);
+    if (const MeshPartPattern* pattern = mesh_part_pattern(output); saves_recipe() && pattern)
+        return format("\"{}\": {} is for the maps, not for the recipe that makes them", output, pattern->text);
     return recipe.unsavable();
 }
 

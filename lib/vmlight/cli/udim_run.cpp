@@ -3,7 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
-#include <vmlight/cli/material_files.h>
+#include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/uv/udim.h>
@@ -17,6 +17,14 @@ namespace {
 
 // Parameters that name inputs, in the order in which they determine the tiles.
 constexpr const char* kInputs[] = { "mesh", "occluder", "vismap", "albedo", "environment", "cfem", "colorconfig" };
+
+std::string pattern_list()
+{
+    std::string list;
+    for (const MeshPartPattern& pattern : mesh_part_patterns())
+        list += (list.empty() ? "" : " and ") + std::string(pattern.text);
+    return list;
+}
 
 bool is_vismap_recipe(const std::string& name)
 {
@@ -66,17 +74,21 @@ template <class Recipe> auto UdimRun<Recipe>::inputs() const -> std::vector<Inpu
     return found;
 }
 
-template <class Recipe> std::string UdimRun<Recipe>::material_fault() const
+template <class Recipe> std::string UdimRun<Recipe>::mesh_part_fault() const
 {
     const std::string& output = m_stage.output();
-    if (!has_material_pattern(output))
+    const MeshPartPattern* const pattern = mesh_part_pattern(output);
+    if (!pattern)
         return "";
+    if (mesh_part_pattern(mesh_part_path(output, *pattern, "")))
+        return format("\"{}\": give one of {}, and choose among the other by its flag", output, pattern_list());
     if constexpr (std::is_same_v<Recipe, VismapRecipe>)
         return has_udim_pattern(m_recipe.mesh) && !is_single_tile()
-            ? format("\"{}\": <MATERIAL> needs one mesh for all tiles, or --udim; \"{}\" is one for each", output,
-                     m_recipe.mesh)
+            ? format("\"{}\": {} needs one mesh for all tiles, or --udim; \"{}\" is one for each", output,
+                     pattern->text, m_recipe.mesh)
             : "";
-    return format("\"{}\": <MATERIAL> is for visibility maps: only makevismap knows the materials of a mesh", output);
+    return format("\"{}\": {} is for visibility maps: only makevismap knows the {} of a mesh", output, pattern->text,
+                  pattern->nouns);
 }
 
 // What is wrong with the command line, or "". Sets the tiles, unless they depend on a mesh.
@@ -84,7 +96,7 @@ template <class Recipe> std::string UdimRun<Recipe>::fault()
 {
     const std::string& output = m_stage.output();
     const std::vector<Input> patterns = inputs();
-    if (const std::string reason = material_fault(); !reason.empty())
+    if (const std::string reason = mesh_part_fault(); !reason.empty())
         return reason;
     if (m_udim_flag && !m_udims.empty())
         return "give only one of udim and udims";
@@ -153,21 +165,27 @@ bool UdimRun<Recipe>::find_tiles(Part& dst, const MakeOptions& options, std::str
 template <class Recipe>
 bool UdimRun<Recipe>::find_parts(std::vector<Part>& dst, const MakeOptions& options, std::string& error) const
 {
-    if (!has_material_pattern(m_stage.output()))
+    const MeshPartPattern* const pattern = mesh_part_pattern(m_stage.output());
+    if (!pattern)
         dst.push_back({ m_recipe, "", m_stage.output(), {} });
     if constexpr (std::is_same_v<Recipe, VismapRecipe>)
-        if (dst.empty()) {
-            std::vector<std::string> materials;
-            if (!vismap_materials(materials, m_recipe, options, error))
+        if (pattern) {
+            const bool are_instances = pattern->of_parts == &PartFiles::node;
+            std::vector<std::string> names;
+            if (!(are_instances ? vismap_instances : vismap_materials)(names, m_recipe, options, error))
                 return false;
-            error = same_file_fault(materials);
+            error = same_file_fault(*pattern, names);
             if (!error.empty()) {
                 error = format("\"{}\": {}", m_recipe.mesh, error);
                 return false;
             }
-            for (const std::string& material : materials) {
-                dst.push_back({ m_recipe, material, material_path(m_stage.output(), material), {} });
-                dst.back().recipe.selection.material = { material };
+            for (const std::string& name : names) {
+                Part& part = dst.emplace_back();
+                part.recipe = m_recipe;
+                part.name = format("{} {}: ", pattern->noun, printable_line(name));
+                part.output = mesh_part_path(m_stage.output(), *pattern, name);
+                MeshSelection& selection = part.recipe.selection;
+                (are_instances ? selection.node : selection.material) = { name };
             }
         }
     for (Part& part : dst) {
@@ -193,7 +211,7 @@ bool UdimRun<Recipe>::make_part(const Part& part, const Make& make, const MakeOp
         udim_of(recipe) = udim;
         recipe.udim_given = named;
         tile.repeated_inputs = udim != part.udims.front();
-        std::string name = part.material.empty() ? "" : format("material {}: ", printable_line(part.material));
+        std::string name = part.name;
         if (named)
             name += format("tile {}: ", udim);
         if (!name.empty())
@@ -214,7 +232,7 @@ template <class Recipe> bool UdimRun<Recipe>::make_tiles(const Make& make, std::
     std::vector<Part> parts;
     if (!find_parts(parts, options, error))
         return false;
-    const std::shared_ptr<const BakeScene> whole = scene; // shared by all materials
+    const std::shared_ptr<const BakeScene> whole = scene; // shared by all parts
     for (const Part& part : parts) {
         options.repeated_mesh = &part != &parts.front();
         if (!make_part(part, make, options, error))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// UDIM tiles in executables: --udim, --udims and <UDIM> in file names, and the loop over the tiles that they select;
-/// for a vismap also <MATERIAL> in -o, and the loop over materials.
+/// for a vismap also <MATERIAL> or <INSTANCE> in -o, and the loop over these parts of the mesh.
 #pragma once
 
 #include <vmlight/cli/main.h>
@@ -32,9 +32,9 @@ public:
     /// Makes one tile, `recipe` with its udim, and writes it to `output`.
     using Make = std::function<bool(const Recipe& recipe, const std::string& output, const MakeOptions& options,
                                     std::string& error)>;
-    /// Call `make` for each material in the file's order, and for each of its tiles in ascending order; its messages
-    /// are prefixed with the material's name and the tile's number. Stops at the first failure: returns false, with
-    /// these and the reason in `error`. Files of earlier tiles stay.
+    /// Call `make` for each material or instance in the file's order, and for each of its tiles in ascending order; its
+    /// messages are prefixed with its name and the tile's number. Stops at the first failure: returns false, with these
+    /// and the reason in `error`. Files of earlier tiles stay.
     bool make_tiles(const Make& make, std::string& error);
 
 private:
@@ -42,11 +42,11 @@ private:
     {
         std::string key, name;
     };
-    /// What is made of one material, or of all.
+    /// What is made of one material or instance, or of all.
     struct Part
     {
         Recipe recipe;
-        std::string material, output; // "" for all; with <UDIM>
+        std::string name, output; // as its messages start, "" for all; with <UDIM>
         std::vector<int> udims;
     };
     std::vector<Input> inputs() const;
@@ -56,7 +56,7 @@ private:
         return m_udims.empty() && (m_recipe.udim_given || !are_all);
     }
     std::string fault();
-    std::string material_fault() const;
+    std::string mesh_part_fault() const;
     std::string find_tiles_by_files();
     bool find_tiles(Part& dst, const MakeOptions& options, std::string& error) const;
     bool find_parts(std::vector<Part>& dst, const MakeOptions& options, std::string& error) const;

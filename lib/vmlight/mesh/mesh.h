@@ -23,6 +23,7 @@ struct MeshNode
 {
     std::string name;
     int parent = -1; ///< index of a node before this one; -1 at the top
+    bool is_instance = false; ///< a place where the file puts a mesh, which has UVs of its own: see baked_instances()
 };
 
 /// A camera of a mesh file, at its place in the node hierarchy, with axes of unit length in object space.

@@ -155,6 +155,26 @@ std::vector<std::string> baked_materials(const Mesh& mesh)
     return without_duplicates(names);
 }
 
+std::vector<std::string> baked_instances(const Mesh& mesh)
+{
+    std::vector<bool> used(mesh.nodes.size(), false);
+    for (size_t t = 0; t < mesh.triangle_nodes.size(); ++t) {
+        if (!is_textured(mesh, mesh.triangles[t]))
+            continue;
+        // The innermost instance around the triangle.
+        auto node = int(mesh.triangle_nodes[t]);
+        while (node >= 0 && !mesh.nodes[size_t(node)].is_instance)
+            node = mesh.nodes[size_t(node)].parent;
+        if (node >= 0)
+            used[size_t(node)] = true;
+    }
+    std::vector<std::string> names;
+    for (size_t i = 0; i < used.size(); ++i)
+        if (used[i])
+            names.push_back(node_name(mesh, i));
+    return names;
+}
+
 bool choose_triangles(std::vector<bool>& dst, const Mesh& mesh, const MeshSelection& selection, std::string& at,
                       std::string& error)
 {

@@ -37,6 +37,10 @@ struct MeshSelection
 VMLIGHT_API std::string material_name(const Mesh& mesh, size_t index);
 VMLIGHT_API std::string node_name(const Mesh& mesh, size_t index);
 
+/// The names of the nodes that are instances and have triangles with uvs, in the file's order, each as often as it has
+/// one: entries of a scene list with `bake = true`, and nodes of a glTF with a mesh.
+std::vector<std::string> baked_instances(const Mesh& mesh);
+
 /// The names of the materials that triangles with texture coordinates have, in the file's order, each once.
 VMLIGHT_API std::vector<std::string> baked_materials(const Mesh& mesh);
 

@@ -44,6 +44,10 @@ VMLIGHT_API bool vismap_udims(std::vector<int>& dst, const VismapRecipe& recipe,
 VMLIGHT_API bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
                                   std::string& error);
 
+/// The names of the instances that `recipe` bakes, see baked_instances(). Otherwise as vismap_materials().
+VMLIGHT_API bool vismap_instances(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                                  std::string& error);
+
 struct LightmapSuns;
 class BounceShading;
 

@@ -11,9 +11,9 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
-#include <utility>
 
 namespace vmlight {
 namespace {
@@ -27,7 +27,7 @@ struct FoundParts
     std::map<int, std::string> paths; // by number
 };
 
-using MapName = std::pair<std::string, std::string>; // material and tile
+using MapName = std::array<std::string, 3>; // material, node and tile
 
 bool add_file(std::map<MapName, FoundParts>& maps, const std::string& path, std::string& error)
 {
@@ -43,8 +43,8 @@ bool add_file(std::map<MapName, FoundParts>& maps, const std::string& path, std:
         error = format("\"{}\": {}", path, error);
         return false;
     }
-    FoundParts& map
-        = maps[{ spec.get_string_attribute("vmlight:material"), spec.get_string_attribute("vmlight:udim") }];
+    FoundParts& map = maps[{ spec.get_string_attribute("vmlight:material"), spec.get_string_attribute("vmlight:node"),
+                             spec.get_string_attribute("vmlight:udim") }];
     if (map.count == 0) {
         map.count = number.count;
         map.first_path = path;
@@ -97,8 +97,9 @@ bool sort_parts(std::vector<PartFiles>& dst, const std::vector<std::string>& pat
         if (!error.empty())
             return false;
         PartFiles& files = dst.emplace_back();
-        files.material = name.first;
-        files.udim = OIIO::Strutil::stoi(name.second);
+        files.material = name[0];
+        files.node = name[1];
+        files.udim = OIIO::Strutil::stoi(name[2]);
         for (const auto& [index, path] : map.paths)
             files.paths.push_back(path);
     }

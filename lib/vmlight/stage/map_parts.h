@@ -33,12 +33,12 @@ bool is_whole_part(const std::string& path, const OIIO::ImageSpec& spec);
 /// The files of the parts of one map.
 struct PartFiles
 {
-    std::string material; ///< "" if the map is not of one material
+    std::string material, node; ///< "" if the map is not of one material or node
     int udim = 0;
     std::vector<std::string> paths; ///< by the parts' numbers
 };
 
-/// Sort files into those of each map, by their headers: UDIM tiles and materials have a map each.
+/// Sort files into those of each map, by their headers: UDIM tiles, materials and nodes have a map each.
 ///
 /// @returns false, with the reason in `error`, if a file cannot be read or is no part, if a part is given twice, is of
 ///          another map than the others or does not fit them, or if parts are missing, which it names

@@ -54,18 +54,36 @@ bool vismap_udims(std::vector<int>& dst, const VismapRecipe& given, const MakeOp
     return !dst.empty();
 }
 
-bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& given, const MakeOptions& options,
-                      std::string& error)
+namespace {
+
+bool mesh_part_names(std::vector<std::string>& dst, std::vector<std::string> (*find)(const Mesh&), const char* fault,
+                     const VismapRecipe& given, const MakeOptions& options, std::string& error)
 {
     const VismapRecipe recipe = resolve_udim(given);
     std::shared_ptr<const Mesh> mesh;
     if (!share_mesh(mesh, recipe, options, error))
         return false;
-    dst = baked_materials(*mesh);
+    dst = find(*mesh);
     if (dst.empty())
-        error = with_location(recipe, "mesh", options.chain,
-                              format("\"{}\": no materials, so that <MATERIAL> in -o stands for nothing", recipe.mesh));
+        error = with_location(recipe, "mesh", options.chain, format("\"{}\": {}", recipe.mesh, fault));
     return !dst.empty();
+}
+
+} // namespace
+
+bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                      std::string& error)
+{
+    return mesh_part_names(dst, baked_materials, "no materials, so that <MATERIAL> in -o stands for nothing", recipe,
+                           options, error);
+}
+
+bool vismap_instances(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                      std::string& error)
+{
+    return mesh_part_names(dst, baked_instances,
+                           "no instances, which scene lists and glTF have, so that <INSTANCE> in -o stands for nothing",
+                           recipe, options, error);
 }
 
 } // namespace vmlight

@@ -50,7 +50,7 @@ uint32_t MeshBuilder::add_material(Material material)
 
 uint32_t MeshBuilder::add_node(const std::string& name, int parent)
 {
-    m_mesh.nodes.push_back({ name, parent });
+    m_mesh.nodes.push_back({ name, parent, false });
     return uint32_t(m_mesh.nodes.size() - 1);
 }
 

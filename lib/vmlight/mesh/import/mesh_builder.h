@@ -42,6 +42,8 @@ public:
     /// @param parent   of a node added before, or -1
     /// @returns the index that begin_part() takes
     uint32_t add_node(const std::string& name, int parent);
+    /// See MeshNode::is_instance.
+    void mark_instance(uint32_t node) { m_mesh.nodes[node].is_instance = true; }
     void add_camera(MeshCamera camera) { m_mesh.cameras.push_back(std::move(camera)); }
     /// Something that the user should know, as a sentence without the file's path. Said once each.
     void warn(const std::string& sentence);

@@ -208,7 +208,7 @@ int Parser::node_of(const std::string& name, int parent)
 {
     const auto [entry, is_new] = m_node_numbers.emplace(std::pair(parent, name), int(m_file.nodes.size()));
     if (is_new)
-        m_file.nodes.push_back({ name, parent });
+        m_file.nodes.push_back({ name, parent, false });
     return entry->second;
 }
 

@@ -79,7 +79,9 @@ private:
             if (!read(mesh, entry, false, error))
                 return false;
             const std::string name = entry.name.empty() ? OIIO::Filesystem::filename(entry.mesh) : entry.name;
-            m_dst.append_mesh(mesh, place, m_dst.add_node(name, parent));
+            const uint32_t node = m_dst.add_node(name, parent);
+            m_dst.mark_instance(node);
+            m_dst.append_mesh(mesh, place, node);
             ++m_baked;
             return true;
         }

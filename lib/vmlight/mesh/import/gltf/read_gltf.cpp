@@ -69,6 +69,7 @@ private:
             if (size_t(node.mesh) >= m_model.meshes.size())
                 throw Error(
                     format("node {} has mesh {}, but there are only {}", index, node.mesh, m_model.meshes.size()));
+            m_document.builder().mark_instance(number);
             std::vector<M44d> places;
             if (node.skin >= 0)
                 places = { to_object };
