@@ -5,6 +5,7 @@
 
 #include <vmlight/mesh/import/scene_list.h>
 #include <vmlight/mesh/instances.h>
+#include <vmlight/mesh/selection.h>
 #include <vmlight/stage/scene_cache.h>
 
 #include <gmock/gmock.h>
@@ -237,6 +238,24 @@ TEST_F(SceneList, GpuInstancesStayInstances)
     expect_point(point_at(listed.instances->places[2], V3d(0)), V3d(0, 0, 60));
     expect_point(point_at(listed.instances->places[4], V3d(0)), V3d(0, 21, 0));
     EXPECT_NE(mesh_hash(listed), mesh_hash(caster));
+}
+
+TEST_F(SceneList, InstancesThatAreBakedAreEntriesAndNodesWithAMesh)
+{
+    GltfFile file = triangle_file();
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"]
+        = file.add_accessor<float>({ 0, 0, 1, 0, 0, 1 }, "VEC2");
+    file.root["nodes"] = { { { "mesh", 0 }, { "name", "left" } },
+                           { { "children", { 2 } }, { "name", "group" } },
+                           { { "mesh", 0 }, { "name", "right" } } };
+    file.root["scenes"][0]["nodes"] = { 0, 1 };
+    const std::string path = folder.write("a.gltf", file.text());
+    EXPECT_THAT(baked_instances(read(path)), testing::ElementsAre("left", "right"));
+    const std::string list = "[[instance]]\nmesh = \"a.gltf\"\nbake = true\nname = \"pair\"\n"
+                             "[[instance]]\nmesh = \"a.gltf\"\nbake = true\n[[instance]]\nmesh = \"a.gltf\"\n";
+    EXPECT_THAT(baked_instances(read(folder.write("l.toml", list))), testing::ElementsAre("pair", "a.gltf"))
+        << "an entry is baked as one";
+    EXPECT_TRUE(baked_instances(read(folder.write("quad.obj", kQuadObj))).empty());
 }
 
 TEST_F(SceneList, MillionsOfInstancesFitWhereTheirTrianglesWouldNot)
