@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image.h"
+
+#include "arguments.h"
+#include "function.h"
+#include "metadata.h"
+#include "work.h"
+
+#include <vmlight/base/format.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/stage/open_source.h>
+#include <vmlight/stage/recipe/recipe.h>
+#include <vmlight/vismap/basis.h>
+
+#include <OpenImageIO/strutil.h>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+namespace vmlight::python {
+namespace {
+
+constexpr py::ssize_t kMaxSide = 1 << 20, kMaxChannels = 1024;
+
+// `image` for as long as someone holds it, and `owner` with it. The last holder may be a thread without the
+// interpreter's lock.
+SharedImage shared_with(std::unique_ptr<OIIO::ImageBuf> image, py::object owner)
+{
+    PyObject* const kept = owner.release().ptr();
+    return { image.release(), [kept](OIIO::ImageBuf* dst) {
+                delete dst;
+                if (Py_IsInitialized()) {
+                    const py::gil_scoped_acquire locked;
+                    Py_DECREF(kept);
+                }
+            } };
+}
+
+std::vector<std::string> default_channels(int count, const std::vector<std::string>& expected)
+{
+    if (count == int(expected.size()))
+        return expected;
+    static const std::vector<std::string> names { "R", "G", "B", "A" };
+    if (count == 1)
+        return { "Y" };
+    return count == 3 || count == 4 ? std::vector<std::string>(names.begin(), names.begin() + count)
+                                    : std::vector<std::string>();
+}
+
+bool is_array(py::handle value)
+{
+    return py::isinstance<py::array>(value) || py::hasattr(value, "__array__")
+        || py::hasattr(value, "__array_interface__");
+}
+
+Image image_of_array(const char* name, py::handle value, std::vector<std::string> channels, const py::dict& metadata,
+                     const std::vector<std::string>& expected)
+{
+    const py::module_ numpy = py::module_::import("numpy");
+    py::array array = numpy.attr("asarray")(value);
+    if (array.dtype().kind() != 'f')
+        throw py::type_error(format("{}: pixels must be floats, not {}; scale them first, as pixels / "
+                                    "numpy.float32(255)",
+                                    name, py::cast<std::string>(py::str(array.dtype()))));
+    if (array.ndim() != 2 && array.ndim() != 3)
+        throw py::value_error(format("{}: must have the shape (height, width) or (height, width, channels), not {}",
+                                     name, py::cast<std::string>(py::str(array.attr("shape")))));
+    array = numpy.attr("require")(array, "float32", "CA");
+    const py::ssize_t height = array.shape(0), width = array.shape(1), count = array.ndim() == 3 ? array.shape(2) : 1;
+    if (array.size() == 0 || height > kMaxSide || width > kMaxSide || count > kMaxChannels)
+        throw py::value_error(format("{}: {} x {} pixels of {} channels: must be from 1 x 1 x 1 to {} x {} x {}", name,
+                                     width, height, count, kMaxSide, kMaxSide, kMaxChannels));
+    if (channels.empty())
+        channels = default_channels(int(count), expected);
+    if (py::ssize_t(channels.size()) != count)
+        throw py::value_error(
+            channels.empty() ? format("{}: has {} channels: name them, as Image(pixels, channels=[...])", name, count)
+                             : format("{}: {} names for {} channels", name, channels.size(), count));
+    OIIO::ImageSpec spec(int(width), int(height), int(count), OIIO::TypeFloat);
+    spec.channelnames = channels;
+    add_metadata(spec, metadata);
+    // Nothing of the library writes to its inputs.
+    auto image = std::make_unique<OIIO::ImageBuf>(spec, const_cast<void*>(array.data()));
+    const bool is_readonly = !array.writeable();
+    return { { shared_with(std::move(image), array) }, is_readonly };
+}
+
+// Of another module that is built with the same pybind11 and the same OpenImageIO, as Debian's is; or by its methods.
+Image image_of_imagebuf(const char* name, const py::object& value, bool is_kept)
+{
+    if (!py::isinstance<OIIO::ImageBuf>(value)) {
+        const py::object spec = value.attr("spec")();
+        py::dict metadata;
+        for (py::handle entry : spec.attr("extra_attribs"))
+            metadata[entry.attr("name")] = entry.attr("value");
+        return image_of_array(name, value.attr("get_pixels")(),
+                              py::cast<std::vector<std::string>>(spec.attr("channelnames")), metadata, {});
+    }
+    const OIIO::ImageBuf& image = py::cast<const OIIO::ImageBuf&>(value);
+    if (!is_kept && image.localpixels() && image.spec().format == OIIO::TypeFloat && image.spec().depth == 1)
+        return { { shared_with(std::make_unique<OIIO::ImageBuf>(view_of(image)), value) } };
+    auto copy = std::make_shared<OIIO::ImageBuf>();
+    if (!image.initialized() || image.deep() || image.spec().depth > 1 || !copy->copy(image, OIIO::TypeFloat))
+        throw py::value_error(format("{}: {}", name, image.has_error() ? image.geterror() : "not a flat image"));
+    return { { copy } };
+}
+
+py::array_t<float> pixels_of(const py::object& self)
+{
+    const Image& image = py::cast<const Image&>(self);
+    const OIIO::ImageSpec& spec = image.first().spec();
+    // The array keeps `self`, and with it the memory.
+    py::array_t<float> pixels({ spec.height, spec.width, spec.nchannels },
+                              static_cast<const float*>(image.first().localpixels()), self);
+    if (image.is_readonly)
+        pixels.attr("setflags")(py::arg("write") = false);
+    return pixels;
+}
+
+py::buffer_info buffer_of(Image& image)
+{
+    const OIIO::ImageSpec& spec = image.first().spec();
+    const std::vector<py::ssize_t> shape { spec.height, spec.width, spec.nchannels };
+    const std::vector<py::ssize_t> strides { py::ssize_t(sizeof(float)) * spec.width * spec.nchannels,
+                                             py::ssize_t(sizeof(float)) * spec.nchannels, sizeof(float) };
+    return { const_cast<void*>(image.first().localpixels()),
+             sizeof(float),
+             py::format_descriptor<float>::format(),
+             3,
+             shape,
+             strides,
+             image.is_readonly };
+}
+
+// A channel, or those whose names it begins: "direction" is direction.x, .y and .z.
+py::object channel_of(const py::object& self, const std::string& name)
+{
+    const std::vector<std::string>& names = py::cast<const Image&>(self).first().spec().channelnames;
+    const auto is_part = [&](const std::string& channel) { return OIIO::Strutil::starts_with(channel, name + "."); };
+    const auto only = std::find(names.begin(), names.end(), name);
+    const auto first = std::find_if(names.begin(), names.end(), is_part);
+    if (only == names.end() && first == names.end())
+        throw py::key_error(format("no channel \"{}\"; there are {}", name, OIIO::Strutil::join(names, ", ")));
+    const py::ssize_t begin = (only == names.end() ? first : only) - names.begin();
+    const py::ssize_t end = std::find_if_not(first, names.end(), is_part) - names.begin();
+    const py::object last = only == names.end() ? py::object(py::slice(begin, end, 1)) : py::object(py::int_(begin));
+    return pixels_of(self)[py::make_tuple(py::ellipsis(), last)];
+}
+
+py::tuple subimages_of(const Image& image)
+{
+    py::tuple parts(image.parts.size());
+    for (size_t i = 0; i < image.parts.size(); ++i)
+        parts[i] = Image { { image.parts[i] }, image.is_readonly };
+    return parts;
+}
+
+std::string repr_of(const Image& image)
+{
+    const OIIO::ImageSpec& spec = image.first().spec();
+    const std::string stage = spec.get_string_attribute("vmlight:stage");
+    return format("<vmlight.Image {}x{} {}{}{}>", spec.width, spec.height, stage, stage.empty() ? "" : " ",
+                  spec.nchannels > 4 ? format("{} channels", spec.nchannels)
+                                     : OIIO::Strutil::join(spec.channelnames, ","));
+}
+
+Image read_image(const std::string& path, const WorkOptions& options)
+{
+    std::vector<OIIO::ImageBuf> images;
+    do_work(options, { path }, [&](const MakeOptions& given, std::string& error) {
+        MakeOptions make = given;
+        if (is_recipe_name(path))
+            make.chain.push_back(path);
+        const PixelSourcePointer source = open_source(path, error);
+        return source && source->make(images, { 0, source->subimages() }, make, error);
+    });
+    return own(std::move(images));
+}
+
+struct WriteParams
+{
+    std::string format = "float";
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("format", format, Choices { { { "float", "32 bits per channel" }, { "half", "16 bits per channel" } } },
+              "Pixel format of the file");
+    }
+};
+
+void write_image_file(const Image& image, const std::string& path, const std::string& pixel_format,
+                      const WorkOptions& options)
+{
+    if (const std::string fault = output_name_fault(path); !fault.empty())
+        throw py::value_error(fault);
+    const size_t slash = path.rfind('/');
+    do_work(options, { slash == std::string::npos ? "" : path.substr(0, slash + 1) },
+            [&](const MakeOptions& given, std::string& error) {
+                const std::vector<OIIO::ImageBuf> views = views_of(image);
+                for (const OIIO::ImageBuf& view : views)
+                    if (pixel_format == "half" && !(error = half_fault(view.spec())).empty())
+                        return false;
+                return write_images(views, path, pixel_format, given.progress("write", 0), error);
+            });
+}
+
+struct NoParams
+{
+    template <class Visit> void visit(Visit&&) { }
+};
+
+const char* const kImage = R"(An image in memory: pixels, names of channels, metadata. What the functions of vmlight
+take and return.
+
+numpy sees the pixels without a copy: image.pixels, numpy.asarray(image), and
+image["visibility"] or image["direction"] for channels by name.)";
+
+} // namespace
+
+Image own(std::vector<OIIO::ImageBuf> images)
+{
+    Image dst;
+    for (OIIO::ImageBuf& image : images)
+        dst.parts.push_back(std::make_shared<OIIO::ImageBuf>(std::move(image)));
+    return dst;
+}
+
+Image own_one(OIIO::ImageBuf image)
+{
+    return { { std::make_shared<OIIO::ImageBuf>(std::move(image)) } };
+}
+
+Image input_image(const char* name, py::handle value, const std::vector<std::string>& channels, bool is_kept)
+{
+    if (py::isinstance<Image>(value))
+        return py::cast<const Image&>(value);
+    if (py::isinstance<OIIO::ImageBuf>(value) || py::hasattr(value, "get_pixels"))
+        return image_of_imagebuf(name, py::reinterpret_borrow<py::object>(value), is_kept);
+    if (is_array(value))
+        return image_of_array(name, value, {}, {}, channels);
+    throw py::type_error(format("{}: must be an image: {}, not {}", name, kImageHint, Py_TYPE(value.ptr())->tp_name));
+}
+
+OIIO::ImageBuf view_of(const OIIO::ImageBuf& image)
+{
+    return { image.spec(), const_cast<void*>(image.localpixels()) };
+}
+
+std::vector<OIIO::ImageBuf> views_of(const Image& image)
+{
+    std::vector<OIIO::ImageBuf> views;
+    for (const SharedImage& part : image.parts)
+        views.push_back(view_of(*part));
+    return views;
+}
+
+void define_image(py::module_& m)
+{
+    const Signature<NoParams> reading(
+        { "read",
+          FunctionKind::static_method,
+          "Read an image file, all of its parts, or make the image of a recipe (.vismap, .cfem, .lightmap).",
+          { { "path", "StrPath", "What OpenImageIO opens, or a recipe" } },
+          "Image",
+          "with float pixels, as stored" });
+    const Signature<WriteParams> writing(
+        { "write",
+          FunctionKind::method,
+          "Write an EXR, as the executables do: whole or not at all, and the same bytes for the same image.",
+          { { "path", "StrPath", "A name that ends in .exr" } },
+          "None",
+          "" });
+
+    py::class_<Image> image(m, "Image", py::buffer_protocol(), kImage);
+    image.attr("__module__") = "vmlight";
+    image
+        .def(
+            py::init([](const py::object& pixels, const py::object& channels, const py::object& metadata) {
+                if (py::isinstance<OIIO::ImageBuf>(pixels) || py::hasattr(pixels, "get_pixels"))
+                    return input_image("pixels", pixels, {}, true);
+                if (!is_array(pixels))
+                    throw py::type_error(
+                        format("pixels: must be an array of floats, not {}", Py_TYPE(pixels.ptr())->tp_name));
+                return image_of_array("pixels", pixels,
+                                      channels.is_none() ? std::vector<std::string>()
+                                                         : py::cast<std::vector<std::string>>(channels),
+                                      metadata.is_none() ? py::dict() : py::dict(metadata), {});
+            }),
+            "__init__($self, pixels, channels=None, metadata=None)\n--\n\nAn image over an array of floats, (height, "
+            "width, channels) or (height, width), which is not copied if it is float32 and row by row; or a copy of an "
+            "OpenImageIO.ImageBuf. Without names, channels are Y, R, G, B or R, G, B, A.",
+            py::arg("pixels"), py::arg("channels") = py::none(), py::arg("metadata") = py::none())
+        .def_buffer(&buffer_of)
+        .def_property_readonly("pixels", &pixels_of, "The pixels, (height, width, channels) of float32: no copy.")
+        .def_property_readonly(
+            "channels", [](const Image& self) { return py::tuple(py::cast(self.first().spec().channelnames)); },
+            "Names of the channels.")
+        .def_property_readonly(
+            "metadata", [](const Image& self) { return metadata_of(self.first().spec()); },
+            "All metadata, such as vmlight:samples: a copy.")
+        .def_property_readonly("subimages", &subimages_of,
+                               "The images of a stack, of which this shows the first; else this image alone.")
+        .def("__getitem__", &channel_of, py::arg("channel"),
+             "__getitem__($self, channel)\n--\n\nThe pixels of a channel, (height, width); or of those whose names it "
+             "begins, as direction for direction.x, .y and .z, (height, width, 3). No copy.")
+        .def(
+            "to_imagebuf",
+            [](const Image& self) {
+                py::module_::import("OpenImageIO");
+                if (!py::detail::get_type_info(typeid(OIIO::ImageBuf), false))
+                    throw_error("this OpenImageIO module is of another build than vmlight, which cannot make its "
+                                "images: write a file, or use set_pixels()");
+                return self.first().copy(OIIO::TypeFloat);
+            },
+            "to_imagebuf($self)\n--\n\nA copy as OpenImageIO.ImageBuf, with channels and metadata.")
+        .def("__repr__", &repr_of);
+    image.def_static(
+        "read",
+        [reading](const py::args& args, const py::kwargs& kwargs) {
+            const Call call = reading.read(args, kwargs).first;
+            return read_image(path_text("path", call.operands[0]), call.work);
+        },
+        docstring(reading.function()).c_str());
+    image.def(
+        "write",
+        [writing](const Image& self, const py::args& args, const py::kwargs& kwargs) {
+            const auto [call, params] = writing.read(args, kwargs);
+            write_image_file(self, path_text("path", call.operands[0]), params.format, call.work);
+        },
+        docstring(writing.function()).c_str());
+    add_to_table("Image.read", reading.function());
+    add_to_table("Image.write", writing.function());
+}
+
+} // namespace vmlight::python

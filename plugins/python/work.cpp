@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "work.h"
+
+#include <vmlight/base/format.h>
+
+#include <OpenImageIO/filesystem.h>
+
+#include <atomic>
+#include <cctype>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace vmlight::python {
+namespace {
+
+struct ThreadParams
+{
+    int threads = 0;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("threads", threads, Range { 0, 1024 }, "Number of threads; 0: one per core");
+    }
+};
+
+// How long a Ctrl-C can stay unseen.
+constexpr std::chrono::milliseconds kSignalPeriod { 50 };
+// A callback hears of steps of this size: Python would slow down the work that tells it more.
+constexpr double kProgressStep = 0.01;
+
+py::handle s_error, s_warning; // live as long as the process
+
+/// What the worker says, and the waiting thread hears.
+class Talk
+{
+public:
+    explicit Talk(bool wants_progress)
+        : m_wants_progress(wants_progress)
+    {
+    }
+
+    struct News
+    {
+        bool any = false;
+        double done = 0;
+        std::string step;
+    };
+
+    // For the worker.
+    bool tell(const std::string& step, double done)
+    {
+        if (m_stopped)
+            return false;
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        if (m_wants_progress && (step != m_news.step || done >= m_told + kProgressStep || done >= 1)) {
+            m_news = { true, done, step };
+            m_told = done;
+            m_wake.notify_one();
+        }
+        return !m_stopped;
+    }
+    void say(bool is_warning, const std::string& line)
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        messages.emplace_back(is_warning, line);
+    }
+    void finish()
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        m_finished = true;
+        m_wake.notify_one();
+    }
+
+    // For who waits. Whether the work has ended; `news` is what has come since.
+    bool wait(News& news)
+    {
+        std::unique_lock<std::mutex> lock(m_mutex);
+        m_wake.wait_for(lock, kSignalPeriod, [&] { return m_finished || m_news.any; });
+        news = std::exchange(m_news, { false, m_news.done, m_news.step });
+        return m_finished;
+    }
+    void stop() { m_stopped = true; }
+
+    /// Whether each is a warning, and its text. Complete once the work has ended.
+    std::vector<std::pair<bool, std::string>> messages;
+
+private:
+    const bool m_wants_progress;
+    std::atomic<bool> m_stopped { false };
+    std::mutex m_mutex;
+    std::condition_variable m_wake;
+    bool m_finished = false;
+    News m_news;
+    double m_told = 0;
+};
+
+MakeOptions make_options(Talk& talk, int threads)
+{
+    MakeOptions options;
+    options.threads = threads;
+    options.progress = [&talk](const std::string& step, int64_t) {
+        return [&talk, step](double done) { return talk.tell(step, done); };
+    };
+    options.say = [&talk](const std::string& line) { talk.say(false, line); };
+    options.warn = [&talk](const std::string& line) { talk.say(true, line); };
+    return options;
+}
+
+// Let Python's signal handlers run, and tell the callback.
+void attend(const Talk::News& news, const py::object& progress)
+{
+    if (PyErr_CheckSignals() != 0)
+        throw py::error_already_set();
+    if (news.any && !progress.is_none())
+        progress(news.done, news.step);
+}
+
+void pass_on(const std::vector<std::pair<bool, std::string>>& messages, int warning_level)
+{
+    const py::object info = py::module_::import("logging").attr("getLogger")("vmlight").attr("info");
+    for (const auto& [is_warning, text] : messages) {
+        const std::string line = in_python(text);
+        if (!is_warning)
+            info("%s", line);
+        else if (PyErr_WarnEx(s_warning.ptr(), line.c_str(), warning_level) != 0) // a filter makes errors of warnings
+            throw py::error_already_set();
+    }
+}
+
+} // namespace
+
+std::vector<Argument> work_arguments()
+{
+    std::vector<Argument> arguments = arguments_of(ThreadParams());
+    arguments.push_back({ "progress", "Callable[[float, str], object] | None", "None", "",
+                          "Called with the share that is done, 0 to 1, and the name of the step; on the thread of the "
+                          "call. What it raises stops the work" });
+    return arguments;
+}
+
+WorkOptions work_options(const py::dict& keywords)
+{
+    ThreadParams params;
+    set_params(params, keywords);
+    WorkOptions options;
+    options.threads = params.threads;
+    if (keywords.contains("progress"))
+        options.progress = keywords["progress"];
+    if (!options.progress.is_none() && !PyCallable_Check(options.progress.ptr()))
+        throw py::type_error(format("progress: must be callable, not {}", Py_TYPE(options.progress.ptr())->tp_name));
+    return options;
+}
+
+void do_work(const WorkOptions& given, const std::vector<std::string>& paths,
+             const std::function<bool(const MakeOptions& options, std::string& error)>& work)
+{
+    Talk talk(!given.progress.is_none());
+    bool done = false;
+    std::string error;
+    std::exception_ptr thrown;
+    std::thread worker([&] {
+        try {
+            done = work(make_options(talk, given.threads), error);
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+        talk.finish();
+    });
+    std::optional<py::error_already_set> raised;
+    for (bool finished = false; !finished;) {
+        Talk::News news;
+        {
+            const py::gil_scoped_release unlocked;
+            finished = talk.wait(news);
+        }
+        if (raised)
+            continue;
+        try {
+            attend(news, given.progress);
+        } catch (py::error_already_set& exception) {
+            raised.emplace(exception);
+            talk.stop();
+        }
+    }
+    {
+        const py::gil_scoped_release unlocked;
+        worker.join();
+    }
+    if (raised)
+        throw py::error_already_set(*raised);
+    if (thrown)
+        std::rethrow_exception(thrown);
+    pass_on(talk.messages, given.warning_level);
+    if (done)
+        return;
+    for (const std::string& path : paths)
+        if (!path.empty() && path.find_first_of("?<") == std::string::npos && !OIIO::Filesystem::exists(path)) {
+            PyErr_SetString(PyExc_FileNotFoundError, in_python(error).c_str());
+            throw py::error_already_set();
+        }
+    throw_error(error);
+}
+
+// --max-distance -> max_distance, outside quoted names.
+std::string in_python(const std::string& text)
+{
+    std::string dst;
+    bool is_quoted = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        is_quoted ^= text[i] == '"';
+        const bool is_start = i == 0 || text[i - 1] == ' ';
+        if (is_quoted || !is_start || text.compare(i, 2, "--") != 0 || !std::islower(uint8_t(text[i + 2]))) {
+            dst += text[i];
+            continue;
+        }
+        for (i += 2; std::islower(uint8_t(text[i])) || text[i] == '-'; ++i)
+            dst += text[i] == '-' ? '_' : text[i];
+        --i;
+    }
+    return dst;
+}
+
+void throw_error(const std::string& error)
+{
+    PyErr_SetString(s_error.ptr(), in_python(error).c_str());
+    throw py::error_already_set();
+}
+
+void define_errors(py::module_& m)
+{
+    const auto define = [&](const char* name, const char* help, PyObject* base) {
+        const std::string full = std::string("vmlight.") + name;
+        PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), help, base, nullptr);
+        if (!type)
+            throw py::error_already_set();
+        m.attr(name) = py::reinterpret_borrow<py::object>(type);
+        return py::handle(type);
+    };
+    s_error
+        = define("Error", "The work failed: an input cannot be used, or memory does not suffice.", PyExc_RuntimeError);
+    s_warning = define("Warning", "What a user should know of an input or a result.", PyExc_UserWarning);
+}
+
+} // namespace vmlight::python
