@@ -135,7 +135,10 @@ std::string path_text(const char* name, py::handle path)
 {
     if (!is_path(path))
         refuse(name, "a path", path);
-    return py::cast<std::string>(py::module_::import("os").attr("fsencode")(path));
+    const auto bytes = py::cast<std::string>(py::module_::import("os").attr("fsencode")(path));
+    if (bytes.find('\0') != std::string::npos)
+        throw py::value_error(std::string(name) + ": a name cannot contain a zero byte");
+    return bytes;
 }
 
 std::string meanings(const std::vector<Choice>& choices)

@@ -6,6 +6,7 @@
 #include "metadata.h"
 #include "work.h"
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/open_source.h>
@@ -55,6 +56,13 @@ bool is_array(py::handle value)
         || py::hasattr(value, "__array_interface__");
 }
 
+// Whether numpy.require() leaves it as it is.
+bool is_usable(const py::array& array)
+{
+    return py::isinstance<py::array_t<float, py::array::c_style>>(array)
+        && (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+}
+
 Image image_of_array(const char* name, py::handle value, std::vector<std::string> channels, const py::dict& metadata,
                      const std::vector<std::string>& expected)
 {
@@ -67,7 +75,6 @@ Image image_of_array(const char* name, py::handle value, std::vector<std::string
     if (array.ndim() != 2 && array.ndim() != 3)
         throw py::value_error(format("{}: must have the shape (height, width) or (height, width, channels), not {}",
                                      name, py::cast<std::string>(py::str(array.attr("shape")))));
-    array = numpy.attr("require")(array, "float32", "CA");
     const py::ssize_t height = array.shape(0), width = array.shape(1), count = array.ndim() == 3 ? array.shape(2) : 1;
     if (array.size() == 0 || height > kMaxSide || width > kMaxSide || count > kMaxChannels)
         throw py::value_error(format("{}: {} x {} pixels of {} channels: must be from 1 x 1 x 1 to {} x {} x {}", name,
@@ -81,6 +88,10 @@ Image image_of_array(const char* name, py::handle value, std::vector<std::string
     OIIO::ImageSpec spec(int(width), int(height), int(count), OIIO::TypeFloat);
     spec.channelnames = channels;
     add_metadata(spec, metadata);
+    if (!is_usable(array))
+        if (const std::string shortage = memory_shortage(spec); !shortage.empty())
+            throw_error(std::string(name) + ": " + shortage);
+    array = numpy.attr("require")(array, "float32", "CA");
     // Nothing of the library writes to its inputs.
     auto image = std::make_unique<OIIO::ImageBuf>(spec, const_cast<void*>(array.data()));
     const bool is_readonly = !array.writeable();

@@ -10,11 +10,16 @@
 #include <pybind11/numpy.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
 namespace vmlight::python {
 namespace {
+
+// Normals of this length, but for rounding, keep their bits.
+constexpr float kUnitLength = 1e-6f;
 
 using MeshPointer = std::shared_ptr<Mesh>;
 
@@ -52,8 +57,13 @@ void fill_normals(Mesh& mesh, const py::object& normals, double crease_angle)
         return;
     }
     copy_rows(mesh.normals, table<float>("normals", normals, 3, py::ssize_t(mesh.positions.size()), 'f'));
-    for (Imath::V3f& normal : mesh.normals)
-        normal = normal.length2() > 0 ? normal.normalized() : Imath::V3f(0); // the zero vector: missing
+    for (Imath::V3f& normal : mesh.normals) {
+        const float length = normal.length();
+        if (!(length > 0) || !std::isfinite(length))
+            normal = Imath::V3f(0); // missing
+        else if (std::abs(length - 1) > kUnitLength)
+            normal /= length;
+    }
     mesh.normals_from = "given";
     fill_missing_normals(mesh, crease_angle);
 }

@@ -52,7 +52,10 @@ void add_metadata(OIIO::ImageSpec& spec, const py::dict& metadata)
         if (py::isinstance<py::str>(value)) {
             spec.attribute(name, py::cast<std::string>(value));
         } else if (py::isinstance<py::int_>(value)) {
-            spec.attribute(name, py::cast<int>(value));
+            const long number = PyLong_AsLong(value.ptr());
+            if (PyErr_Occurred() || number != int(number))
+                throw py::value_error("metadata: " + name + ": more than an integer of 32 bits holds");
+            spec.attribute(name, int(number));
         } else if (py::isinstance<py::float_>(value)) {
             spec.attribute(name, py::cast<float>(value));
         } else if (PySequence_Check(value.ptr())) {
