@@ -13,7 +13,6 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <utility>
 
 namespace vmlight::python {
 namespace {
@@ -30,7 +29,8 @@ struct ThreadParams
 
 // How long a Ctrl-C can stay unseen.
 constexpr std::chrono::milliseconds kSignalPeriod { 50 };
-// A callback hears of steps of this size: Python would slow down the work that tells it more.
+// A callback hears of steps of this size at once, of smaller ones with the next look for signals: Python would slow
+// down the work that tells it more.
 constexpr double kProgressStep = 0.01;
 
 py::handle s_error, s_warning; // live as long as the process
@@ -57,8 +57,11 @@ public:
         if (m_stopped)
             return false;
         const std::lock_guard<std::mutex> lock(m_mutex);
-        if (m_wants_progress && (step != m_news.step || done >= m_told + kProgressStep || done >= 1)) {
-            m_news = { true, done, step };
+        m_news.any |= m_wants_progress && (step != m_news.step || done != m_news.done);
+        m_is_urgent |= m_news.any && (step != m_news.step || done >= m_told + kProgressStep || done >= 1);
+        m_news.done = done;
+        m_news.step = step;
+        if (m_is_urgent) {
             m_told = done;
             m_wake.notify_one();
         }
@@ -80,8 +83,9 @@ public:
     bool wait(News& news)
     {
         std::unique_lock<std::mutex> lock(m_mutex);
-        m_wake.wait_for(lock, kSignalPeriod, [&] { return m_finished || m_news.any; });
-        news = std::exchange(m_news, { false, m_news.done, m_news.step });
+        m_wake.wait_for(lock, kSignalPeriod, [&] { return m_finished || m_is_urgent; });
+        news = m_news;
+        m_news.any = m_is_urgent = false;
         return m_finished;
     }
     void stop() { m_stopped = true; }
@@ -94,7 +98,7 @@ private:
     std::atomic<bool> m_stopped { false };
     std::mutex m_mutex;
     std::condition_variable m_wake;
-    bool m_finished = false;
+    bool m_finished = false, m_is_urgent = false;
     News m_news;
     double m_told = 0;
 };
