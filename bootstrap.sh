@@ -21,6 +21,7 @@ packages=(
     libpugixml-dev libeigen3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
     libglfw3-dev libepoxy-dev libimgui-dev libopencolorio-dev libegl1 libgl1-mesa-dri xvfb xdotool
     libgmock-dev libgtest-dev libbenchmark-dev
+    pybind11-dev python3-dev
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )
 

@@ -16,19 +16,6 @@ namespace {
     throw py::type_error(format("{}: must be {}, not {}", name, wanted, Py_TYPE(value.ptr())->tp_name));
 }
 
-std::string literal(const std::string& text)
-{
-    return py::cast<std::string>(py::repr(py::str(text)));
-}
-
-std::string words(const std::vector<Choice>& choices)
-{
-    std::vector<std::string> quoted;
-    for (const Choice& choice : choices)
-        quoted.push_back(literal(choice.word));
-    return OIIO::Strutil::join(quoted, ", ");
-}
-
 // numpy's bool is none of Python's.
 bool is_bool(py::handle value)
 {
@@ -119,11 +106,6 @@ std::string str_text(const char* name, py::handle value)
     return py::cast<std::string>(value);
 }
 
-template <class Allowed> std::string range_of(const Allowed& allowed)
-{
-    return allowed_text(allowed);
-}
-
 } // namespace
 
 bool is_path(py::handle value)
@@ -139,14 +121,6 @@ std::string path_text(const char* name, py::handle path)
     if (bytes.find('\0') != std::string::npos)
         throw py::value_error(std::string(name) + ": a name cannot contain a zero byte");
     return bytes;
-}
-
-std::string meanings(const std::vector<Choice>& choices)
-{
-    std::string text;
-    for (const Choice& choice : choices)
-        text += format("\n  {}: {}", literal(choice.word), choice.meaning);
-    return text;
 }
 
 std::string text_of(const char* name, py::handle value, const Range& allowed, int)
@@ -240,75 +214,6 @@ std::string text_of(const char* name, py::handle value, const Flag&, bool)
     if (!is_bool(value))
         refuse(name, "bool", value);
     return PyObject_IsTrue(value.ptr()) ? "true" : "false";
-}
-
-Argument describe(const Range& allowed, int value)
-{
-    const std::string text = value_text(value, allowed);
-    const bool is_named = allowed.word && text == allowed.word;
-    return { "", allowed.word ? format("int | Literal[{}]", literal(allowed.word)) : "int",
-             is_named ? literal(text) : text, range_of(allowed), "" };
-}
-
-Argument describe(const Range& allowed, double value)
-{
-    const std::string text = value_text(value, allowed);
-    const bool is_named = allowed.word && text == allowed.word;
-    return { "", allowed.word ? format("float | Literal[{}]", literal(allowed.word)) : "float",
-             is_named ? literal(text) : text, range_of(allowed), "" };
-}
-
-Argument describe(const SizeRange& allowed, Size value)
-{
-    return { "", "int | tuple[int, int]",
-             allowed.height_share == 1 && value.width == value.height ? std::to_string(value.width)
-                                                                      : format("({}, {})", value.width, value.height),
-             format("a width{} or (width, height), each side up to {}",
-                    allowed.height_share == 1 ? ", for a square," : "", allowed.max),
-             "" };
-}
-
-Argument describe(const Choices& allowed, const std::string& value)
-{
-    return { "", format("Literal[{}]", words(allowed.choices)), literal(value), "", "" };
-}
-
-Argument describe(const ChoiceSet& allowed, const std::vector<std::string>& value)
-{
-    std::string all;
-    for (const std::string& word : value)
-        all += literal(word) + ", ";
-    return { "", format("Sequence[Literal[{}]]", words(allowed.choices)), "(" + all + ")", "", "" };
-}
-
-Argument describe(const Text&, const std::string& value)
-{
-    return { "", "str", literal(value), "", "" };
-}
-
-Argument describe(const Path&, const std::string& value)
-{
-    return { "", "StrPath", literal(value), "", "" };
-}
-
-Argument describe(const Paths&, const std::vector<std::string>&)
-{
-    return { "", "StrPath | Sequence[StrPath]", "()", "", "" };
-}
-
-Argument describe(const Names&, const std::vector<std::string>&)
-{
-    return { "", "str | Sequence[str]", "()", "", "" };
-}
-
-Argument describe(const Numbers& allowed, const std::vector<double>&)
-{
-    return { "", "Floats", "()", format("{} floats", allowed.count), "" };
-}
-
-Argument describe(const Flag&, bool value)
-{
-    return { "", "bool", value ? "True" : "False", "", "" };
 }
 
 } // namespace vmlight::python

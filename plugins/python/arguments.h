@@ -52,6 +52,9 @@ Argument describe(const Names& allowed, const std::vector<std::string>& value);
 Argument describe(const Numbers& allowed, const std::vector<double>& value);
 Argument describe(const Flag& allowed, bool value);
 
+/// Text as a Python literal, in quotes.
+std::string literal(const std::string& text);
+
 /// The words of a parameter with what they mean, a line each; "" unless it takes words.
 std::string meanings(const std::vector<Choice>& choices);
 

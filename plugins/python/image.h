@@ -39,6 +39,13 @@ Image own_one(OIIO::ImageBuf image);
 Image input_image(const char* name, py::handle value, const std::vector<std::string>& channels = {},
                   bool is_kept = false);
 
+/// Whether a value is an array, or says how it can be one.
+bool is_array(py::handle value);
+
+/// The same for an array, with names and metadata of its own. Empty `channels`: as for input_image(), with `expected`.
+Image image_of_array(const char* name, py::handle value, std::vector<std::string> channels, const py::dict& metadata,
+                     const std::vector<std::string>& expected = {});
+
 /// An image over the pixels of another, which must outlive it.
 OIIO::ImageBuf view_of(const OIIO::ImageBuf& image);
 /// Views of all parts, one after the other, as the library takes a stack.

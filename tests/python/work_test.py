@@ -173,6 +173,17 @@ class Threads(Case):
             thread.join()
         self.assertEqual(faults, [])
 
+    def test_a_forked_process_works(self):
+        expected = vmlight.make_vismap(plane(), pit(), resolution=128, samples=4)
+        child = os.fork()
+        if child == 0:  # no exception may reach the code of the parent
+            code = 1
+            try:
+                code = int((vmlight.make_vismap(plane(), pit(), resolution=128, samples=4).pixels != expected.pixels).any())
+            finally:
+                os._exit(code)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
     def test_any_number_of_threads_gives_the_same(self):
         one = vmlight.make_vismap(plane(), pit(), resolution=64, samples=16, threads=1)
         self.assert_same(vmlight.make_vismap(plane(), pit(), resolution=64, samples=16, threads=3), one)
