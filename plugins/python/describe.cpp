@@ -16,6 +16,15 @@ std::string words(const std::vector<Choice>& choices)
     return OIIO::Strutil::join(quoted, ", ");
 }
 
+Argument describe_number(const char* type, const Range& allowed, const std::string& value)
+{
+    if (!allowed.word)
+        return { "", type, value, allowed_text(allowed), "" };
+    const std::string word = literal(allowed.word);
+    return { "", format("{} | Literal[{}]", type, word), value == allowed.word ? word : value,
+             format("{} or {}", allowed_text(Range { allowed.min, allowed.max }), word), "" };
+}
+
 } // namespace
 
 std::string literal(const std::string& text)
@@ -33,18 +42,12 @@ std::string meanings(const std::vector<Choice>& choices)
 
 Argument describe(const Range& allowed, int value)
 {
-    const std::string text = value_text(value, allowed);
-    const bool is_named = allowed.word && text == allowed.word;
-    return { "", allowed.word ? format("int | Literal[{}]", literal(allowed.word)) : "int",
-             is_named ? literal(text) : text, allowed_text(allowed), "" };
+    return describe_number("int", allowed, value_text(value, allowed));
 }
 
 Argument describe(const Range& allowed, double value)
 {
-    const std::string text = value_text(value, allowed);
-    const bool is_named = allowed.word && text == allowed.word;
-    return { "", allowed.word ? format("float | Literal[{}]", literal(allowed.word)) : "float",
-             is_named ? literal(text) : text, allowed_text(allowed), "" };
+    return describe_number("float", allowed, value_text(value, allowed));
 }
 
 Argument describe(const SizeRange& allowed, Size value)

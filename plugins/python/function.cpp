@@ -84,7 +84,8 @@ std::string docstring(const Function& function)
 {
     std::string text = signature(function) + "\n--\n\n" + function.summary + "\n\nArguments:\n";
     for (const Operand& operand : function.operands)
-        text += format("    {}: {}\n{}", operand.name, operand.type, indented(operand.help));
+        text += format("    {}: {}{}\n{}", operand.name, operand.type,
+                       operand.value ? format(", default {}", operand.value) : "", indented(operand.help));
     for (const Argument& argument : function.keywords) {
         const bool is_word = OIIO::Strutil::starts_with(argument.type, "Literal");
         text += format("    {}: {}, default {}\n", argument.name,

@@ -74,6 +74,8 @@ public:
         m_function.keywords = arguments_of(Params(), left_out);
         for (Argument& argument : work_arguments())
             m_function.keywords.push_back(std::move(argument));
+        for (const Argument& argument : m_function.keywords)
+            add_argument_name(argument.name);
     }
 
     const Function& function() const { return m_function; }

@@ -12,6 +12,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 
 namespace vmlight::python {
@@ -32,6 +33,12 @@ constexpr std::chrono::milliseconds kSignalPeriod { 50 };
 // A callback hears of steps of this size at once, of smaller ones with the next look for signals: Python would slow
 // down the work that tells it more.
 constexpr double kProgressStep = 0.01;
+
+std::set<std::string>& argument_names()
+{
+    static std::set<std::string> names;
+    return names;
+}
 
 py::handle s_error, s_warning; // live as long as the process
 
@@ -210,21 +217,28 @@ void do_work(const WorkOptions& given, const std::vector<std::string>& paths,
     throw_error(error);
 }
 
-// --max-distance -> max_distance, outside quoted names.
+void add_argument_name(const std::string& name)
+{
+    argument_names().insert(name);
+}
+
 std::string in_python(const std::string& text)
 {
     std::string dst;
     bool is_quoted = false;
-    for (size_t i = 0; i < text.size(); ++i) {
+    for (size_t i = 0; i < text.size();) {
         is_quoted ^= text[i] == '"';
-        const bool is_start = i == 0 || text[i - 1] == ' ';
-        if (is_quoted || !is_start || text.compare(i, 2, "--") != 0 || !std::islower(uint8_t(text[i + 2]))) {
-            dst += text[i];
-            continue;
+        std::string name;
+        size_t end = i + 2;
+        if (!is_quoted && (i == 0 || text[i - 1] == ' ') && text.compare(i, 2, "--") == 0)
+            for (; end < text.size() && (std::islower(uint8_t(text[end])) || text[end] == '-'); ++end)
+                name += text[end] == '-' ? '_' : text[end];
+        if (argument_names().count(name)) {
+            dst += name;
+            i = end;
+        } else {
+            dst += text[i++];
         }
-        for (i += 2; std::islower(uint8_t(text[i])) || text[i] == '-'; ++i)
-            dst += text[i] == '-' ? '_' : text[i];
-        --i;
     }
     return dst;
 }

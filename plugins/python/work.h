@@ -39,8 +39,10 @@ void do_work(const WorkOptions& options, const std::vector<std::string>& paths,
 /// Add vmlight.Error and vmlight.Warning.
 void define_errors(py::module_& m);
 
-/// A message of the library in the words of Python: it names flags.
-std::string in_python(const std::string& error);
+/// A text of the library in the words of Python: it calls arguments by their flags, --max-distance.
+std::string in_python(const std::string& text);
+/// Let in_python() know an argument.
+void add_argument_name(const std::string& name);
 
 /// Throw vmlight.Error, in_python().
 [[noreturn]] void throw_error(const std::string& error);

@@ -8,6 +8,7 @@ import inspect
 import math
 import os
 import pathlib
+import re
 import unittest
 import warnings
 
@@ -25,6 +26,10 @@ def function_of(name):
     for part in name.split("."):
         owner = getattr(owner, part)
     return owner
+
+
+def known_arguments():
+    return {name for entry in TABLE.values() for name, _, _ in entry["keywords"]}
 
 
 class Values(Case):
@@ -239,7 +244,15 @@ class Documents(Case):
     def test_words_are_explained(self):
         self.assertIn("'fibonacci': Fibonacci lattice", vmlight.make_vismap.__doc__)
         self.assertIn("1..1048576, default 128", vmlight.make_vismap.__doc__)
-        self.assertNotRegex(vmlight.make_lightmap.__doc__, r" --[a-z]")
+        self.assertIn("0..32768 or 'infinite', default 16", vmlight.make_vismap.__doc__)
+
+    def test_texts_name_arguments_and_no_flags(self):
+        for name in TABLE:
+            flags = set(re.findall(r"--([a-z-]+)", function_of(name).__doc__ or ""))
+            self.assertEqual({flag for flag in flags if flag.replace("-", "_") in known_arguments()}, set(), name)
+        with self.assertRaisesRegex(vmlight.Error, "; set sanitize to|sanitize") as caught:
+            vmlight.make_cfem(-sky())
+        self.assertNotIn("--", str(caught.exception))
 
     def test_a_reloaded_module_works(self):
         before = vmlight.make_cfem(sky(), resolution=8)
