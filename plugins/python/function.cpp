@@ -20,7 +20,7 @@ std::string signature(const Function& function)
 {
     std::vector<std::string> parts;
     if (function.kind == FunctionKind::method)
-        parts.push_back("$self");
+        parts.push_back("self");
     for (const Operand& operand : function.operands)
         parts.push_back(operand.value ? format("{}={}", operand.name, operand.value) : operand.name);
     if (!function.keywords.empty())

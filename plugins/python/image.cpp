@@ -166,7 +166,7 @@ void define_image(py::module_& m)
                                                          : py::cast<std::vector<std::string>>(channels),
                                       metadata.is_none() ? py::dict() : py::dict(metadata), {});
             }),
-            "__init__($self, pixels, channels=None, metadata=None)\n--\n\nAn image over an array of floats, (height, "
+            "__init__(self, pixels, channels=None, metadata=None)\n--\n\nAn image over an array of floats, (height, "
             "width, channels) or (height, width), which is not copied if it is float32 and row by row; or a copy of an "
             "OpenImageIO.ImageBuf. Without names, channels are Y, R, G, B or R, G, B, A.",
             py::arg("pixels"), py::arg("channels") = py::none(), py::arg("metadata") = py::none())
@@ -181,7 +181,7 @@ void define_image(py::module_& m)
         .def_property_readonly("subimages", &subimages_of,
                                "The images of a stack, of which this shows the first; else this image alone.")
         .def("__getitem__", &channel_of, py::arg("channel"),
-             "__getitem__($self, channel)\n--\n\nThe pixels of a channel, (height, width); or of those whose names it "
+             "__getitem__(self, channel)\n--\n\nThe pixels of a channel, (height, width); or of those whose names it "
              "begins, as direction for direction.x, .y and .z, (height, width, 3). No copy.")
         .def(
             "to_imagebuf",
@@ -192,7 +192,7 @@ void define_image(py::module_& m)
                                 "images: write a file, or use set_pixels()");
                 return self.first().copy(OIIO::TypeFloat);
             },
-            "to_imagebuf($self)\n--\n\nA copy as OpenImageIO.ImageBuf, with channels and metadata.")
+            "to_imagebuf(self)\n--\n\nA copy as OpenImageIO.ImageBuf, with channels and metadata.")
         .def("__repr__", &repr_of);
     image.def_static(
         "read",

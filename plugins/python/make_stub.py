@@ -15,6 +15,7 @@ def definition(name, function, indent=""):
     parts += [f"{operand}: {hint}" + (f" = {value}" if value else "") for operand, hint, value in function["operands"]]
     parts += ["*"]
     parts += [f"{keyword}: {hint} = {value}" for keyword, hint, value in function["keywords"]]
+    parts = [re.sub(r"\b(StrPath|Floats)\b", r"_\1", part) for part in parts]  # not there at run time
     lines = [indent + "@staticmethod"] if is_static else []
     lines += [f"{indent}def {short}("] + [f"{indent}    {part}," for part in parts]
     return "\n".join(lines + [f"{indent}) -> {function['returns'] or 'None'}: ..."])

@@ -125,7 +125,7 @@ const char* const kMesh
 Arrays are copied. Vertices are split where normals are hard, so that a mesh may have more than it was made of.)";
 
 const char* const kInit
-    = R"(__init__($self, positions, triangles, uvs=None, normals=None, *, name='mesh', crease_angle=180)
+    = R"(__init__(self, positions, triangles, uvs=None, normals=None, *, name='mesh', crease_angle=180)
 --
 
 Arguments:
