@@ -54,7 +54,8 @@ std::string float_text(py::handle value)
 
 bool is_word(py::handle value, const Range& allowed)
 {
-    return allowed.word && PyUnicode_Check(value.ptr()) && py::cast<std::string>(value) == allowed.word;
+    return allowed.word && PyUnicode_Check(value.ptr())
+        && PyUnicode_CompareWithASCIIString(value.ptr(), allowed.word) == 0;
 }
 
 std::string or_word(const std::string& wanted, const Range& allowed)
@@ -99,14 +100,18 @@ std::string lines(const char* name, py::handle value, const char* wanted, std::s
     return OIIO::Strutil::join(names, "\n");
 }
 
+} // namespace
+
 std::string str_text(const char* name, py::handle value)
 {
     if (!PyUnicode_Check(value.ptr()))
         refuse(name, "str", value);
-    return py::cast<std::string>(value);
+    Py_ssize_t size = 0;
+    const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+    if (!text) // a lone surrogate
+        throw py::error_already_set();
+    return { text, size_t(size) };
 }
-
-} // namespace
 
 bool is_path(py::handle value)
 {
@@ -147,7 +152,7 @@ std::string text_of(const char* name, py::handle value, const Range& allowed, do
 std::string text_of(const char* name, py::handle value, const SizeRange&, Size)
 {
     if (PyUnicode_Check(value.ptr()))
-        return py::cast<std::string>(value);
+        return str_text(name, value);
     if (is_int(value))
         return int_text(value);
     std::vector<std::string> sides;
@@ -170,7 +175,7 @@ std::string text_of(const char* name, py::handle value, const Choices&, const st
 std::string text_of(const char* name, py::handle value, const ChoiceSet&, const std::vector<std::string>&)
 {
     if (PyUnicode_Check(value.ptr()))
-        return py::cast<std::string>(value);
+        return str_text(name, value);
     if (!is_sequence(value))
         refuse(name, "words", value);
     std::vector<std::string> texts;

@@ -58,6 +58,9 @@ std::string literal(const std::string& text);
 /// The words of a parameter with what they mean, a line each; "" unless it takes words.
 std::string meanings(const std::vector<Choice>& choices);
 
+/// A str as UTF-8. Throws TypeError, which names the argument, and ValueError for lone surrogates.
+std::string str_text(const char* name, py::handle value);
+
 /// The bytes of a path: str, bytes or os.PathLike, by os.fsencode(). Throws TypeError, which names the argument.
 std::string path_text(const char* name, py::handle path);
 

@@ -19,7 +19,8 @@ std::vector<std::pair<std::string, Function>>& table()
 std::string signature(const Function& function)
 {
     std::vector<std::string> parts;
-    if (function.kind == FunctionKind::method)
+    const bool is_constructor = function.kind == FunctionKind::constructor;
+    if (function.kind == FunctionKind::method || is_constructor)
         parts.push_back("self");
     for (const Operand& operand : function.operands)
         parts.push_back(operand.value ? format("{}={}", operand.name, operand.value) : operand.name);
@@ -27,7 +28,7 @@ std::string signature(const Function& function)
         parts.push_back("*");
     for (const Argument& argument : function.keywords)
         parts.push_back(format("{}={}", argument.name, argument.value));
-    return format("{}({})", function.name, OIIO::Strutil::join(parts, ", "));
+    return format("{}({})", is_constructor ? "__init__" : function.name, OIIO::Strutil::join(parts, ", "));
 }
 
 // Lines of their own, wrapped.

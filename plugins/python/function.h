@@ -26,7 +26,8 @@ enum class FunctionKind
 {
     function, ///< of the module; package/__init__.py wraps it
     method,
-    static_method
+    static_method,
+    constructor ///< by the name of its class
 };
 
 struct Function
@@ -63,17 +64,25 @@ void add_to_table(const std::string& name, const Function& function);
 /// All functions for the generator of the stubs: {name: {"operands", "keywords": (name, type, default), "returns"}}.
 py::dict functions_table();
 
+/// No keywords.
+struct NoParams
+{
+    template <class Visit> void visit(Visit&&) { }
+};
+
 /// A function whose keywords are those of `Params`.
 template <class Params> class Signature
 {
 public:
     /// @param left_out parameters that are no keywords here
-    Signature(Function function, std::vector<std::string> left_out = {})
+    /// @param works    whether it takes the keywords of WorkOptions
+    Signature(Function function, const std::vector<std::string>& left_out = {}, bool works = true)
         : m_function(std::move(function))
     {
         m_function.keywords = arguments_of(Params(), left_out);
-        for (Argument& argument : work_arguments())
-            m_function.keywords.push_back(std::move(argument));
+        if (works)
+            for (Argument& argument : work_arguments())
+                m_function.keywords.push_back(std::move(argument));
         for (const Argument& argument : m_function.keywords)
             add_argument_name(argument.name);
     }

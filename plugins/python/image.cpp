@@ -121,10 +121,36 @@ void write_image_file(const Image& image, const std::string& path, const std::st
             });
 }
 
-struct NoParams
+const char* const kMaking
+    = "An image over an array of floats, which is not copied if it is float32 and row by row; or a copy of an "
+      "OpenImageIO.ImageBuf.";
+
+std::vector<std::string> channel_names(const py::object& names)
 {
-    template <class Visit> void visit(Visit&&) { }
-};
+    if (names.is_none())
+        return {};
+    if (!PySequence_Check(names.ptr()) || py::isinstance<py::str>(names))
+        throw py::type_error(format("channels: must be a sequence of str, not {}", Py_TYPE(names.ptr())->tp_name));
+    std::vector<std::string> dst;
+    for (py::handle name : names)
+        dst.push_back(str_text("channels", name));
+    return dst;
+}
+
+// The operands pixels, channels and metadata.
+Image make_from_pixels(const std::vector<py::object>& operands)
+{
+    const py::object &pixels = operands[0], &metadata = operands[2];
+    if (!is_array(pixels)) {
+        if (!operands[1].is_none() || !metadata.is_none())
+            throw py::type_error("channels and metadata are for arrays: an ImageBuf has its own");
+        return input_image("pixels", pixels, {}, true);
+    }
+    if (!metadata.is_none() && !py::isinstance<py::dict>(metadata))
+        throw py::type_error(format("metadata: must be a dict, not {}", Py_TYPE(metadata.ptr())->tp_name));
+    return image_of_array("pixels", pixels, channel_names(operands[1]),
+                          metadata.is_none() ? py::dict() : py::dict(metadata));
+}
 
 const char* const kImage = R"(An image in memory: pixels, names of channels, metadata. What the functions of vmlight
 take and return.
@@ -136,6 +162,16 @@ image["visibility"] or image["direction"] for channels by name.)";
 
 void define_image(py::module_& m)
 {
+    const Signature<NoParams> making(
+        { "Image",
+          FunctionKind::constructor,
+          kMaking,
+          { { "pixels", "NDArray[Any] | ImageBuf", "Floats, (height, width, channels) or (height, width)" },
+            { "channels", "Sequence[str] | None", "Their names; None: Y, R G B or R G B A", "None" },
+            { "metadata", "dict[str, Any] | None", "Numbers, text, and sequences of floats", "None" } },
+          "",
+          "" },
+        {}, false);
     const Signature<NoParams> reading(
         { "read",
           FunctionKind::static_method,
@@ -154,22 +190,10 @@ void define_image(py::module_& m)
     py::class_<Image> image(m, "Image", py::buffer_protocol(), kImage);
     image.attr("__module__") = "vmlight";
     image
-        .def(
-            py::init([](const py::object& pixels, const py::object& channels, const py::object& metadata) {
-                if (py::isinstance<OIIO::ImageBuf>(pixels) || py::hasattr(pixels, "get_pixels"))
-                    return input_image("pixels", pixels, {}, true);
-                if (!is_array(pixels))
-                    throw py::type_error(
-                        format("pixels: must be an array of floats, not {}", Py_TYPE(pixels.ptr())->tp_name));
-                return image_of_array("pixels", pixels,
-                                      channels.is_none() ? std::vector<std::string>()
-                                                         : py::cast<std::vector<std::string>>(channels),
-                                      metadata.is_none() ? py::dict() : py::dict(metadata), {});
-            }),
-            "__init__(self, pixels, channels=None, metadata=None)\n--\n\nAn image over an array of floats, (height, "
-            "width, channels) or (height, width), which is not copied if it is float32 and row by row; or a copy of an "
-            "OpenImageIO.ImageBuf. Without names, channels are Y, R, G, B or R, G, B, A.",
-            py::arg("pixels"), py::arg("channels") = py::none(), py::arg("metadata") = py::none())
+        .def(py::init([making](const py::args& args, const py::kwargs& kwargs) {
+                 return make_from_pixels(making.read(args, kwargs).first.operands);
+             }),
+             docstring(making.function()).c_str())
         .def_buffer(&buffer_of)
         .def_property_readonly("pixels", &pixels_of, "The pixels, (height, width, channels) of float32: no copy.")
         .def_property_readonly(
@@ -208,6 +232,7 @@ void define_image(py::module_& m)
             write_image_file(self, path_text("path", call.operands[0]), params.format, call.work);
         },
         docstring(writing.function()).c_str());
+    add_to_table("Image.__init__", making.function());
     add_to_table("Image.read", reading.function());
     add_to_table("Image.write", writing.function());
 }

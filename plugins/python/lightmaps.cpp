@@ -110,7 +110,7 @@ void define_lightmaps(py::module_& m)
     add_to_table("make_lightmap", lightmap.function());
 
     const Signature<LightmapArguments> making(
-        { "__init__", FunctionKind::method, kRelighter, lightmap_operands(), "", "" }, lightmap_operand_params());
+        { "Relighter", FunctionKind::constructor, kRelighter, lightmap_operands(), "", "" }, lightmap_operand_params());
     const Signature<RelightArguments> relighting({ "light",
                                                    FunctionKind::method,
                                                    "Light the map. What is not given is as it was given to Relighter; "

@@ -13,7 +13,7 @@ def definition(name, function, indent=""):
     is_static = "." in name and short == "read"
     parts = ["self"] if "." in name and not is_static else []
     parts += [f"{operand}: {hint}" + (f" = {value}" if value else "") for operand, hint, value in function["operands"]]
-    parts += ["*"]
+    parts += ["*"] if function["keywords"] else []
     parts += [f"{keyword}: {hint} = {value}" for keyword, hint, value in function["keywords"]]
     parts = [re.sub(r"\b(StrPath|Floats)\b", r"_\1", part) for part in parts]  # not there at run time
     lines = [indent + "@staticmethod"] if is_static else []

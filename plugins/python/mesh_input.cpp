@@ -68,11 +68,25 @@ void fill_normals(Mesh& mesh, const py::object& normals, double crease_angle)
     fill_missing_normals(mesh, crease_angle);
 }
 
-MeshPointer mesh_of_arrays(const py::object& positions, const py::object& triangles, const py::object& uvs,
-                           const py::object& normals, const std::string& name, double crease_angle)
+struct MeshArguments
 {
+    std::string name = "mesh";
+    double crease_angle = 180;
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("name", name, Text {}, "What vmlight:mesh of its maps says");
+        field("crease_angle", crease_angle, Range { 0, 180 },
+              "Where normals are missing: edges sharper than this, in degrees, stay hard");
+    }
+};
+
+// The operands positions, triangles, uvs and normals.
+MeshPointer mesh_of_arrays(const std::vector<py::object>& operands, const MeshArguments& given)
+{
+    const py::object &positions = operands[0], &triangles = operands[1], &uvs = operands[2], &normals = operands[3];
     const auto mesh = std::make_shared<Mesh>();
-    mesh->name = name;
+    mesh->name = given.name;
     const auto points = table<double>("positions", positions, 3, -1, 'f');
     mesh->has_exact_positions = py::array(py::module_::import("numpy").attr("asarray")(positions)).itemsize() == 8;
     copy_rows(mesh->positions, points);
@@ -88,13 +102,11 @@ MeshPointer mesh_of_arrays(const py::object& positions, const py::object& triang
             { uint32_t(corners.at(i, 0)), uint32_t(corners.at(i, 1)), uint32_t(corners.at(i, 2)) });
     if (!uvs.is_none())
         copy_rows(mesh->uvs, table<float>("uvs", uvs, 2, count, 'f'));
-    if (!(crease_angle >= 0 && crease_angle <= 180))
-        throw py::value_error(format("crease_angle: {} is not in [0, 180]", crease_angle));
     // Before normals: they are means over triangles, whose corners must be points.
     mesh->normals.resize(mesh->positions.size());
     if (std::string error; !check_mesh(*mesh, error))
         throw py::value_error(error);
-    fill_normals(*mesh, normals, crease_angle);
+    fill_normals(*mesh, normals, given.crease_angle);
     return mesh;
 }
 
@@ -123,18 +135,6 @@ const char* const kMesh
     = R"(A triangle mesh in memory, in object space: right-handed, y up, counter-clockwise seen from outside.
 
 Arrays are copied. Vertices are split where normals are hard, so that a mesh may have more than it was made of.)";
-
-const char* const kInit
-    = R"(__init__(self, positions, triangles, uvs=None, normals=None, *, name='mesh', crease_angle=180)
---
-
-Arguments:
-    positions: floats, (n, 3). float64 keeps all bits of meshes far from the origin
-    triangles: integers, (m, 3): which vertices
-    uvs: floats, (n, 2); v = 0 is the bottom of the texture. What is baked needs them, occluders do not
-    normals: floats, (n, 3), of any length; missing ones, and zeros, are smooth
-    name: what vmlight:mesh of its maps says
-    crease_angle: edges sharper than this, in degrees, stay hard)";
 
 } // namespace
 
@@ -196,6 +196,19 @@ void allow_only(const Call& call, const std::vector<std::string>& names, const c
 
 void define_mesh(py::module_& m)
 {
+    const char* const floats = "NDArray[Any] | Sequence[Sequence[float]]";
+    const char* const optional = "NDArray[Any] | Sequence[Sequence[float]] | None";
+    const Signature<MeshArguments> making(
+        { "Mesh",
+          FunctionKind::constructor,
+          "A mesh of arrays, which are copied.",
+          { { "positions", floats, "(n, 3); float64 keeps all bits of meshes far from the origin" },
+            { "triangles", "NDArray[Any] | Sequence[Sequence[int]]", "(m, 3) integers: the vertices of each" },
+            { "uvs", optional, "(n, 2); v = 0 is the bottom of the texture. What is baked needs them", "None" },
+            { "normals", optional, "(n, 3), of any length; missing ones, and zeros, are smooth", "None" } },
+          "",
+          "" },
+        {}, false);
     const Signature<MeshParams> reading(
         { "read",
           FunctionKind::static_method,
@@ -212,8 +225,11 @@ void define_mesh(py::module_& m)
 
     py::class_<Mesh, MeshPointer> mesh(m, "Mesh", kMesh);
     mesh.attr("__module__") = "vmlight";
-    mesh.def(py::init(&mesh_of_arrays), kInit, py::arg("positions"), py::arg("triangles"), py::arg("uvs") = py::none(),
-             py::arg("normals") = py::none(), py::kw_only(), py::arg("name") = "mesh", py::arg("crease_angle") = 180.0)
+    mesh.def(py::init([making](const py::args& args, const py::kwargs& kwargs) {
+                 const auto [call, params] = making.read(args, kwargs);
+                 return mesh_of_arrays(call.operands, params);
+             }),
+             docstring(making.function()).c_str())
         .def_property_readonly(
             "positions", [](const Mesh& self) { return rows_of<Imath::V3d, double>(self.positions); },
             "(n, 3) of float64: a copy.")
@@ -261,6 +277,7 @@ void define_mesh(py::module_& m)
             return dst;
         },
         docstring(unwrapping.function()).c_str());
+    add_to_table("Mesh.__init__", making.function());
     add_to_table("Mesh.read", reading.function());
     add_to_table("Mesh.unwrap", unwrapping.function());
 }

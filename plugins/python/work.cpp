@@ -2,8 +2,10 @@
 #include "work.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
 
 #include <atomic>
 #include <cctype>
@@ -34,6 +36,15 @@ constexpr std::chrono::milliseconds kSignalPeriod { 50 };
 // down the work that tells it more.
 constexpr double kProgressStep = 0.01;
 
+// Names of files need not be UTF-8, Python's texts must be.
+std::string printable_text(const std::string& text)
+{
+    std::vector<std::string> lines;
+    for (const std::string& line : OIIO::Strutil::splits(text, "\n"))
+        lines.push_back(printable_line(line));
+    return OIIO::Strutil::join(lines, "\n");
+}
+
 std::set<std::string>& argument_names()
 {
     static std::set<std::string> names;
@@ -41,6 +52,41 @@ std::set<std::string>& argument_names()
 }
 
 py::handle s_error, s_warning; // live as long as the process
+
+// The work in progress. Once Python exits, threads that it does not wait for cannot come back to it: work must end
+// first.
+class Ongoing
+{
+public:
+    Ongoing()
+    {
+        if (s_exits)
+            leave();
+        ++s_count;
+    }
+    ~Ongoing() { --s_count; }
+    Ongoing(const Ongoing&) = delete;
+    Ongoing& operator=(const Ongoing&) = delete;
+
+    static bool must_stop() { return s_exits; }
+    // Ends the thread of Python.
+    [[noreturn]] static void leave()
+    {
+        PyErr_SetNone(PyExc_SystemExit);
+        throw py::error_already_set();
+    }
+    static void stop_all()
+    {
+        s_exits = true;
+        const py::gil_scoped_release unlocked;
+        while (s_count > 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+
+private:
+    inline static std::atomic<bool> s_exits { false };
+    inline static std::atomic<int> s_count { 0 };
+};
 
 /// What the worker says, and the waiting thread hears.
 class Talk
@@ -61,7 +107,7 @@ public:
     // For the worker.
     bool tell(const std::string& step, double done)
     {
-        if (m_stopped)
+        if (m_stopped || Ongoing::must_stop())
             return false;
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_news.any |= m_wants_progress && (step != m_news.step || done != m_news.done);
@@ -170,6 +216,7 @@ WorkOptions work_options(const py::dict& keywords)
 void do_work(const WorkOptions& given, const std::vector<std::string>& paths,
              const std::function<bool(const MakeOptions& options, std::string& error)>& work)
 {
+    const Ongoing ongoing;
     Talk talk(!given.progress.is_none());
     bool done = false;
     std::string error;
@@ -204,6 +251,8 @@ void do_work(const WorkOptions& given, const std::vector<std::string>& paths,
     }
     if (raised)
         throw py::error_already_set(*raised);
+    if (!done && Ongoing::must_stop())
+        Ongoing::leave();
     if (thrown)
         std::rethrow_exception(thrown);
     pass_on(talk.messages, given.warning_level);
@@ -222,8 +271,9 @@ void add_argument_name(const std::string& name)
     argument_names().insert(name);
 }
 
-std::string in_python(const std::string& text)
+std::string in_python(const std::string& given)
 {
+    const std::string text = printable_text(given);
     std::string dst;
     bool is_quoted = false;
     for (size_t i = 0; i < text.size();) {
@@ -261,6 +311,7 @@ void define_errors(py::module_& m)
     };
     s_error
         = define("Error", "The work failed: an input cannot be used, or memory does not suffice.", PyExc_RuntimeError);
+    py::module_::import("atexit").attr("register")(py::cpp_function(&Ongoing::stop_all));
     s_warning = define("Warning", "What a user should know of an input or a result.", PyExc_UserWarning);
 }
 

@@ -97,6 +97,7 @@ class Refusals(Case):
             (dict(threads=-1), ValueError, r"^threads: -1 is not in \[0, 1024\]$"),
             (dict(progress=3), TypeError, "^progress: must be callable, not int$"),
             (dict(unwrap=True), TypeError, "^unwrap: only for a mesh that is a file$"),
+            (dict(sun_directions="\udcff"), ValueError, "surrogates"),
             (dict(sun_directions="up"), vmlight.Error, "up"),
         ]:
             with self.subTest(arguments=arguments), self.assertRaisesRegex(error, text):
@@ -116,6 +117,14 @@ class Refusals(Case):
             (lambda: vmlight.make_vismap("a\0b.obj"), ValueError, "^mesh: a name cannot contain a zero byte$"),
             (lambda: vmlight.make_vismap(STUDIO), vmlight.Error, "studio_small_03.hdr"),
             (lambda: vmlight.make_cfem("absent.exr"), FileNotFoundError, "absent.exr"),
+            (lambda: vmlight.make_cfem("\udcff.exr"), FileNotFoundError, r'xff.exr": no such file'),
+            (lambda: vmlight.Image(), TypeError, r"^Image\(\): pixels is missing$"),
+            (lambda: vmlight.Image(sky(), channel=["R"]), TypeError, 'did you mean "channels"'),
+            (lambda: vmlight.Image(sky(), channels="RGB"), TypeError, "^channels: must be a sequence of str, not str$"),
+            (lambda: vmlight.Image(sky(), channels=[1, 2, 3]), TypeError, "^channels: must be str, not int$"),
+            (lambda: vmlight.Image(sky(), metadata=3), TypeError, "^metadata: must be a dict, not int$"),
+            (lambda: vmlight.Mesh(SQUARE), TypeError, r"^Mesh\(\): triangles is missing$"),
+            (lambda: vmlight.Relighter(vismap), TypeError, r"^Relighter\(\): light is missing$"),
             (lambda: vmlight.make_cfem(SPOT), vmlight.Error, "spot.obj"),
             (lambda: vmlight.make_cfem(sky(), colorspace="ACEScg"), TypeError, "^colorspace: only for an environment that"),
             (lambda: vmlight.make_cfem(sky(), order=4), ValueError, "^order: only the filter sh uses it$"),

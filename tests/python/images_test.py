@@ -110,9 +110,9 @@ class Arrays(Case):
             (np.ones((4, 0, 3), np.float32), ValueError, "0 x 4 pixels"),
             (np.ones((4, 8, 0), np.float32), ValueError, "of 0 channels"),
             (np.ones((4, 8, 7), np.float32), ValueError, "has 7 channels: name them"),
-            ("nonsense", TypeError, "array of floats"),
-            ([[1.0]], TypeError, "array of floats"),
-            (None, TypeError, "array of floats"),
+            ("nonsense", TypeError, "pixels: must be an image"),
+            ([[1.0]], TypeError, "pixels: must be an image"),
+            (None, TypeError, "pixels: must be an image"),
         ]:
             with self.subTest(text=text), self.assertRaisesRegex(error, text):
                 vmlight.Image(array)

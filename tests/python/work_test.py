@@ -4,6 +4,7 @@
 Run as: work_test.py, with VMLIGHT_SOURCE and the package on PYTHONPATH"""
 import os
 import signal
+import subprocess
 import sys
 import threading
 import unittest
@@ -172,6 +173,22 @@ class Threads(Case):
         for thread in threads:
             thread.join()
         self.assertEqual(faults, [])
+
+    def test_python_exits_during_a_bake(self):
+        # Of a thread that it does not wait for.
+        code = """
+import threading
+import vmlight
+from scenes import pit, plane
+started = threading.Event()
+arguments = dict(occluder=pit(), resolution=2048, samples=512, reconstruct="off", margin=0)
+bake = lambda: vmlight.make_vismap(plane(), progress=lambda *_: started.set(), **arguments)
+threading.Thread(target=bake, daemon=True).start()
+started.wait()
+"""
+        result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300,
+                                cwd=os.path.dirname(os.path.abspath(__file__)))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
 
     def test_a_forked_process_works(self):
         expected = vmlight.make_vismap(plane(), pit(), resolution=128, samples=4)
