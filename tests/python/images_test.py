@@ -217,6 +217,10 @@ class ImageBufs(Case):
             with self.assertRaisesRegex(ValueError, "environment: "):
                 vmlight.make_cfem(empty)
 
+    def test_an_image_buf_has_names_of_its_own(self):
+        with self.assertRaisesRegex(TypeError, "an ImageBuf has its own"):
+            vmlight.Image(self.image_buf(sky()), channels=["X", "Y", "Z"])
+
     def test_results_are_image_bufs(self):
         image = vmlight.make_cfem(STUDIO, resolution=(16, 8))
         buffer = image.to_imagebuf()
