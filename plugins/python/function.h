@@ -3,6 +3,7 @@
 #pragma once
 
 #include "arguments.h"
+#include "messages.h"
 #include "work.h"
 
 #include <pybind11/pybind11.h>

@@ -3,6 +3,7 @@
 
 #include "arguments.h"
 #include "function.h"
+#include "messages.h"
 #include "metadata.h"
 #include "work.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arguments.h"
 #include "image.h"
+#include "messages.h"
 #include "metadata.h"
-#include "work.h"
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>

@@ -3,6 +3,7 @@
 #include "function.h"
 #include "image.h"
 #include "mesh_input.h"
+#include "messages.h"
 #include "stages.h"
 #include "work.h"
 
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_vmlight, m)
     options.disable_function_signatures(); // docstrings begin with one
     m.attr("__version__") = VMLIGHT_VERSION_STRING;
     define_errors(m);
+    stop_work_at_exit();
     define_image(m);
     define_mesh(m);
     define_bakes(m);

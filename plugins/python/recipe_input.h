@@ -3,6 +3,7 @@
 #pragma once
 
 #include "function.h"
+#include "messages.h"
 #include "work.h"
 
 #include <vmlight/stage/recipe/chain.h>

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "work.h"
 
+#include "messages.h"
+
 #include <vmlight/base/format.h>
-#include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 
 #include <atomic>
-#include <cctype>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 
 namespace vmlight::python {
@@ -35,23 +33,6 @@ constexpr std::chrono::milliseconds kSignalPeriod { 50 };
 // A callback hears of steps of this size at once, of smaller ones with the next look for signals: Python would slow
 // down the work that tells it more.
 constexpr double kProgressStep = 0.01;
-
-// Names of files need not be UTF-8, Python's texts must be.
-std::string printable_text(const std::string& text)
-{
-    std::vector<std::string> lines;
-    for (const std::string& line : OIIO::Strutil::splits(text, "\n"))
-        lines.push_back(printable_line(line));
-    return OIIO::Strutil::join(lines, "\n");
-}
-
-std::set<std::string>& argument_names()
-{
-    static std::set<std::string> names;
-    return names;
-}
-
-py::handle s_error, s_warning; // live as long as the process
 
 // The work in progress. Once Python exits, threads that it does not wait for cannot come back to it: work must end
 // first.
@@ -180,12 +161,11 @@ void attend(const Talk::News& news, const py::object& progress)
 void pass_on(const std::vector<std::pair<bool, std::string>>& messages, int warning_level)
 {
     const py::object info = py::module_::import("logging").attr("getLogger")("vmlight").attr("info");
-    for (const auto& [is_warning, text] : messages) {
-        const std::string line = in_python(text);
-        if (!is_warning)
-            info("%s", line);
-        else if (PyErr_WarnEx(s_warning.ptr(), line.c_str(), warning_level) != 0) // a filter makes errors of warnings
-            throw py::error_already_set();
+    for (const auto& [is_warning, line] : messages) {
+        if (is_warning)
+            warn(line, warning_level);
+        else
+            info("%s", in_python(line));
     }
 }
 
@@ -266,53 +246,9 @@ void do_work(const WorkOptions& given, const std::vector<std::string>& paths,
     throw_error(error);
 }
 
-void add_argument_name(const std::string& name)
+void stop_work_at_exit()
 {
-    argument_names().insert(name);
-}
-
-std::string in_python(const std::string& given)
-{
-    const std::string text = printable_text(given);
-    std::string dst;
-    bool is_quoted = false;
-    for (size_t i = 0; i < text.size();) {
-        is_quoted ^= text[i] == '"';
-        std::string name;
-        size_t end = i + 2;
-        if (!is_quoted && (i == 0 || text[i - 1] == ' ') && text.compare(i, 2, "--") == 0)
-            for (; end < text.size() && (std::islower(uint8_t(text[end])) || text[end] == '-'); ++end)
-                name += text[end] == '-' ? '_' : text[end];
-        if (argument_names().count(name)) {
-            dst += name;
-            i = end;
-        } else {
-            dst += text[i++];
-        }
-    }
-    return dst;
-}
-
-void throw_error(const std::string& error)
-{
-    PyErr_SetString(s_error.ptr(), in_python(error).c_str());
-    throw py::error_already_set();
-}
-
-void define_errors(py::module_& m)
-{
-    const auto define = [&](const char* name, const char* help, PyObject* base) {
-        const std::string full = std::string("vmlight.") + name;
-        PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), help, base, nullptr);
-        if (!type)
-            throw py::error_already_set();
-        m.attr(name) = py::reinterpret_borrow<py::object>(type);
-        return py::handle(type);
-    };
-    s_error
-        = define("Error", "The work failed: an input cannot be used, or memory does not suffice.", PyExc_RuntimeError);
     py::module_::import("atexit").attr("register")(py::cpp_function(&Ongoing::stop_all));
-    s_warning = define("Warning", "What a user should know of an input or a result.", PyExc_UserWarning);
 }
 
 } // namespace vmlight::python

@@ -36,15 +36,7 @@ WorkOptions work_options(const py::dict& keywords);
 void do_work(const WorkOptions& options, const std::vector<std::string>& paths,
              const std::function<bool(const MakeOptions& options, std::string& error)>& work);
 
-/// Add vmlight.Error and vmlight.Warning.
-void define_errors(py::module_& m);
-
-/// A text of the library in the words of Python: it calls arguments by their flags, --max-distance.
-std::string in_python(const std::string& text);
-/// Let in_python() know an argument.
-void add_argument_name(const std::string& name);
-
-/// Throw vmlight.Error, in_python().
-[[noreturn]] void throw_error(const std::string& error);
+/// When Python exits, stop work of threads that it does not wait for, before they could no longer come back to it.
+void stop_work_at_exit();
 
 } // namespace vmlight::python
