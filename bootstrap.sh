@@ -21,6 +21,7 @@ packages=(
     libpugixml-dev libeigen3-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
     libglfw3-dev libepoxy-dev libimgui-dev libopencolorio-dev libegl1 libgl1-mesa-dri xvfb xdotool
     libgmock-dev libgtest-dev libbenchmark-dev
+    pybind11-dev python3-dev
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )
 
@@ -74,6 +75,8 @@ esac
 jobs=$(nproc)
 install_packages
 say "configuring"
+# The Python for which Debian's modules are, whichever comes first in PATH.
+if [[ -x /usr/bin/python3 ]]; then set -- -DPython3_EXECUTABLE=/usr/bin/python3 "$@"; fi
 configured=$(cmake --preset release "$@" 2>&1) || { echo "$configured" >&2; exit 1; }
 case $mode in
 demo)
