@@ -19,7 +19,6 @@
 #include <vmlight/vismap/strand_suns.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
 #include <array>

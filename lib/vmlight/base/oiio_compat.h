@@ -4,8 +4,10 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/texture.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,17 @@ inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, OIIO::ROI roi
     return OIIO::ImageBufAlgo::resize(dst, src, { { "filtername", filter } }, roi, nthreads);
 #else
     return OIIO::ImageBufAlgo::resize(dst, src, filter, 0.0f, roi, nthreads);
+#endif
+}
+
+/// A texture system of its own: others may have other limits.
+inline std::shared_ptr<OIIO::TextureSystem> private_texture_system()
+{
+#if OIIO_VERSION >= 30000
+    return OIIO::TextureSystem::create(false);
+#else
+    return { OIIO::TextureSystem::create(false),
+             [](OIIO::TextureSystem* system) { OIIO::TextureSystem::destroy(system); } };
 #endif
 }
 
