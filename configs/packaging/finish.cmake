@@ -9,7 +9,7 @@ foreach(page IN LISTS pages)
 endforeach()
 
 # What stripping leaves, and nobody reads.
-file(GLOB_RECURSE binaries ${root}/*/usr/bin/* ${root}/*/usr/lib/*.so*)
+file(GLOB_RECURSE binaries ${root}/*/usr/bin/* ${root}/*/usr/libexec/* ${root}/*/usr/lib/*.so*)
 foreach(binary IN LISTS binaries)
   if(NOT IS_SYMLINK ${binary})
     execute_process(COMMAND strip --strip-unneeded --remove-section=.comment --remove-section=.note ${binary}

@@ -69,11 +69,12 @@ done
 for name in vmlight libvmlight0 libvmlight-dev vmlight-doc; do
     [[ " ${names[*]} " == *" $name "* ]] || fail "$suite: there is no package $name"
 done
-ls -l "$root/packages" | awk 'NR > 1 { print "  " $5, $9 }'
+(cd "$root/packages" && stat --printf '  %s %n\n' ./*.deb)
 
 step "apt-get update" inside apt-get -qq update
-step "lintian" apt_install lintian
+step "apt-get install lintian" apt_install lintian
 inside lintian --fail-on error,warning --tag-display-limit 0 "${files[@]}" || fail "$suite: lintian finds faults"
+say "lintian"
 step "apt-get install" apt_install "${files[@]}"
 inside dpkg -L "${names[@]}" | sort -u >"$root/packages/paths"
 step "programs that a user has" apt_install openimageio-tools man-db bash-completion zsh cmake g++ make python3
