@@ -95,7 +95,7 @@ for program in $(grep '^/usr/bin/.' "$root/packages/paths" | xargs -n 1 basename
         $program --version
         man $program | grep -q '^NAME'
         . /usr/share/bash-completion/bash_completion
-        if declare -F _comp_load >/dev/null; then _comp_load $program; else _completion_loader $program || (($? == 124)); fi
+        if declare -F _comp_load >/dev/null; then _comp_load $program; else _completion_loader $program || ((\$? == 124)); fi
         complete -p $program | grep -q 'F _$program'
         COMP_WORDS=($program --vers) COMP_CWORD=1; _$program; [[ \${COMPREPLY[0]} == --version* ]]
         zsh -c 'autoload -U compinit; compinit -D; [[ \$_comps[$program] == _$program ]] && autoload +X _$program'"
@@ -104,7 +104,7 @@ if [[ " ${names[*]} " == *" python3-vmlight "* ]]; then
     step "import vmlight, as root and as a user" inside python3 -c 'import vmlight'
     step "import vmlight" as_artist "python3 -c 'import vmlight; print(vmlight)'"
 fi
-step "find_package(vmlight)" as_artist "cmake -S /consumer -B consumer && cmake --build consumer && consumer/consumer"
+step "find_package(vmlight)" as_artist "cmake -S /consumer -B consumer && cmake --build consumer -j 2 && consumer/consumer"
 step "the program runs by libvmlight.so.0" as_artist "ldd consumer/consumer | grep -q libvmlight.so.0"
 step "the manual" as_artist "test -s /usr/share/doc/vmlight/docs/pipeline.md -a -s /usr/share/doc/vmlight/docs/view.png"
 step "what is installed is what was packed" inside dpkg --verify "${names[@]}"
