@@ -76,7 +76,7 @@ step "apt-get install lintian" apt_install lintian
 inside lintian --fail-on error,warning --tag-display-limit 0 "${files[@]}" || fail "$suite: lintian finds faults"
 say "lintian"
 step "apt-get install" apt_install "${files[@]}"
-inside dpkg -L "${names[@]}" | sort -u >"$root/packages/paths"
+inside dpkg -L "${names[@]}" | grep . | sort -u >"$root/packages/paths"
 step "programs that a user has" apt_install openimageio-tools man-db bash-completion zsh cmake g++ make python3
 
 as_artist() {
@@ -110,7 +110,7 @@ step "the manual" as_artist "test -s /usr/share/doc/vmlight/docs/pipeline.md -a 
 step "what is installed is what was packed" inside dpkg --verify "${names[@]}"
 
 step "apt-get remove" inside apt-get -qq remove -y "${names[@]}"
-step "apt-get purge" inside apt-get -qq purge -y "${names[@]}"
+step "dpkg --purge" inside dpkg --purge "${names[@]}"
 left=$(while IFS= read -r path; do
     [[ ! -e $root$path ]] || inside dpkg -S "$path" >/dev/null 2>&1 || echo "$path"
 done <"$root/packages/paths"
