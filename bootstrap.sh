@@ -7,9 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 usage() {
     cat <<'END'
-usage: ./bootstrap.sh demo|test [CMAKE_ARGUMENT...]
-  demo   build the executables, light and render the bundled mesh with them, write pictures to demo-out/
-  test   build everything and run the test suite
+usage: ./bootstrap.sh demo|test|package [CMAKE_ARGUMENT...]
+  demo      build the executables, light and render the bundled mesh with them, write pictures to demo-out/
+  test      build everything and run the test suite
+  package   make Debian packages in build/package/packages/
 Further arguments are passed to cmake: -DVMLIGHT_WERROR=ON
 END
 }
@@ -24,6 +25,8 @@ packages=(
     pybind11-dev python3-dev
     python3 python3-numpy python3-openimageio openimageio-tools opencolorio-tools gnuplot-nox
 )
+
+package_tools=(dpkg-dev file)
 
 # Used where the suite has them.
 optional_packages=(libalembic-graphics-dev)
@@ -62,6 +65,10 @@ say() { echo "bootstrap: $* (${SECONDS} s)"; }
 mode=${1:-}
 case $mode in
 demo | test) shift ;;
+package)
+    shift
+    packages+=("${package_tools[@]}")
+    ;;
 -h | --help)
     usage
     exit 0
@@ -74,10 +81,12 @@ esac
 
 jobs=$(nproc)
 install_packages
+preset=release
+[[ $mode != package ]] || preset=package
 say "configuring"
 # The Python for which Debian's modules are, whichever comes first in PATH.
 if [[ -x /usr/bin/python3 ]]; then set -- -DPython3_EXECUTABLE=/usr/bin/python3 "$@"; fi
-configured=$(cmake --preset release "$@" 2>&1) || { echo "$configured" >&2; exit 1; }
+configured=$(cmake --preset $preset "$@" 2>&1) || { echo "$configured" >&2; exit 1; }
 case $mode in
 demo)
     say "building"
@@ -90,6 +99,12 @@ test)
     cmake --build --preset release -j "$jobs"
     say "testing"
     ctest --preset release -j "$jobs"
+    ;;
+package)
+    say "building"
+    cmake --build --preset package -j "$jobs"
+    say "packing"
+    cpack --preset package
     ;;
 esac
 say "done"

@@ -5,6 +5,7 @@
 // `+suns` are the same models of a sky whose suns are split off, and traced. The last figure is of a model that does
 // not exist: the part of B lit by the cosine lobe around it, the rest by the sine.
 //     strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/suns.h>
@@ -18,7 +19,6 @@
 #include <vmlight/vismap/strand_suns.h>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
 #include <array>
@@ -164,8 +164,8 @@ int main(int argc, const char** argv)
                 "two lobes\n",
                 texels.size());
     for (int k = 6; k < argc; ++k) {
-        const OIIO::ImageBuf sky = OIIO::ImageBufAlgo::resize(OIIO::ImageBuf(argv[k]), "box", 0,
-                                                              OIIO::ROI(0, kWidth, 0, kHeight, 0, 1, 0, 3));
+        OIIO::ImageBuf sky;
+        oiio::resize(sky, OIIO::ImageBuf(argv[k]), OIIO::ROI(0, kWidth, 0, kHeight, 0, 1, 0, 3), 0, "box");
         const std::vector<Pixel> pixels = pixels_of(sky);
         CfemParams filter;
         OIIO::ImageBuf cosine, sine, whole;

@@ -2,6 +2,7 @@
 /// What opacity micromaps are compared with: a callback and a texture lookup at every hit.
 #pragma once
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/mesh/mesh.h>
 #include <vmlight/mesh/opacity.h>
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,7 @@ struct TextureSystemScene
     /// @param mesh     whose MeshOpacity has one set of uvs, for the first texture of its materials
     /// @param texture  a file: alpha, cut at one half
     TextureSystemScene(const Mesh& mesh, const SceneFrame& frame, const std::string& texture)
-        : system(OIIO::TextureSystem::create(false))
+        : system(oiio::private_texture_system())
         , handle(system->get_texture_handle(OIIO::ustring(texture)))
         , uvs(&mesh.opacity->uvs[0])
         , device(rtcNewDevice("set_affinity=0"))
@@ -63,7 +65,6 @@ struct TextureSystemScene
     {
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
-        OIIO::TextureSystem::destroy(system);
     }
 
     static void filter(const RTCFilterFunctionNArguments* arguments)
@@ -115,7 +116,7 @@ struct TextureSystemScene
         }
     }
 
-    OIIO::TextureSystem* system;
+    std::shared_ptr<OIIO::TextureSystem> system;
     OIIO::TextureSystem::TextureHandle* handle;
     const std::vector<Imath::V2f>* uvs;
     std::vector<size_t> leaves;

@@ -4,6 +4,7 @@
 #include "page_text.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/frame/scene_light.h>
@@ -12,7 +13,6 @@
 
 #include <Imath/ImathBox.h>
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
 #include <nlohmann/json.hpp>
@@ -78,7 +78,9 @@ OIIO::ImageBuf reduced(const OIIO::ImageBuf& image, int nthreads)
         return image;
     const OIIO::ROI roi(0, std::max(1, int(std::lround(spec.width * scale))), 0,
                         std::max(1, int(std::lround(spec.height * scale))), 0, 1, 0, spec.nchannels);
-    return OIIO::ImageBufAlgo::resize(image, "box", 0, roi, nthreads);
+    OIIO::ImageBuf small;
+    oiio::resize(small, image, roi, nthreads, "box");
+    return small;
 }
 
 uint16_t whole(double share)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare.h"
 
-#include <OpenImageIO/imagebufalgo.h>
+#include <vmlight/base/oiio_compat.h>
 
 #include <algorithm>
 #include <array>
@@ -25,8 +25,11 @@ OIIO::ImageBuf resize_to_reference(const OIIO::ImageBuf& lightmap, const OIIO::I
 {
     OIIO::ROI roi = reference.roi();
     roi.chend = 3;
-    return lightmap.spec().width == roi.width() ? lightmap
-                                                : OIIO::ImageBufAlgo::resize(lightmap, "triangle", 0, roi, 1);
+    if (lightmap.spec().width == roi.width())
+        return lightmap;
+    OIIO::ImageBuf resized;
+    oiio::resize(resized, lightmap, roi, 1);
+    return resized;
 }
 
 Errors compare(const OIIO::ImageBuf& lightmap, const OIIO::ImageBuf& reference, const OIIO::ImageBuf& visibility)

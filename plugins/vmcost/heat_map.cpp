@@ -3,6 +3,7 @@
 
 #include "named_channels.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/color.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -57,8 +58,11 @@ bool heat_map_png(std::string& png, const OIIO::ImageBuf& map, int side, std::st
         for (int c = 0; c < 3 && covered[3] == 0; ++c)
             pixel[c] = kUncovered;
     const int width = map.spec().width, height = map.spec().height;
-    if (side > 0 && std::max(width, height) > side)
-        color = OIIO::ImageBufAlgo::resize(color, "box", 0, OIIO::ROI(0, side, 0, side * height / width, 0, 1, 0, 3));
+    if (side > 0 && std::max(width, height) > side) {
+        OIIO::ImageBuf small;
+        oiio::resize(small, color, OIIO::ROI(0, side, 0, side * height / width, 0, 1, 0, 3), 0, "box");
+        color = std::move(small);
+    }
     OIIO::ImageSpec spec(color.spec().width, color.spec().height, 3, OIIO::TypeDesc::UINT8);
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);

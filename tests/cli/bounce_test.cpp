@@ -35,8 +35,10 @@ protected:
         make_sky({ 1, 1, 1 }, "white.exr", 64, 64);
         make_sky({ 0, 0, 0 }, "black.exr", 64, 64);
         OIIO::ImageBuf halves(OIIO::ImageSpec(64, 64, 3, OIIO::TypeFloat)); // a red floor and a white wall
-        for (OIIO::ImageBuf::Iterator<float> p(halves); !p.done(); ++p)
-            p[0] = 1, p[1] = p[2] = p.x() < 32 ? 0 : 1;
+        for (OIIO::ImageBuf::Iterator<float> p(halves); !p.done(); ++p) {
+            const float white = p.x() < 32 ? 0 : 1;
+            p[0] = 1, p[1] = white, p[2] = white;
+        }
         EXPECT_TRUE(halves.write(path("red_floor.exr"))) << halves.geterror();
     }
 
@@ -286,8 +288,9 @@ TEST_F(Bounce, ANormalMapIsThatOfTheRecipe)
 {
     // Leaning away from the wall by 45 degrees: less of it, and some of the floor itself.
     OIIO::ImageBuf normals(OIIO::ImageSpec(4, 4, 3, OIIO::TypeFloat));
+    const float leaning = 0.5f + 0.5f * std::sqrt(0.5f);
     for (OIIO::ImageBuf::Iterator<float> p(normals); !p.done(); ++p)
-        p[0] = p[2] = 0.5f + 0.5f * std::sqrt(0.5f), p[1] = 0.5f;
+        p[0] = leaning, p[1] = 0.5f, p[2] = leaning;
     ASSERT_TRUE(normals.write(path("lean.exr"))) << normals.geterror();
     write("lean.vismap",
           "mesh = \"floor.obj\"\noccluder = [\"wall.obj\"]\nresolution = 64\nsamples = 256\nnormal_map = "

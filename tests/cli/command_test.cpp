@@ -4,6 +4,8 @@
 #include "captured.h"
 #include "mains.h"
 
+#include <vmlight/base/oiio_compat.h>
+
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 
@@ -289,7 +291,8 @@ void CommandTest::make_sky(const std::vector<float>& color, const std::string& n
 void CommandTest::shrink(const std::string& src, const std::string& dst) const
 {
     const OIIO::ImageBuf whole(path(src));
-    const OIIO::ImageBuf small = OIIO::ImageBufAlgo::resize(whole, "box", 0, OIIO::ROI(0, 32, 0, 32));
+    OIIO::ImageBuf small;
+    oiio::resize(small, whole, OIIO::ROI(0, 32, 0, 32), 0, "box");
     EXPECT_TRUE(small.write(path(dst))) << small.geterror();
 }
 

@@ -2,6 +2,8 @@
 // vmcost run again: what it reuses, and what it measures anew.
 #include "cost_run.h"
 
+#include <vmlight/base/oiio_compat.h>
+
 #include <OpenImageIO/strutil.h>
 
 using namespace vmlight;
@@ -99,8 +101,11 @@ TEST_F(CostAgain, SpoiltFilesOfAReportAreMadeAgain)
         ASSERT_TRUE(edit(whole).write(path(reference)));
         expect_traced_again(damage);
     };
-    spoil("another size",
-          [](const ImageBuf& whole) { return OIIO::ImageBufAlgo::resize(whole, "", 0, OIIO::ROI(0, 8, 0, 8)); });
+    spoil("another size", [](const ImageBuf& whole) {
+        ImageBuf small;
+        oiio::resize(small, whole, OIIO::ROI(0, 8, 0, 8), 0);
+        return small;
+    });
     spoil("half of it", [](const ImageBuf& whole) { return OIIO::ImageBufAlgo::crop(whole, OIIO::ROI(0, 16, 0, 8)); });
     write(reference, traced.substr(0, traced.size() - 40));
     expect_traced_again("cut short");

@@ -106,8 +106,10 @@ TEST(Light, AShadeThatNoTexelSees)
     folder.write("roof.obj", "v -2 1 2\nv 2 1 2\nv 2 1 -2\nv -2 1 -2\nf 1 2 3 4\n");
     folder.write("cellar.obj", "v -90 -.5 90\nv 90 -.5 90\nv 90 -.5 -90\nv -90 -.5 -90\nf 1 2 3 4\n");
     OIIO::ImageBuf sky(OIIO::ImageSpec(64, 32, 3, OIIO::TypeFloat)), paint(OIIO::ImageSpec(4, 4, 3, OIIO::TypeFloat));
-    for (OIIO::ImageBuf::Iterator<float> p(sky); !p.done(); ++p)
-        p[0] = p[1] = p[2] = p.y() < 16 ? 0.0f : 1.0f;
+    for (OIIO::ImageBuf::Iterator<float> p(sky); !p.done(); ++p) {
+        const float light = p.y() < 16 ? 0.0f : 1.0f;
+        p[0] = light, p[1] = light, p[2] = light;
+    }
     OIIO::ImageBufAlgo::fill(paint, { 1.0f, 1.0f, 1.0f });
     ASSERT_TRUE(sky.write(folder / "sky.exr") && paint.write(folder / "paint.exr"));
     const auto mean = [&](const std::string& occluders) {

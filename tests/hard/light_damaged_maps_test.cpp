@@ -6,10 +6,10 @@
 #include "lightmap_scene.h"
 #include "temporary_folder.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
 
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <array>
@@ -74,9 +74,11 @@ private:
     LightmapRecipe m_recipe;
 };
 
-ImageBuf resized(const ImageBuf& map, const std::string& filter, int side)
+ImageBuf resized(const ImageBuf& map, const char* filter, int side)
 {
-    return OIIO::ImageBufAlgo::resize(map, filter, 0, OIIO::ROI(0, side, 0, side, 0, 1, 0, map.nchannels()));
+    ImageBuf result;
+    oiio::resize(result, map, OIIO::ROI(0, side, 0, side, 0, 1, 0, map.nchannels()), 0, filter);
+    return result;
 }
 
 template <class Convert> ImageBuf converted(ImageBuf map, const Convert& convert)

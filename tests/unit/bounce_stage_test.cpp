@@ -32,8 +32,10 @@ public:
     void add_sun() const
     {
         OIIO::ImageBuf sky(OIIO::ImageSpec(128, 64, 3, OIIO::TypeFloat));
-        for (OIIO::ImageBuf::Iterator<float> p(sky); !p.done(); ++p)
-            p[0] = p[1] = p[2] = p.x() == 40 && p.y() == 14 ? 5e4f : 1.0f;
+        for (OIIO::ImageBuf::Iterator<float> p(sky); !p.done(); ++p) {
+            const float light = p.x() == 40 && p.y() == 14 ? 5e4f : 1.0f;
+            p[0] = light, p[1] = light, p[2] = light;
+        }
         EXPECT_TRUE(sky.write(*this / "sunny.exr")) << sky.geterror();
         write("sunny.lightmap",
               "vismap = \"ground.vismap\"\nenvironment = \"sunny.exr\"\nalbedo = \"paint.exr\"\nbounce = \"auto\"\n"

@@ -3,6 +3,7 @@
 #include "scenes.h"
 #include "stack_maps.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/trace/occluder.h>
 #include <vmlight/trace/surface.h>
@@ -107,8 +108,8 @@ TEST(LightmapTruth, EachModelIsCloserToRayTracingThanTheOneBefore)
     double error_of[kModels] = {};
     for (const std::string name : { "studio_small_03.hdr", "kloppenheim_05.hdr" }) {
         const ImageBuf whole(std::string(VMLIGHT_TEST_DATA "/") + name);
-        const ImageBuf sky = OIIO::ImageBufAlgo::resize(
-            whole, "box", 0, OIIO::ROI(0, kEnvironmentWidth, 0, kEnvironmentWidth / 2, 0, 1, 0, 3));
+        ImageBuf sky;
+        oiio::resize(sky, whole, OIIO::ROI(0, kEnvironmentWidth, 0, kEnvironmentWidth / 2, 0, 1, 0, 3), 0, "box");
         const std::vector<ImageBuf> stack = filtered_stack(sky, 128);
         truth.set_environment(sky);
         ImageBuf image[kModels];

@@ -26,8 +26,10 @@ public:
     void image(const std::string& name, int width, int height, const std::function<float(int x, int y)>& at) const
     {
         OIIO::ImageBuf image(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat));
-        for (OIIO::ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel)
-            pixel[0] = pixel[1] = pixel[2] = at(pixel.x(), pixel.y());
+        for (OIIO::ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel) {
+            const float grey = at(pixel.x(), pixel.y());
+            pixel[0] = grey, pixel[1] = grey, pixel[2] = grey;
+        }
         EXPECT_TRUE(image.write(*this / name)) << image.geterror();
     }
     LightmapRecipe recipe(const std::string& map) const

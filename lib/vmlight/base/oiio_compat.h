@@ -4,8 +4,10 @@
 
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
+#include <OpenImageIO/texture.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,13 +39,26 @@ inline std::string with_path(const std::string& path, std::string reason)
     return quoted + ": " + reason;
 }
 
-/// Resize with a triangle filter whose width is one pixel of the smaller image.
-inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, OIIO::ROI roi, int nthreads)
+/// Resize with a filter of OIIO's that is as wide as it is by default; a triangle's width is one pixel of the smaller
+/// image.
+inline bool resize(OIIO::ImageBuf& dst, const OIIO::ImageBuf& src, OIIO::ROI roi, int nthreads,
+                   const char* filter = "triangle")
 {
 #if OIIO_VERSION >= 30000
-    return OIIO::ImageBufAlgo::resize(dst, src, { { "filtername", "triangle" } }, roi, nthreads);
+    return OIIO::ImageBufAlgo::resize(dst, src, { { "filtername", filter } }, roi, nthreads);
 #else
-    return OIIO::ImageBufAlgo::resize(dst, src, "triangle", 0.0f, roi, nthreads);
+    return OIIO::ImageBufAlgo::resize(dst, src, filter, 0.0f, roi, nthreads);
+#endif
+}
+
+/// A texture system of its own: others may have other limits.
+inline std::shared_ptr<OIIO::TextureSystem> private_texture_system()
+{
+#if OIIO_VERSION >= 30000
+    return OIIO::TextureSystem::create(false);
+#else
+    return { OIIO::TextureSystem::create(false),
+             [](OIIO::TextureSystem* system) { OIIO::TextureSystem::destroy(system); } };
 #endif
 }
 

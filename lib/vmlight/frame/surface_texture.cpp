@@ -2,6 +2,7 @@
 #include <vmlight/frame/surface_texture.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/uv/udim.h>
@@ -91,9 +92,7 @@ bool FileTexture::open(const std::string& name, std::string& error)
     }
     if (!error.empty())
         return false;
-    // A system of its own: others may have other limits.
-    m_system.reset(OIIO::TextureSystem::create(false),
-                   [](OIIO::TextureSystem* system) { OIIO::TextureSystem::destroy(system); });
+    m_system = oiio::private_texture_system();
     m_system->attribute("max_memory_MB", 1024.0f);
     m_system->attribute("automip", 1);
     m_system->attribute("autotile", 64);

@@ -17,6 +17,7 @@ bool encode_texture(std::string& bytes, const OIIO::ImageBuf& texture, const cha
 {
     OIIO::ImageSpec spec(texture.spec().width, texture.spec().height, texture.nchannels(), type);
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ColorSpace", ""); // without it OIIO 3 marks PNG as sRGB
     const auto out = OIIO::ImageOutput::create(writer);
     if (!out || !out->supports("ioproxy")) {
         error = format("OpenImageIO cannot write {}: {}", writer, out ? "to memory" : OIIO::geterror());

@@ -2,6 +2,7 @@
 #include <vmlight/vismap/normal_map.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 
 #include <OpenImageIO/hash.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -97,8 +98,9 @@ bool NormalMap::decode(const ImageBuf& image, const NormalMapParams& params, Siz
         directions.specmod().full_x = directions.specmod().full_y = directions.specmod().x = directions.specmod().y = 0;
         directions.specmod().full_width = directions.spec().width;
         directions.specmod().full_height = directions.spec().height;
-        directions
-            = OIIO::ImageBufAlgo::resize(directions, "triangle", 0, OIIO::ROI(0, size.width, 0, size.height), nthreads);
+        OIIO::ImageBuf resized;
+        oiio::resize(resized, directions, OIIO::ROI(0, size.width, 0, size.height), nthreads);
+        directions = std::move(resized);
     }
     m_width = size.width;
     const auto* first = static_cast<const V3f*>(directions.localpixels());

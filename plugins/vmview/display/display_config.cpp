@@ -43,7 +43,7 @@ bool fail_unless_known(const char* what, const std::string& word, const std::vec
 
 bool DisplayConfig::open(const std::string& path, std::string& error)
 {
-    const std::string file = path.empty() ? OIIO::Sysutil::getenv("OCIO").c_str() : path;
+    const std::string file = path.empty() ? std::string(OIIO::Sysutil::getenv("OCIO")) : path;
     try {
         std::istringstream plain(kPlainConfig);
         m_config = file.empty() ? OCIO::Config::CreateFromStream(plain) : OCIO::Config::CreateFromFile(file.c_str());

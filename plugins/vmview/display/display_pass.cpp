@@ -39,14 +39,21 @@ Texture load_curve(const OCIO::GpuShaderDesc& description, unsigned index, std::
     unsigned width = 0, height = 0;
     auto channel = OCIO::GpuShaderDesc::TEXTURE_RGB_CHANNEL;
     OCIO::Interpolation interpolation = OCIO::INTERP_LINEAR;
+#if OCIO_VERSION_HEX >= 0x02030000
+    auto dimensions = OCIO::GpuShaderDesc::TEXTURE_1D;
+    description.getTexture(index, name, sampler_name, width, height, channel, dimensions, interpolation);
+    const bool has_rows = dimensions == OCIO::GpuShaderDesc::TEXTURE_2D;
+#else
     description.getTexture(index, name, sampler_name, width, height, channel, interpolation);
+    const bool has_rows = height > 1;
+#endif
     const float* values = nullptr;
     description.getTextureValues(index, values);
     const bool is_red = channel == OCIO::GpuShaderDesc::TEXTURE_RED_CHANNEL;
     const GLint stored = is_red ? GL_R32F : GL_RGB32F;
     const GLenum given = is_red ? GL_RED : GL_RGB;
-    Texture texture = Texture::of(height > 1 ? GL_TEXTURE_2D : GL_TEXTURE_1D);
-    if (height > 1)
+    Texture texture = Texture::of(has_rows ? GL_TEXTURE_2D : GL_TEXTURE_1D);
+    if (has_rows)
         glTexImage2D(GL_TEXTURE_2D, 0, stored, GLsizei(width), GLsizei(height), 0, given, GL_FLOAT, values);
     else
         glTexImage1D(GL_TEXTURE_1D, 0, stored, GLsizei(width), 0, given, GL_FLOAT, values);
