@@ -5,11 +5,13 @@
 #include <vmlight/cli/animation.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/udim_run.h>
+#include <vmlight/cli/watch.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/light_level.h>
 #include <vmlight/stage/light_effects.h>
 #include <vmlight/stage/light_forecast.h>
 #include <vmlight/stage/recipe/udim.h>
+#include <vmlight/uv/udim.h>
 
 #include <ctime>
 
@@ -23,7 +25,8 @@ constexpr const char* kExamples
       "  makelightmap hero_vismap.exr sky.####.exr --frames 1-48 -o hero_lit.####.exr\n"
       "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
       "  makelightmap hero.vismap sunny.exr --suns auto -o hero_lit.exr\n"
-      "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr";
+      "  makelightmap hero.lightmap --exposure 1 -o hero_lit.exr\n"
+      "  makelightmap hero.lightmap --watch -o hero_lit.exr";
 
 // One exposure for all frames and tiles, from the first that is made.
 struct AutoExposure
@@ -41,9 +44,8 @@ std::string level_text(const LightLevel& level, double exposure)
                   level.gray_exposure(exposure).advice());
 }
 
-} // namespace
-
-int main(int argc, const char** argv)
+// Keeps in `inputs` what the next run may need of them.
+int light(int argc, const char** argv, LightmapInputs& inputs, Watch& watch)
 {
     LightmapRecipe recipe;
     Animation animation;
@@ -78,6 +80,8 @@ int main(int argc, const char** argv)
     stage.option("rotate_y", "FIRST:LAST",
                  "Turntable: degrees about y at the first and last frame, after the other rotations",
                  [&](auto text, auto& error) { return parse_ramp(animation.rotate_y, std::string(text), error); });
+    stage.group(kOutputHeading);
+    watch.add_flag(stage);
     stage.params("Filter:", recipe.cfem_params, "cfem_");
     stage.group("Inputs:");
     stage.option("is_cfem", "", advanced("The second image is cosine-filtered, though its metadata does not say so"),
@@ -99,10 +103,20 @@ int main(int argc, const char** argv)
                 return "--dry-run cannot be saved in a recipe";
             if (explain)
                 return "--explain cannot be saved in a recipe";
+            if (watch.is_given())
+                return "--watch cannot be saved in a recipe";
             return exposure.wanted ? "--exposure auto cannot be saved in a recipe: give the stops that it prints"
                                    : tiles.unsavable();
         });
 
+    stage.check([&] {
+        const char* const flag = animation.has_frames ? "--frames"
+            : stage.is_dry_run()                      ? "--dry-run"
+            : explain                                 ? "--explain"
+            : has_udim_pattern(stage.output())        ? "<UDIM> in -o; give --udim"
+                                                      : "";
+        return watch.is_given() && *flag ? format("--watch makes one image again and again: not with {}", flag) : "";
+    });
     stage.check([&] { return animation.fault(stage.output()); });
     stage.check([&] { return animation.input_fault(recipe); });
     stage.check([&] {
@@ -121,7 +135,6 @@ int main(int argc, const char** argv)
                                                                           : std::string();
     });
 
-    LightmapInputs inputs; // frames and tiles share what they can
     Forecasts forecasts;
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
         MakeOptions options = given;
@@ -131,7 +144,8 @@ int main(int argc, const char** argv)
             const LightmapRecipe asked = animation.inputs_at(tile, i), frame = with_switches(asked);
             Stopwatch reading;
             const std::clock_t begin = std::clock();
-            if (!read_lightmap_inputs(inputs, frame, options, error))
+            if (!read_lightmap_inputs(inputs, frame, options, error)
+                || !(error = watch.output_fault(stage.output())).empty())
                 return false;
             TimeTaken taken { reading(), 0 };
             LightmapParams params = animation.params_at(frame.lightmap_params, i, error);
@@ -195,6 +209,17 @@ int main(int argc, const char** argv)
         const bool made = tiles.make_tiles(make, error);
         if (const std::string all = forecasts.text(); made && !all.empty())
             stage.answer(all);
+        if (made)
+            watch.made(stage, stage.output());
         return made;
     });
+}
+
+} // namespace
+
+int main(int argc, const char** argv)
+{
+    LightmapInputs inputs; // frames and tiles share what they can
+    Watch watch;
+    return watch.run([&] { return light(argc, argv, inputs, watch); });
 }

@@ -53,19 +53,27 @@ class Documents(unittest.TestCase):
         if not linters:
             self.skipTest("neither groff nor mandoc is installed")
         for words in linters.values():
-            result = subprocess.run([*words, *[path("man", tool) for tool in TOOLS]], capture_output=True, text=True,
+            result = subprocess.run([*words, *[path("man", tool) for tool in [*TOOLS, "vmlight"]]], capture_output=True, text=True,
                                     timeout=60)
             # They have no date, so that equal sources give equal bytes.
             found = [line for line in (result.stdout + result.stderr).splitlines() if "missing date" not in line]
             self.assertEqual(found, [])
 
     def test_shells_accept_the_completion_scripts(self):
-        for tool in TOOLS:
+        for tool in [*TOOLS, "vmlight"]:
             self.assertEqual(output("bash", "-n", path("bash", tool)), "")
         if not shutil.which("zsh"):
             self.skipTest("zsh is not installed: its scripts were not checked")
-        for tool in TOOLS:
+        for tool in [*TOOLS, "vmlight"]:
             self.assertEqual(output("zsh", "-n", path("zsh", tool)), "")
+
+    def test_the_words_of_vmlight_are_in_all_documents(self):
+        words = re.findall(r"(?m)^  (\w+)  +(?:make|vm)\w+ ", output(os.path.join(BIN, "vmlight"), "--help"))
+        self.assertEqual(len(words), 7)
+        for kind in ("man", "bash", "zsh"):
+            document = re.sub(r"\\f[BIR]", " ", text(kind, "vmlight"))  # troff's fonts
+            for word in words:
+                self.assertRegex(document, rf"(?<![\w-]){word}(?![\w-])", kind)
 
     def test_bash_completes_flags_words_and_files(self):
         cases = {
@@ -77,8 +85,16 @@ class Documents(unittest.TestCase):
             "makevismap quad.obj --samples ": "",
             "makecfem " + SHARE + "/man/man1/makec": path("man", "makecfem"),
             "vmcost mesh.obj --occluder " + SHARE + "/man/man1/vmc": path("man", "vmcost"),
+            "vmlight f": "filter frames",
+            "vmlight --v": "--version",
+            "vmlight help ex": "export",
+            "vmlight light --mod": "--model",
+            "vmlight light vm.exr --model = c": "cells",
+            "vmlight filter " + SHARE + "/man/man1/makec": path("man", "makecfem"),
+            "vmlight nothing --mod": "",
         }
-        script = "".join(f"source '{path('bash', tool)}'\n" for tool in TOOLS)
+        # vmlight alone finds those of the executables.
+        script = "".join(f"source '{path('bash', tool)}'\n" for tool in ["vmlight", *TOOLS])
         for line in cases:
             words = line.split(" ")
             script += f"COMP_WORDS=({' '.join(words[:-1])} '{words[-1]}'); COMP_CWORD={len(words) - 1}\n"

@@ -4,13 +4,26 @@
 #include <vmlight/base/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <map>
+#include <mutex>
 
 #include <sys/stat.h>
 
 namespace vmlight {
+namespace {
 
-bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
+std::atomic<bool> s_logs { false };
+std::mutex s_log_mutex;
+
+std::map<std::string, std::string>& logged_files()
+{
+    static auto& files = *new std::map<std::string, std::string>;
+    return files;
+}
+
+bool stamp_now(std::string& stamp, const std::string& path, std::string& error)
 {
     struct stat status;
     // A '?' may be part of a file's name, or start another plugin's query.
@@ -26,6 +39,51 @@ bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
     stamp = format("{}|{}|{}.{}|{}.{}|{}\n", path, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec,
                    status.st_ctim.tv_sec, status.st_ctim.tv_nsec, status.st_ino);
     return true;
+}
+
+} // namespace
+
+bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
+{
+    const bool is_stamped = stamp_now(stamp, path, error);
+    if (s_logs) {
+        const std::lock_guard<std::mutex> lock(s_log_mutex);
+        logged_files().emplace(path, is_stamped ? stamp : "");
+    }
+    return is_stamped;
+}
+
+void log_file(const std::string& path)
+{
+    std::string ignored;
+    if (s_logs)
+        stamp_file(ignored, path, ignored);
+}
+
+StampLog::StampLog()
+{
+    clear();
+    s_logs = true;
+}
+
+StampLog::~StampLog()
+{
+    s_logs = false;
+}
+
+void StampLog::clear()
+{
+    const std::lock_guard<std::mutex> lock(s_log_mutex);
+    logged_files().clear();
+}
+
+std::vector<FileStamp> StampLog::files()
+{
+    const std::lock_guard<std::mutex> lock(s_log_mutex);
+    std::vector<FileStamp> found;
+    for (const auto& [path, stamp] : logged_files())
+        found.push_back({ path, stamp });
+    return found;
 }
 
 bool check_stamp(const std::string& stamp, const std::string& path, std::string& error)

@@ -2,6 +2,7 @@
 #include <vmlight/base/param_text.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -13,7 +14,7 @@ std::string number_text(double value)
 {
     // The shorter of two precisions that reads back to the same value.
     std::string brief = format("{:.6g}", value);
-    return OIIO::Strutil::strtod(brief.c_str()) == value ? brief : format("{:.17g}", value);
+    return number_at(brief.c_str()) == value ? brief : format("{:.17g}", value);
 }
 
 std::string range_text(const Range& range)

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/param_text.h>
+#include <vmlight/base/text.h>
 #include <vmlight/base/text_format.h>
 
 #include <OpenImageIO/strutil.h>
@@ -18,18 +19,18 @@ using OIIO::string_view;
 // OIIO's stof/stoi parse a leading number and ignore the rest; here the whole text must be one finite number.
 bool whole_number_text(string_view text, double& value)
 {
-    const std::string trimmed(OIIO::Strutil::strip(text));
+    const std::string trimmed(stripped(text));
     char* end = nullptr;
-    if (trimmed.empty() || OIIO::Strutil::icontains(trimmed, "x")) // no hexadecimal
+    if (trimmed.empty() || trimmed.find_first_of("xX") != std::string::npos) // no hexadecimal
         return false;
-    value = OIIO::Strutil::strtod(trimmed.c_str(), &end) + 0.0; // -0 becomes 0
+    value = number_at(trimmed.c_str(), &end) + 0.0; // -0 becomes 0
     return end == trimmed.c_str() + trimmed.size() && std::isfinite(value);
 }
 
 bool parse_number(double& dst, string_view text, const Range& allowed, bool integral, std::string& error)
 {
     double value = 0;
-    if (allowed.word && OIIO::Strutil::strip(text) == allowed.word) {
+    if (allowed.word && stripped(text) == allowed.word) {
         dst = allowed.word_value;
         return true;
     }
@@ -40,7 +41,7 @@ bool parse_number(double& dst, string_view text, const Range& allowed, bool inte
         return false;
     }
     if (!(value >= allowed.min && value <= allowed.max)) {
-        error = format("{} is not in {}", OIIO::Strutil::strip(text), range_text(allowed));
+        error = format("{} is not in {}", stripped(text), range_text(allowed));
         if (allowed.word && value == 0) // what other programs take for "none"
             error += format("; did you mean \"{}\"?", allowed.word);
         return false;
@@ -67,7 +68,7 @@ bool parse_value(double& dst, string_view text, const Range& allowed, std::strin
 
 bool parse_value(Size& dst, string_view text, const SizeRange& allowed, std::string& error)
 {
-    const std::string trimmed(OIIO::Strutil::strip(text));
+    const std::string trimmed(stripped(text));
     const size_t cross = trimmed.find('x');
     const Range range { 1, double(allowed.max) };
     int width = 0, height = 0;
@@ -100,10 +101,10 @@ bool parse_value(std::vector<std::string>& dst, string_view text, const ChoiceSe
 {
     const std::vector<std::string> known = words_of(allowed.choices);
     std::vector<std::string> words;
-    if (!OIIO::Strutil::strip(text).empty())
-        words = OIIO::Strutil::splits(text, ",");
+    if (!stripped(text).empty())
+        words = split(text, ',');
     for (auto word = words.begin(); word != words.end(); ++word) {
-        *word = std::string(OIIO::Strutil::strip(*word));
+        *word = std::string(stripped(*word));
         if (std::find(known.begin(), known.end(), *word) == known.end()) {
             const std::string near = nearest_name(*word, known);
             error = format("\"{}\" is not one of {}{}", *word, OIIO::Strutil::join(known, ", "),
@@ -139,7 +140,7 @@ bool parse_value(std::vector<std::string>& dst, string_view text, const Paths&, 
 {
     std::vector<std::string> paths;
     if (!text.empty())
-        paths = OIIO::Strutil::splits(text, "\n");
+        paths = split(text, '\n');
     for (std::string& path : paths) {
         if (!parse_value(path, path, Path {}, error))
             return false;
@@ -162,7 +163,7 @@ bool parse_value(std::vector<double>& dst, string_view text, const Numbers& allo
     std::string spaced(text);
     std::replace(spaced.begin(), spaced.end(), ',', ' ');
     std::vector<double> numbers;
-    for (const std::string& word : OIIO::Strutil::splits(OIIO::Strutil::strip(spaced))) {
+    for (const std::string& word : split_words(spaced)) {
         double value = 0;
         if (!whole_number_text(word, value)) {
             error = format("\"{}\" in \"{}\" is not a number", word, text);
@@ -194,7 +195,7 @@ std::string nearest_name(string_view name, const std::vector<std::string>& names
     std::string best;
     size_t fewest = std::max<size_t>(2, name.size() / 3) + 1;
     for (const std::string& candidate : names) {
-        const size_t edits = OIIO::Strutil::edit_distance(name, candidate);
+        const size_t edits = edit_distance(name, candidate);
         if (edits < fewest) {
             fewest = edits;
             best = candidate;

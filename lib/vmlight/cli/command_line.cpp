@@ -2,10 +2,11 @@
 #include <vmlight/cli/command_line.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text.h>
 #include <vmlight/cli/completion.h>
+#include <vmlight/cli/flag_table.h>
 #include <vmlight/cli/help_text.h>
 #include <vmlight/cli/man_page.h>
-#include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/version.h>
 
 #include <OpenImageIO/strutil.h>
@@ -18,7 +19,7 @@ namespace {
 
 using Option = CommandLine::Option;
 
-// Flags of every executable that print something instead of working. The last two are for packagers: not in the help.
+// Flags of every executable that print something instead of working. The last three are for programs: not in the help.
 struct AnswerFlag
 {
     Option option;
@@ -48,6 +49,12 @@ const std::vector<AnswerFlag>& answer_flags()
               return true;
           } },
         { { "", "print_completion", "SHELL", "Print the completion script for bash or zsh" }, true, print_completion },
+        { { "", "print_flags", "", "Print the flags as JSON" },
+          true,
+          [](std::string& dst, const CommandLine& line, const std::string&, std::string&) {
+              dst = flag_table(line);
+              return true;
+          } },
     };
     return flags;
 }
@@ -92,12 +99,14 @@ std::string unknown_flag(const std::string& flag, const CommandLine& line)
 
 std::string flag_of(const std::string& name)
 {
-    return name.size() == 1 ? "-" + name : "--" + OIIO::Strutil::replace(name, "_", "-", true);
+    return name.size() == 1 ? "-" + name : "--" + replaced(name, "_", "-");
 }
 
 bool CommandLine::given_recipe() const
 {
-    return !stage.empty() && !operands.empty() && !given_form() && recipe_stage(operands[0]) == stage;
+    if (stage.empty() || operands.empty() || given_form())
+        return false;
+    return is_recipe ? is_recipe(operands[0]) : ends_with(in_small_letters(operands[0]), "." + stage);
 }
 
 bool CommandLine::given_form() const
@@ -159,7 +168,7 @@ bool CommandLine::parse_flag(const char**& argument, const char** end, std::stri
         return false;
     }
     const Option& option = answering ? answering->option : *found;
-    const bool may_lack = OIIO::Strutil::starts_with(option.metavar, "[");
+    const bool may_lack = starts_with(option.metavar, "[");
     std::string value = option.metavar.empty() || may_lack ? "true" : "";
     if (option.metavar.empty() && equals != std::string::npos)
         error = format("{} takes no value", flag);
@@ -183,10 +192,10 @@ bool CommandLine::check_operands(std::string& error) const
         error = operands.empty() ? form.operand + " is missing" : "";
         return error.empty();
     }
-    const bool takes_more = OIIO::Strutil::ends_with(operand_names.back(), "...");
+    const bool takes_more = ends_with(operand_names.back(), "...");
     const size_t most = given_recipe() ? 1 : operand_names.size();
     size_t least = 0;
-    while (least < most && !OIIO::Strutil::starts_with(operand_names[least], "["))
+    while (least < most && !starts_with(operand_names[least], "["))
         ++least;
     if (operands.size() < least)
         error = format("{} is missing", operand_names[operands.size()]);
@@ -211,7 +220,7 @@ bool CommandLine::parse(int argc, const char** argv, std::string& answer, std::s
         return false;
     // Mostly an unset shell variable. With a recipe it clears the key.
     for (const auto& [option, value] : given)
-        if (error.empty() && !given_recipe() && OIIO::Strutil::strip(value).empty())
+        if (error.empty() && !given_recipe() && stripped(value).empty())
             error = format("{} has an empty value", option->flag());
     return error.empty();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/base/params.h>
+#include <vmlight/cli/allowed_value.h>
 
 #include <OpenImageIO/string_view.h>
 
@@ -34,6 +35,9 @@ struct CommandLine
         bool is_repeatable = false;
         /// The words that it accepts, if it is one that takes words.
         std::vector<Choice> choices {};
+        /// The parameter that the value is for, in messages, and what it allows.
+        std::string parameter {};
+        AllowedValue allowed {};
 
         std::string flag() const { return flag_of(name); }
         bool takes_file() const
@@ -52,6 +56,8 @@ struct CommandLine
     bool needs_output = true;
     /// The stage whose recipe may replace the operands, or "".
     std::string stage;
+    /// Whether a name is that of such a recipe; if not set, its extension says so, and no name has a ?query.
+    std::function<bool(const std::string& name)> is_recipe {};
     /// Another way to call it: with the flag `name` ("": there is none) the operands are `operand`, one or more, and of
     /// the other flags only those of the output are taken; the others would change nothing, for the `reason`.
     struct Form
@@ -82,6 +88,9 @@ struct CommandLine
     bool given_form() const;
     /// What is wrong with the other flags then, or "".
     std::string form_fault() const;
+
+    /// That -o is not given.
+    std::string missing_output() const { return "-o " + output_metavar + " is missing"; }
 
     /// How to call it, one form per line.
     std::vector<std::string> synopses() const;

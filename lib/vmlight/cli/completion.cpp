@@ -2,6 +2,7 @@
 #include <vmlight/cli/completion.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -9,7 +10,6 @@ namespace vmlight {
 namespace {
 
 using OIIO::Strutil::join;
-using OIIO::Strutil::replace;
 using Option = CommandLine::Option;
 
 std::vector<const Option*> all_options(const CommandLine& line)
@@ -30,7 +30,7 @@ std::string words_of(const Option& option)
 
 bool takes_list(const Option& option)
 {
-    return OIIO::Strutil::ends_with(option.metavar, ",...");
+    return ends_with(option.metavar, ",...");
 }
 
 // What follows `previous`: words, or file names (no words), or nothing that can be known.
@@ -90,8 +90,8 @@ complete -o filenames -F _{0} {0}
 std::string zsh_text(std::string text)
 {
     for (const char* special : { "\\", ":", "[", "]" })
-        text = replace(text, special, format("\\{}", special), true);
-    return replace(text, "'", "'\\''", true);
+        text = replaced(text, special, format("\\{}", special));
+    return replaced(text, "'", "'\\''");
 }
 
 std::string zsh_action(const Option& option)

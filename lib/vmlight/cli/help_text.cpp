@@ -2,6 +2,7 @@
 #include <vmlight/cli/help_text.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/text.h>
 #include <vmlight/version.h>
 
 #include <OpenImageIO/strutil.h>
@@ -27,7 +28,7 @@ std::string entry(const std::string& label, size_t indent, const std::string& te
         used = column;
     };
     move_to_column();
-    for (const std::string& word : OIIO::Strutil::splits(text)) {
+    for (const std::string& word : split_words(text)) {
         if (used > column && used + 1 + word.size() > kColumns) {
             used = kColumns;
             move_to_column();

@@ -6,6 +6,7 @@
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/text_format.h>
+#include <vmlight/cli/early_answer.h>
 #include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/cli/progress_line.h>
 #include <vmlight/image/image_file.h>
@@ -21,6 +22,10 @@
 #include <map>
 #include <system_error>
 #include <thread>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 namespace vmlight {
 
@@ -83,6 +88,7 @@ void StageMain::reword(const std::string& name, const std::string& help)
 void StageMain::accept_recipe(const char* stage, RecipeAccess access)
 {
     m_command.line.stage = stage;
+    m_command.line.is_recipe = [this](const std::string& name) { return recipe_stage(name) == m_command.line.stage; };
     m_command.recipe = std::move(access);
     m_command.line.options[0].help
         = format("EXR image to write; or a .{}, to save this command line as a recipe and make no image", stage);
@@ -108,6 +114,7 @@ void StageMain::option(const std::string& name, const std::string& metavar, cons
         dst = std::string(text);
         return true;
     });
+    m_command.line.options.back().allowed = Text {};
 }
 
 void StageMain::answer(const std::string& name, const Help& help,
@@ -140,6 +147,11 @@ void StageMain::check(std::function<std::string()> fault)
     m_command.checks.push_back(std::move(fault));
 }
 
+void StageMain::stay_up(std::set<std::string>& warned)
+{
+    m_warned = &warned;
+}
+
 void StageMain::settle_threads()
 {
     int& threads = m_command.common.threads;
@@ -164,13 +176,17 @@ bool StageMain::do_work(const std::function<bool(std::string& error)>& work, std
         error = "interrupted";
     if (!error.empty() || !work(error))
         return false;
-    ignore_interrupts();
+    if (!m_warned)
+        ignore_interrupts();
     return true;
 }
 
 int StageMain::run(int argc, const char** argv, const std::function<bool(std::string& error)>& work)
 {
     prepare_streams();
+#ifdef __linux__
+    ::prctl(PR_SET_NAME, m_command.line.name.c_str()); // for ps, top and killall: the file has another name
+#endif
     OIIO::Filesystem::convert_native_arguments(argc, argv);
     // Debian's OIIO 3 prints debug messages on stderr by default.
     if (OIIO::Sysutil::getenv("OPENIMAGEIO_DEBUG").empty())
@@ -201,7 +217,7 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
     if (exit == ExitCode::Failed)
         error = with_flags(error);
     if (exit != ExitCode::Done)
-        report("ERROR", exit == ExitCode::Usage ? error + " (see " + m_command.line.name + " --help)" : error);
+        report("ERROR", exit == ExitCode::Usage ? usage_text(m_command.line, error) : error);
     return int(exit);
 }
 
@@ -222,10 +238,7 @@ bool StageMain::put(const std::string& answer, std::string& error) const
 {
     if (m_command.saves_recipe())
         return write_file(output(), answer, error);
-    if (std::fputs(answer.c_str(), stdout) >= 0 && std::fflush(stdout) == 0)
-        return true;
-    error = "cannot write to stdout";
-    return false;
+    return print_answer(answer, error);
 }
 
 MakeOptions StageMain::make_options()
@@ -250,13 +263,12 @@ Progress StageMain::progress(const std::string& step, int64_t texels)
 
 void StageMain::report(const char* severity, const std::string& text) const
 {
-    end_progress_line();
-    std::fprintf(stderr, "%s %s: %s\n", m_command.line.name.c_str(), severity, printable_line(text).c_str());
+    print_message(m_command.line, severity, text);
 }
 
 void StageMain::say(const std::string& line) const
 {
-    if (!m_command.common.quiet)
+    if (!m_command.common.quiet && !m_is_repeated)
         answer(line);
 }
 
@@ -267,7 +279,9 @@ void StageMain::answer(const std::string& line) const
 
 void StageMain::warn(const std::string& line) const
 {
-    report("WARNING", line);
+    const bool is_new = !m_warned || m_warned->insert(line).second;
+    if (is_new || !m_is_repeated)
+        report("WARNING", line);
 }
 
 bool StageMain::write(const OIIO::ImageBuf& image, std::string& error)

@@ -15,6 +15,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -90,13 +91,22 @@ public:
     /// the parameter, or "".
     void unused(std::function<std::string(const std::string& name)> reason);
 
+    /// The process goes on after run(): it can be interrupted then too. Warnings are noted in `warned`, which must
+    /// outlive run().
+    void stay_up(std::set<std::string>& warned);
+    /// Another run of a process that stays up: what was said before is not said again.
+    void repeat() { m_is_repeated = true; }
+
     /// Parse the command line, check that the output can be written, then call `work`, which returns false and sets
     /// `error` on failure. Catches exceptions.
     /// @returns the process's exit code.
     int run(int argc, const char** argv, const std::function<bool(std::string& error)>& work);
 
     // For check() and `work`.
+    const std::string& name() const { return m_command.line.name; }
     const std::string& output() const { return m_command.output; }
+    /// Whether --quiet is given.
+    bool is_quiet() const { return m_command.common.quiet; }
     /// Whether nothing is to be written; output() may then be "".
     bool is_dry_run() const { return m_command.is_dry_run; }
     /// Whether the flag of form() is given.
@@ -131,6 +141,8 @@ private:
     void report(const char* severity, const std::string& text) const;
 
     StageCommand m_command;
+    std::set<std::string>* m_warned = nullptr; // set if the process stays up
+    bool m_is_repeated = false;
     std::string m_heading;
 };
 

@@ -11,4 +11,7 @@ namespace vmlight {
 /// bytes.
 std::string man_page(const CommandLine& line);
 
+/// Text that roff prints as it is: no escapes, no hyphens for '-', no requests at the start of a line.
+std::string roff_text(const std::string& text);
+
 } // namespace vmlight

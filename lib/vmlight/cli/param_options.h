@@ -32,6 +32,8 @@ std::vector<CommandLine::Option> options_of(const std::string& heading, Params& 
             : std::is_same_v<Allowed, ChoiceSet> ? "NAME,..."
                                                  : "NAME";
         option.help = help.text;
+        option.parameter = name;
+        option.allowed = allowed_value<std::decay_t<decltype(value)>>(allowed);
         if (kIsList)
             option.help += "; may be repeated";
         else if (!kIsFlag && !text.empty())

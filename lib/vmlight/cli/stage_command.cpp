@@ -84,14 +84,14 @@ std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
     if (line.given_form())
         fault = line.form_fault();
     if (line.given_form() && fault.empty())
-        fault = output.empty() ? format("-o {} is missing", line.output_metavar) : output_name_fault(output);
+        fault = output.empty() ? line.missing_output() : output_name_fault(output);
     if (line.given_form())
         return fault;
     const bool works = makes_image();
     if (prints_recipe || saves_recipe())
         fault = unsavable();
     else if (works && output.empty() && needs_output())
-        fault = format("-o {} is missing", line.output_metavar);
+        fault = line.missing_output();
     else if (works && !output.empty() && output_kind == OutputKind::Image)
         fault = image_name_fault();
     if (fault.empty() && (saves_recipe() || recipe.fault() != fault_of_recipe))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/recipe/recipe.h>
 
+#include <vmlight/base/file_stamp.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/stage/recipe/paths.h>
@@ -55,6 +56,7 @@ bool set_from_node(Recipe& recipe, const std::string& key, const toml::node& nod
 
 bool read_bytes(std::string& dst, const std::string& path, std::string& error)
 {
+    log_file(path);
     const auto failed = [&](const std::string& reason) {
         error = format("\"{}\": {}", path, reason);
         return false;
