@@ -2,6 +2,9 @@
 /// Differences between OpenImageIO 2.4 and 3.1, and its error texts. Not installed.
 #pragma once
 
+// First: texture.h declares vectors of its own where Imath's are not declared yet, which then clash.
+#include <Imath/ImathVec.h>
+
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/texture.h>
