@@ -13,7 +13,7 @@ import unittest
 
 from case import BIN, SKY, SPOT, Case
 
-LONGEST = 60  # seconds to wait for what comes at once
+LONGEST = 300  # seconds to wait for what comes at once
 
 
 def hand_on(stream, lines):

@@ -50,6 +50,16 @@ TEST(Text, IsThatOfOpenImageIO)
     }
 }
 
+// By hand: the fewest letters to put in, take out or change.
+TEST(Text, EditDistance)
+{
+    EXPECT_EQ(edit_distance("", "abc"), 3u);
+    EXPECT_EQ(edit_distance("samples", "samples"), 0u);
+    EXPECT_EQ(edit_distance("smaples", "samples"), 2u);
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+    EXPECT_EQ(edit_distance(" a", "--max-distance"), 13u) << "OpenImageIO 2.4 says 12";
+}
+
 TEST(Text, NumbersAreThoseOfOpenImageIOInAnyLocale)
 {
     const std::string before = std::setlocale(LC_NUMERIC, nullptr);

@@ -27,7 +27,8 @@ public:
     bool follow(const std::vector<std::string>& paths, std::string& error);
 
     /// Return once something in one of the folders has been written, replaced, removed or made, and then nothing for a
-    /// moment; earlier if it goes on. Files that are being written count once they are closed.
+    /// moment; earlier if it goes on. Files that are being written count once they are closed;
+    /// a new time of modification alone does not, as the bytes are the same.
     void wait();
 
 private:
