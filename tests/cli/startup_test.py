@@ -147,9 +147,9 @@ class OneCommand(Case):
             self.assertEqual(process.returncode, code)
 
     def test_refusals_name_the_nearest_and_all(self):
-        self.refused(2, 'unknown command "bakes"; did you mean bake?: it is one of bake, filter, light, frames, view, cost, '
+        self.refused(2, 'unknown command "bakes"; did you mean bake? commands: bake, filter, light, frames, view, cost, '
                      "export (see vmlight --help)", "vmlight", "bakes")
-        self.refused(2, 'unknown command "zzz": it is one of', "vmlight", "zzz", "--help")
+        self.refused(2, 'unknown command "zzz"; commands: bake', "vmlight", "zzz", "--help")
         self.refused(2, 'unknown command "bakes"', "vmlight", "help", "bakes")
         self.refused(2, "COMMAND is missing", "vmlight")
         self.refused(2, 'unknown flag "--hepl"; did you mean --help?', "vmlight", "--hepl")
