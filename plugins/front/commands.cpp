@@ -124,8 +124,8 @@ const Command* find_command(const std::string& word)
 std::string unknown_command(const std::string& word)
 {
     const std::string near = nearest_name(word, words());
-    return format("unknown command \"{}\"; {}commands: {}", word,
-                  near.empty() ? "" : format("did you mean {}? ", near), joined(words(), ", "));
+    return format("unknown command \"{}\"; {}commands: {}", word, near.empty() ? "" : format("did you mean {}? ", near),
+                  joined(words(), ", "));
 }
 
 std::string help_text()
