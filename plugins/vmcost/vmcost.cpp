@@ -70,14 +70,15 @@ int main(int argc, const char** argv)
         double total = double(environments) * reference_weight(params.pairs());
         for (const Setting& setting : settings)
             total += weight_of(setting, environments);
-        total += effects_weight(environments);
+        const double page_weight = weight_of(default_setting("lobe"), environments);
+        total += effects_weight(environments) + page_weight;
         const int64_t pictures = int64_t(settings.size() * environments + environments);
         WholeProgress progress(options.progress("measure", pictures * params.side() * params.side()), total);
         if (!trace_references(inputs, params, folder, options, progress, error)
             || !measure(measured, settings, inputs, params, folder, options, progress, error)
             || !measure_effects(effects, inputs, mesh, params, options, progress.part(effects_weight(environments)),
                                 error)
-            || !make_live_page(live_page, inputs, light, params, options, {}, error))
+            || !make_live_page(live_page, inputs, light, params, options, progress.part(page_weight), error))
             return false;
         progress.finish();
         if (!write_report(measured, effects, inputs, params, commands, live_page, folder, options, error))

@@ -22,20 +22,13 @@ STEP = 37
 
 def corners_of(path):
     """Positions, normals and UVs of all triangles: [triangles, 3, ...]."""
-    tables, faces = {"v": [], "vn": [], "vt": []}, []
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            word, *rest = line.split() or [""]
-            if word in tables:
-                tables[word].append([float(x) for x in rest])
-            elif word == "f":
-                faces.append([[int(x) - 1 for x in corner.split("/") if x] for corner in rest])
-    faces, positions = numpy.array(faces), numpy.array(tables["v"])
-    if tables["vn"]:
-        normals = numpy.array(tables["vn"])[faces[:, :, 2]]
+    tables, faces = oracle.read_obj(path)
+    positions = tables["v"]
+    if len(tables["vn"]):
+        normals = tables["vn"][faces[:, :, 2]]
     else:
         normals = (positions / numpy.linalg.norm(positions, axis=1, keepdims=True))[faces[:, :, 0]]
-    return positions[faces[:, :, 0]], normals, numpy.array(tables["vt"])[faces[:, :, 1]]
+    return positions[faces[:, :, 0]], normals, tables["vt"][faces[:, :, 1]]
 
 
 def main():

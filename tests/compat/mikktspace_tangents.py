@@ -29,8 +29,8 @@ fs.writeFileSync("tangents.json", JSON.stringify(Array.from(generateTangents(flo
 """
 
 
-def corners_of(path):
-    """Positions, normals and uvs of all triangles of an OBJ: [triangles, 3, ...]."""
+def read_obj(path):
+    """Tables of v, vn and vt, and the indices of all triangles: [triangles, 3, v vt vn], as far as the file has them."""
     tables, faces = {"v": [], "vn": [], "vt": []}, []
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -38,9 +38,14 @@ def corners_of(path):
             if word in tables:
                 tables[word].append([float(x) for x in rest])
             elif word == "f":
-                faces.append([[int(x) - 1 for x in corner.split("/")] for corner in rest])
-    faces = numpy.array(faces)
-    return [numpy.array(tables[name])[faces[:, :, column]] for name, column in (("v", 0), ("vn", 2), ("vt", 1))]
+                faces.append([[int(x) - 1 for x in corner.split("/") if x] for corner in rest])
+    return {name: numpy.array(table) for name, table in tables.items()}, numpy.array(faces)
+
+
+def corners_of(path):
+    """Positions, normals and uvs of all triangles of an OBJ: [triangles, 3, ...]."""
+    tables, faces = read_obj(path)
+    return [tables[name][faces[:, :, column]] for name, column in (("v", 0), ("vn", 2), ("vt", 1))]
 
 
 def tangents_of(corners, folder):

@@ -13,8 +13,9 @@ namespace vmlight {
 const std::vector<MeshPartPattern>& mesh_part_patterns()
 {
     static const std::vector<MeshPartPattern> patterns {
-        { "<MATERIAL>", "material", "materials", "--material", &PartFiles::material },
-        { "<INSTANCE>", "instance", "instances", "--node", &PartFiles::node },
+        { "<MATERIAL>", "material", "materials", "--material", &PartFiles::material, &MeshSelection::material,
+          vismap_materials },
+        { "<INSTANCE>", "instance", "instances", "--node", &PartFiles::node, &MeshSelection::node, vismap_instances },
     };
     return patterns;
 }

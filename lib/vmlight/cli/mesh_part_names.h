@@ -2,6 +2,7 @@
 /// "<MATERIAL>" or "<INSTANCE>" in the name of an output: one map for each material or instance of a mesh.
 #pragma once
 
+#include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/map_parts.h>
 
 #include <string>
@@ -16,6 +17,9 @@ struct MeshPartPattern
     const char *noun, *nouns; ///< what it stands for
     const char* flag; ///< that chooses one of them
     std::string PartFiles::*of_parts; ///< which one the parts of a map are of
+    std::vector<std::string> MeshSelection::*selection; ///< where a recipe names it
+    bool (*find)(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
+                 std::string& error); ///< all that a recipe bakes
 };
 
 /// All of them.

@@ -32,6 +32,16 @@ int resume_parts(Size size)
     return std::min(kResumeParts, tiles(size.width) * tiles(size.height));
 }
 
+std::string same_output_fault(const std::string& output, const PartFiles& one, const PartFiles& other)
+{
+    for (const MeshPartPattern& pattern : mesh_part_patterns())
+        if (const std::string& a = one.*pattern.of_parts, &b = other.*pattern.of_parts; a != b)
+            return format("\"{}\": the parts are of {} \"{}\" and \"{}\", which need {} in the file name", output,
+                          pattern.nouns, a, b, pattern.text);
+    return format("\"{}\": the parts are of tiles {} and {}, which need <UDIM> in the file name", output, one.udim,
+                  other.udim);
+}
+
 } // namespace
 
 PartRun::PartRun(StageMain& stage, const VismapRecipe& recipe, const PoseList& poses)
@@ -139,16 +149,6 @@ bool PartRun::write_joined(const std::vector<std::string>& parts, const std::str
     if (const std::string warning = dark_warning(report.dark, report.covered); !warning.empty())
         m_stage.warn(warning);
     return true;
-}
-
-static std::string same_output_fault(const std::string& output, const PartFiles& one, const PartFiles& other)
-{
-    for (const MeshPartPattern& pattern : mesh_part_patterns())
-        if (const std::string& a = one.*pattern.of_parts, &b = other.*pattern.of_parts; a != b)
-            return format("\"{}\": the parts are of {} \"{}\" and \"{}\", which need {} in the file name", output,
-                          pattern.nouns, a, b, pattern.text);
-    return format("\"{}\": the parts are of tiles {} and {}, which need <UDIM> in the file name", output, one.udim,
-                  other.udim);
 }
 
 bool PartRun::join(std::string& error) const

@@ -170,9 +170,8 @@ bool UdimRun<Recipe>::find_parts(std::vector<Part>& dst, const MakeOptions& opti
         dst.push_back({ m_recipe, "", m_stage.output(), {} });
     if constexpr (std::is_same_v<Recipe, VismapRecipe>)
         if (pattern) {
-            const bool are_instances = pattern->of_parts == &PartFiles::node;
             std::vector<std::string> names;
-            if (!(are_instances ? vismap_instances : vismap_materials)(names, m_recipe, options, error))
+            if (!pattern->find(names, m_recipe, options, error))
                 return false;
             error = same_file_fault(*pattern, names);
             if (!error.empty()) {
@@ -184,8 +183,7 @@ bool UdimRun<Recipe>::find_parts(std::vector<Part>& dst, const MakeOptions& opti
                 part.recipe = m_recipe;
                 part.name = format("{} {}: ", pattern->noun, printable_line(name));
                 part.output = mesh_part_path(m_stage.output(), *pattern, name);
-                MeshSelection& selection = part.recipe.selection;
-                (are_instances ? selection.node : selection.material) = { name };
+                part.recipe.selection.*pattern->selection = { name };
             }
         }
     for (Part& part : dst) {
