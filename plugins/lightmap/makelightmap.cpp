@@ -176,7 +176,7 @@ int light(int argc, const char** argv, LightmapInputs& inputs, Watch& watch)
             if (!error.empty() || !make_lightmap(lightmap, inputs, params, options, error))
                 return false;
             seconds += timer();
-            if (i == 0) {
+            if (i == 0 && (exposure.wanted || !stage.is_silent())) {
                 const LightLevel level = measure_light(lightmap, inputs.vismap);
                 options.report(level_text(level, params.exposure));
                 if (exposure.wanted && !exposure.known) {

@@ -95,19 +95,7 @@ Image read_image(const std::string& path, const WorkOptions& options)
     return own(std::move(images));
 }
 
-struct WriteParams
-{
-    std::string format = "float";
-
-    template <class Visit> void visit(Visit&& field)
-    {
-        field("format", format, Choices { { { "float", "32 bits per channel" }, { "half", "16 bits per channel" } } },
-              "Pixel format of the file");
-    }
-};
-
-void write_image_file(const Image& image, const std::string& path, const std::string& pixel_format,
-                      const WorkOptions& options)
+void write_image_file(const Image& image, const std::string& path, const FileParams& file, const WorkOptions& options)
 {
     if (const std::string fault = output_name_fault(path); !fault.empty())
         throw py::value_error(fault);
@@ -116,9 +104,9 @@ void write_image_file(const Image& image, const std::string& path, const std::st
             [&](const MakeOptions& given, std::string& error) {
                 const std::vector<OIIO::ImageBuf> views = views_of(image);
                 for (const OIIO::ImageBuf& view : views)
-                    if (pixel_format == "half" && !(error = half_fault(view.spec())).empty())
+                    if (file.format == "half" && !(error = half_fault(view.spec())).empty())
                         return false;
-                return write_images(views, path, pixel_format, given.progress("write", 0), error);
+                return write_images(views, path, file, given.progress("write", 0), error);
             });
 }
 
@@ -180,7 +168,7 @@ void define_image(py::module_& m)
           { { "path", "StrPath", "What OpenImageIO opens, or a recipe" } },
           "Image",
           "with float pixels, as stored" });
-    const Signature<WriteParams> writing(
+    const Signature<FileParams> writing(
         { "write",
           FunctionKind::method,
           "Write an EXR, as the executables do: whole or not at all, and the same bytes for the same image.",
@@ -230,7 +218,7 @@ void define_image(py::module_& m)
         "write",
         [writing](const Image& self, const py::args& args, const py::kwargs& kwargs) {
             const auto [call, params] = writing.read(args, kwargs);
-            write_image_file(self, path_text("path", call.operands[0]), params.format, call.work);
+            write_image_file(self, path_text("path", call.operands[0]), params, call.work);
         },
         docstring(writing.function()).c_str());
     add_to_table("Image.__init__", making.function());

@@ -43,7 +43,7 @@ bool write_heat_map(const std::string& folder, const std::string& environment, c
     const DeferInterrupts writing;
     // The EXR last: its presence means that both are complete.
     return heat_map_png(png, map, 0, error) && write_file(path + ".png", png, error)
-        && write_image(map, path + ".exr", "float", {}, error);
+        && write_image(map, path + ".exr", {}, {}, error);
 }
 
 } // namespace vmlight::cost

@@ -79,7 +79,7 @@ bool trace(Environment& environment, const Inputs& inputs, const CostParams& par
         return false;
     }
     const DeferInterrupts writing;
-    return write_image(environment.reference, path, "float", {}, error);
+    return write_image(environment.reference, path, {}, {}, error);
 }
 
 } // namespace

@@ -60,7 +60,7 @@ public:
     {
         const DeferInterrupts writing;
         for (const Output& output : m_outputs) {
-            if (output.half.initialized() ? !write_image(output.half, output.path, "half", {}, error)
+            if (output.half.initialized() ? !write_image(output.half, output.path, { "half" }, {}, error)
                                           : !write_file(output.path, output.bytes, error))
                 return false;
             m_options.report(output.path + (output.decode.empty() ? "" : ": " + output.decode));

@@ -14,7 +14,7 @@ bool write_tiles(const TileMaps& tiles, const std::string& start, std::string& e
 {
     for (const auto& [udim, image] : tiles) {
         const std::string path = tiles.size() == 1 ? start + ".exr" : format("{}.{}.exr", start, udim);
-        if (!write_image(image, path, "float", {}, error))
+        if (!write_image(image, path, {}, {}, error))
             return false;
     }
     return true;

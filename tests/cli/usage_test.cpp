@@ -82,6 +82,7 @@ TEST_F(Usage, ValuesAreParsedStrictly)
           "channels: \"normals\" is not one of normal, coverage, error; did you mean \"normal\"?" },
         { "--channels", "normal,normal", "channels: \"normal\" is given twice" },
         { "--format", "double", "format: \"double\" is not one of float, half" },
+        { "--compression", "dwaa", "compression: \"dwaa\" is not one of zip, none" },
         { "--threads", "-1", "threads: -1 is not in [0, 1024]" },
         { "--uv-set", "8", "uv_set: 8 is not in [0, 7]" },
     };

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""makelightmap --watch: each change gives the bytes of a fresh makelightmap, and one line.
+"""makelightmap --watch: each change gives the bytes of a fresh makelightmap, uncompressed, and one line.
 
 Run as: watch_test.py, with VMLIGHT_BIN (the executables' folder) and VMLIGHT_SOURCE (the repository)."""
 import os
@@ -13,6 +13,7 @@ import unittest
 
 from case import BIN, SKY, SPOT, Case
 
+UNCOMPRESSED = "--compression", "none"  # as is written by default
 LONGEST = 300  # seconds to wait for what comes at once
 
 
@@ -82,7 +83,7 @@ class Watched(Case):
     def made_anew(self, *changed, words=("hero.lightmap",), output="out/lit.exr"):
         """The next line names the files, and the image is that of a fresh process."""
         self.assertRegex(self.next_line(), "^watch: " + ", ".join(changed) + f" changed: {output} in \\d+ ms\n$")
-        self.done("makelightmap", *words, "-o", "fresh.exr", "--quiet")
+        self.done("makelightmap", *(() if "--compression" in words else UNCOMPRESSED), *words, "-o", "fresh.exr", "--quiet")
         self.assertEqual(self.read(output), self.read("fresh.exr"), changed)
 
     def test_each_input_is_followed_however_it_is_replaced(self):
@@ -110,7 +111,7 @@ class Watched(Case):
     def test_flags_stay_and_recipes_of_recipes_are_followed(self):
         self.file("sky.cfem", 'environment = "sky.exr"\n')
         self.file("hero.lightmap", 'vismap = "vm.exr"\ncfem = "sky.cfem"\n')
-        words = "hero.lightmap", "--exposure", "1", "--format", "half"
+        words = "hero.lightmap", "--exposure", "1", "--format", "half", "--compression", "zip"
         self.start(*words, "-o", "out/lit.exr")
         self.file("sky.cfem", 'environment = "sky.exr"\nresolution = "16x8"\n')
         self.made_anew("sky.cfem", words=words)
@@ -125,9 +126,10 @@ class Watched(Case):
         if result.returncode != 0:
             self.skipTest("the config has no such space: " + result.stderr)
         self.start(*words, "-o", "out/lit.exr")
-        with open(self.path("config.ocio"), "a") as file:
-            file.write("\n")
+        first = self.read("out/lit.exr")
+        self.file("config.ocio", self.read("config.ocio").replace(b"scene_linear: ACEScg", b"scene_linear: ACES2065-1"))
         self.made_anew("config.ocio", words=words)
+        self.assertNotEqual(self.read("out/lit.exr"), first)
 
     def test_a_turn_reads_no_image_again(self):
         self.done("makevismap", SPOT, "-o", "vm.exr", "--resolution", "256", "--samples", "4", "--quiet")
@@ -142,7 +144,7 @@ class Watched(Case):
             self.recipe(f"rotate = [0, {angle}, 0]")
             self.assertIn("watch: hero.lightmap changed", self.next_line())
         self.assertLess(read_so_far() - before, min(os.path.getsize(self.path(name)) for name in ("vm.exr", "sky.exr")) / 2)
-        self.done("makelightmap", "hero.lightmap", "-o", "fresh.exr", "--quiet")
+        self.done("makelightmap", "hero.lightmap", "-o", "fresh.exr", "--quiet", *UNCOMPRESSED)
         self.assertEqual(self.read("out/lit.exr"), self.read("fresh.exr"))
 
     def test_a_fault_is_told_once_and_keeps_the_image(self):

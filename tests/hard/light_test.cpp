@@ -162,11 +162,11 @@ TEST(Light, ASunInHalfFloats)
 
     const vmlight::TemporaryFolder folder;
     std::string error;
-    EXPECT_FALSE(write_image(image(map), folder / "sun.exr", "half", {}, error));
+    EXPECT_FALSE(write_image(image(map), folder / "sun.exr", { "half" }, {}, error));
     EXPECT_NE(error.find("the maximum of half is 65504: write float"), std::string::npos) << error;
     EXPECT_TRUE(folder.names().empty());
-    ASSERT_TRUE(write_image(image(map), folder / "sun.exr", "float", {}, error)) << error;
-    ASSERT_TRUE(write_image(image(Map(64, 32, 65504)), folder / "brightest.exr", "half", {}, error)) << error;
+    ASSERT_TRUE(write_image(image(map), folder / "sun.exr", {}, {}, error)) << error;
+    ASSERT_TRUE(write_image(image(Map(64, 32, 65504)), folder / "brightest.exr", { "half" }, {}, error)) << error;
     // Where half has clipped already, infinity is told, not filtered.
     EXPECT_NE(refusal(half_of(image(map))).find("3 values that are NaN or infinite"), std::string::npos);
     row.ours("refused, with the value and what to do; environments and CFEMs are float by default");

@@ -2,6 +2,7 @@
 #include "temporary_folder.h"
 #include "written_images.h"
 
+#include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,10 +70,26 @@ TEST(ImageFile, HalfIsWrittenOnRequest)
 {
     const TemporaryFolder folder;
     std::string error;
-    ASSERT_TRUE(write(vismap_like(9, 9), folder / "a.exr", error, "half")) << error;
+    ASSERT_TRUE(write(vismap_like(9, 9), folder / "a.exr", error, { "half" })) << error;
     OIIO::ImageBuf back(folder / "a.exr");
     EXPECT_EQ(back.nativespec().format, OIIO::TypeDesc::HALF);
     EXPECT_EQ(back.getchannel(0, 0, 0, back.spec().channelindex("direction.y")), 0.25f);
+}
+
+TEST(ImageFile, UncompressedPixelsAreTheSame)
+{
+    const TemporaryFolder folder;
+    std::string error;
+    for (const char* format : { "float", "half" }) {
+        const OIIO::ImageBuf image = vismap_like(70, 66, 1.0f / 64);
+        ASSERT_TRUE(write(image, folder / "zip.exr", error, { format })) << error;
+        ASSERT_TRUE(write(image, folder / "none.exr", error, { format, "none" })) << error;
+        OIIO::ImageBuf zip, none;
+        ASSERT_TRUE(read_image(zip, folder / "zip.exr", error)) << error;
+        ASSERT_TRUE(read_image(none, folder / "none.exr", error)) << error;
+        EXPECT_EQ(none.spec().get_string_attribute("compression"), "none");
+        EXPECT_EQ(OIIO::ImageBufAlgo::compare(zip, none, 0, 0).maxerror, 0) << format;
+    }
 }
 
 TEST(ImageFile, EqualPixelsGiveEqualBytes)
@@ -107,7 +124,7 @@ TEST(ImageFile, SeveralImagesStandInOneFileOrNone)
         images[size_t(i)].setpixel(5, 5, std::vector<float>(5, float(i)));
     }
     std::string error;
-    ASSERT_TRUE(write_images(images, folder / "a.exr", "float", {}, error)) << error;
+    ASSERT_TRUE(write_images(images, folder / "a.exr", {}, {}, error)) << error;
     const std::string old = folder.bytes("a.exr");
     for (int i = 0; i < 3; ++i) {
         OIIO::ImageBuf back;
@@ -119,14 +136,14 @@ TEST(ImageFile, SeveralImagesStandInOneFileOrNone)
     EXPECT_FALSE(read_image(none, folder / "a.exr", error, 3));
     int calls = 0;
     EXPECT_FALSE(write_images(
-        images, folder / "a.exr", "float", [&](double) { return ++calls < 4; }, error));
+        images, folder / "a.exr", {}, [&](double) { return ++calls < 4; }, error));
     EXPECT_EQ(error, quoted(folder / "a.exr") + ": interrupted");
     images[2].setpixel(3, 4, std::vector<float> { 0, 0, 1e6f, 0, 0 });
-    EXPECT_FALSE(write_images(images, folder / "a.exr", "half", {}, error));
+    EXPECT_FALSE(write_images(images, folder / "a.exr", { "half" }, {}, error));
     EXPECT_TRUE(folder.bytes("a.exr") == old);
     EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
-    ASSERT_TRUE(write_images(images, folder / "b.exr", "float", {}, error)) << error;
-    ASSERT_TRUE(write_images(images, folder / "c.exr", "float", {}, error)) << error;
+    ASSERT_TRUE(write_images(images, folder / "b.exr", {}, {}, error)) << error;
+    ASSERT_TRUE(write_images(images, folder / "c.exr", {}, {}, error)) << error;
     EXPECT_TRUE(folder.bytes("b.exr") == folder.bytes("c.exr"));
 }
 
@@ -138,20 +155,20 @@ TEST(ImageFile, WhereverTheDiskIsFullTheOldFileStaysOrTheNewOneIsWhole)
         std::vector<OIIO::ImageBuf> images(count, vismap_like(9, 7));
         for (size_t i = 0; i < count; ++i)
             images[i].specmod().attribute("oiio:subimagename", "image" + std::to_string(i));
-        ASSERT_TRUE(write_images(images, folder / "new.exr", "float", {}, error)) << error;
+        ASSERT_TRUE(write_images(images, folder / "new.exr", {}, {}, error)) << error;
         const std::string whole = folder.bytes("new.exr");
         folder.write("a.exr", "old");
         for (size_t limit = 0; limit < whole.size(); limit += count == 1 ? 1 : 7) {
             {
                 const FileLimit full(limit);
-                ASSERT_FALSE(write_images(images, folder / "a.exr", "float", {}, error)) << limit;
+                ASSERT_FALSE(write_images(images, folder / "a.exr", {}, {}, error)) << limit;
             }
             // OpenEXR writes several parts itself, and does not always say what failed.
             ASSERT_EQ(error.find(quoted(folder / "a.exr") + ": " + (count == 1 ? "File too large" : "")), 0u) << error;
             ASSERT_EQ(folder.bytes("a.exr"), "old") << limit;
         }
         const FileLimit enough(whole.size());
-        EXPECT_TRUE(write_images(images, folder / "a.exr", "float", {}, error)) << error;
+        EXPECT_TRUE(write_images(images, folder / "a.exr", {}, {}, error)) << error;
         EXPECT_TRUE(folder.bytes("a.exr") == whole);
         EXPECT_EQ(folder.names(), (std::vector<std::string> { "a.exr", "new.exr" })) << "debris";
     }
@@ -187,7 +204,7 @@ TEST(ImageFile, AnInterruptedOutputLeavesTheOldFileAsItWas)
         int calls = 0;
         error.clear();
         EXPECT_FALSE(write_image(
-            vismap_like(300, 500), folder / "a.exr", "float", [&](double) { return ++calls < stop_at; }, error));
+            vismap_like(300, 500), folder / "a.exr", {}, [&](double) { return ++calls < stop_at; }, error));
         EXPECT_EQ(error, quoted(folder / "a.exr") + ": interrupted");
         EXPECT_TRUE(folder.bytes("a.exr") == old);
         EXPECT_EQ(folder.names(), std::vector<std::string> { "a.exr" });
@@ -199,11 +216,11 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
     const TemporaryFolder folder;
     std::string error;
     OIIO::ImageBuf image = vismap_like(8, 8);
-    ASSERT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
+    ASSERT_TRUE(write(image, folder / "a.exr", error, { "half" })) << error;
     const std::string old = folder.bytes("a.exr");
     for (float value : { 65505.0f, -1e6f }) {
         image.setpixel(3, 4, std::vector<float> { 0, 0, value, 0, 0 });
-        EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
+        EXPECT_FALSE(write(image, folder / "a.exr", error, { "half" }));
         const std::string reached = value > 0 ? "65505" : "1e+06";
         EXPECT_EQ(error,
                   format("\"{}\": channel direction.y reaches {}, but the maximum of half is 65504: "
@@ -212,13 +229,13 @@ TEST(ImageFile, ValuesBeyondHalfAreRefusedNotWrittenAsInfinity)
         EXPECT_TRUE(folder.bytes("a.exr") == old);
     }
     image.setpixel(3, 4, std::vector<float> { 0, 0, 0, std::numeric_limits<float>::infinity(), 0 });
-    EXPECT_FALSE(write(image, folder / "a.exr", error, "half"));
+    EXPECT_FALSE(write(image, folder / "a.exr", error, { "half" }));
     EXPECT_EQ(error,
               format("\"{}\": channel direction.z reaches inf, but the maximum of half is 65504: "
                      "write float",
                      folder / "a.exr"));
     image.setpixel(3, 4, std::vector<float> { 65504, 0, 0, -65504, 0 });
-    EXPECT_TRUE(write(image, folder / "a.exr", error, "half")) << error;
+    EXPECT_TRUE(write(image, folder / "a.exr", error, { "half" })) << error;
 }
 
 TEST(ImageFile, WhatCannotBeReadIsRefusedWithItsPath)

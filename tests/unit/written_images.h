@@ -33,10 +33,9 @@ inline OIIO::ImageBuf vismap_like(int width, int height, float factor = 1)
     return image;
 }
 
-inline bool write(const OIIO::ImageBuf& image, const std::string& path, std::string& error,
-                  const char* format = "float")
+inline bool write(const OIIO::ImageBuf& image, const std::string& path, std::string& error, const FileParams& file = {})
 {
-    return write_image(image, path, format, {}, error);
+    return write_image(image, path, file, {}, error);
 }
 
 } // namespace vmlight::written_images

@@ -150,6 +150,9 @@ void StageMain::check(std::function<std::string()> fault)
 void StageMain::stay_up(std::set<std::string>& warned)
 {
     m_warned = &warned;
+    const auto& given = m_command.line.given;
+    if (std::none_of(given.begin(), given.end(), [](const auto& flag) { return flag.first->name == "compression"; }))
+        m_command.file.compression = "none";
 }
 
 void StageMain::settle_threads()
@@ -268,7 +271,7 @@ void StageMain::report(const char* severity, const std::string& text) const
 
 void StageMain::say(const std::string& line) const
 {
-    if (!m_command.common.quiet && !m_is_repeated)
+    if (!is_silent())
         answer(line);
 }
 
@@ -302,7 +305,7 @@ bool StageMain::write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& pat
             return false;
         }
     return write_images(
-        images, path, pixel_format(), [](double) { return !interrupted(); }, error);
+        images, path, m_command.file, [](double) { return !interrupted(); }, error);
 }
 
 } // namespace vmlight

@@ -91,8 +91,9 @@ public:
     /// the parameter, or "".
     void unused(std::function<std::string(const std::string& name)> reason);
 
-    /// The process goes on after run(): it can be interrupted then too. Warnings are noted in `warned`, which must
-    /// outlive run().
+    /// The process goes on after run(): it can be interrupted then too, and compresses what it writes only if
+    /// --compression says so, as that takes most of the time. Warnings are noted in `warned`, which must outlive run().
+    /// Called while flags are taken.
     void stay_up(std::set<std::string>& warned);
     /// Another run of a process that stays up: what was said before is not said again.
     void repeat() { m_is_repeated = true; }
@@ -107,6 +108,8 @@ public:
     const std::string& output() const { return m_command.output; }
     /// Whether --quiet is given.
     bool is_quiet() const { return m_command.common.quiet; }
+    /// Whether say() prints nothing.
+    bool is_silent() const { return is_quiet() || m_is_repeated; }
     /// Whether nothing is to be written; output() may then be "".
     bool is_dry_run() const { return m_command.is_dry_run; }
     /// Whether the flag of form() is given.

@@ -114,7 +114,7 @@ bool PartRun::make(const VismapRecipe& recipe, const std::string& output, const 
         };
     request.write = [&](int part, const OIIO::ImageBuf& image, std::string& reason) {
         return write_image(
-            image, path_of(part), "float", [](double) { return !interrupted(); }, reason);
+            image, path_of(part), {}, [](double) { return !interrupted(); }, reason);
     };
     if (!make_vismap_parts(recipe, request, options, error))
         return false;

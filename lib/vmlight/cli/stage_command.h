@@ -5,6 +5,7 @@
 #include <vmlight/base/params.h>
 #include <vmlight/cli/command_line.h>
 #include <vmlight/cli/exit_code.h>
+#include <vmlight/image/image_file.h>
 
 #include <functional>
 #include <string>
@@ -21,18 +22,6 @@ enum class OutputKind
     OptionalFolder,
     Picture,
     OptionalPicture
-};
-
-/// Parameters of every executable that writes an image.
-struct FileParams
-{
-    std::string format = "float";
-
-    template <class Visit> void visit(Visit&& field)
-    {
-        field("format", format, Choices { { { "float", "32 bits per channel" }, { "half", "16 bits per channel" } } },
-              "Pixel format of the output file, if an EXR");
-    }
 };
 
 /// Parameters of every executable.

@@ -187,17 +187,17 @@ std::string output_fault(const std::string& path)
     return output_file_fault(path);
 }
 
-bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format_name,
-                 const Progress& progress, std::string& error)
+bool write_image(const OIIO::ImageBuf& image, const std::string& path, const FileParams& file, const Progress& progress,
+                 std::string& error)
 {
-    return write_images(OIIO::cspan<OIIO::ImageBuf>(&image, 1), path, format_name, progress, error);
+    return write_images(OIIO::cspan<OIIO::ImageBuf>(&image, 1), path, file, progress, error);
 }
 
-bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const std::string& format_name,
+bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const FileParams& params,
                   const Progress& progress, std::string& error)
 {
     error = output_fault(path);
-    const bool half = format_name == "half";
+    const bool half = params.format == "half";
     for (const OIIO::ImageBuf& image : images)
         if (error.empty() && half && !fits_half(image, error))
             error = format("\"{}\": {}", path, error);
@@ -208,7 +208,7 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     for (const OIIO::ImageBuf& image : images) {
         OIIO::ImageSpec& spec = specs.emplace_back(image.spec());
         spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-        spec.attribute("compression", "zip");
+        spec.attribute("compression", params.compression);
         // OIIO writes the current time unless DateTime is set.
         spec.attribute("DateTime", "");
     }

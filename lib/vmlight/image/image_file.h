@@ -2,6 +2,7 @@
 /// Image files: read completely, written atomically.
 #pragma once
 
+#include <vmlight/base/params.h>
 #include <vmlight/base/progress.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -36,15 +37,30 @@ std::string output_name_fault(const std::string& path);
 /// Why `path` cannot be written now, or "": output_name_fault() or output_file_fault().
 std::string output_fault(const std::string& path);
 
-/// Write `image` atomically as a ZIP-compressed EXR, of `format` "float" or "half". Symbolic links are followed. On
-/// failure, and if `progress` returns false, returns false, with the reason in `error`: `path` is then unchanged and no
-/// temporary file is left. The bytes depend on pixels and metadata only: no date, host or command line. Values beyond
-/// the range of half are refused, not written as infinity.
-bool write_image(const OIIO::ImageBuf& image, const std::string& path, const std::string& format,
-                 const Progress& progress, std::string& error);
+/// How an EXR stores its pixels.
+struct FileParams
+{
+    std::string format = "float", compression = "zip";
+
+    template <class Visit> void visit(Visit&& field)
+    {
+        field("format", format, Choices { { { "float", "32 bits per channel" }, { "half", "16 bits per channel" } } },
+              "Pixel format of the output file, if an EXR");
+        field("compression", compression,
+              Choices { { { "zip", "lossless" }, { "none", "a larger file, written several times as fast" } } },
+              "Compression of the output file, if an EXR");
+    }
+};
+
+/// Write `image` atomically as an EXR. Symbolic links are followed. On failure, and if `progress` returns false,
+/// returns false, with the reason in `error`: `path` is then unchanged and no temporary file is left. The bytes depend
+/// on pixels, metadata and `file` only: no date, host or command line. Values beyond the range of half are refused, not
+/// written as infinity.
+bool write_image(const OIIO::ImageBuf& image, const std::string& path, const FileParams& file, const Progress& progress,
+                 std::string& error);
 /// The same for several images (EXR parts) in one file; the first opens by default. Their names are in
 /// `oiio:subimagename`.
-bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const std::string& format,
+bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const FileParams& file,
                   const Progress& progress, std::string& error);
 
 } // namespace vmlight
