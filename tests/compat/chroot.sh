@@ -1,10 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash disable=SC2016,SC2054
-# For scripts that work in a bare Debian: source it after setting `suite`. Needs root, debootstrap, and apt's Debian mirror.
+# For scripts that work in a bare Debian: source it, check_arguments, then set `suite`. Needs root, debootstrap, and apt's
+# Debian mirror.
 # KEEP=1 in the environment keeps the chroots and prints their paths. CCACHE=FOLDER shares results of compiling between runs.
 
-: "${suite:?}"
 fail() { echo "$(basename "$0"): $*" >&2; exit 1; }
+
+# check_arguments MOST "$@": answers --help by the script's usage(), and refuses flags and more than MOST arguments.
+check_arguments() {
+    case ${2:-} in
+    -h | --help) usage; exit 0 ;;
+    -*) usage >&2; exit 2 ;;
+    esac
+    (($# <= $1 + 1)) || { usage >&2; exit 2; }
+}
+
 say() { echo "=== $suite: $* (${SECONDS} s)"; }
 
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)

@@ -235,7 +235,7 @@ class Documents(Case):
     def test_a_method_has_the_signature_of_its_class(self):
         image = vmlight.Image(sky())
         self.assertEqual(list(inspect.signature(image.write).parameters), ["path", "format", "compression", "threads", "progress"])
-        self.assertEqual(list(inspect.signature(vmlight.Image.write).parameters), ["self", "path", "format", "threads", "progress"])
+        self.assertEqual(list(inspect.signature(vmlight.Image.write).parameters), ["self", "path", "format", "compression", "threads", "progress"])
 
     def test_stub_names_what_there_is(self):
         stub, classes = self.stub()
