@@ -11,6 +11,7 @@
 #include <vmlight/stage/mesh_list.h>
 #include <vmlight/stage/pose_report.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
+#include <vmlight/stage/strand_files.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/vismap/basis.h>
 #include <vmlight/vismap/pose_sequence.h>
@@ -70,8 +71,8 @@ int main(int argc, const char** argv)
     std::string write_path;
     stage.params("Mesh:", recipe.mesh_params);
     stage.params("Mesh:", recipe.cutout_params);
-    stage.option("write_mesh", "PATH", "Also write the mesh as baked, with the UVs of the map, to this .glb or .obj",
-                 write_path);
+    stage.option("write_mesh", "PATH",
+                 "Also write the mesh or strands as baked, with the UVs of the map, to this .glb or .obj", write_path);
     stage.params("Strands:", recipe.strand_params);
     const auto unsavable = [&] {
         return recipe.time_budget > 0    ? "--time-budget cannot be saved in a recipe: it depends on the machine"
@@ -119,8 +120,7 @@ int main(int argc, const char** argv)
     });
 
     stage.check([&] {
-        const char* const flag = !write_path.empty()               ? "--write-mesh"
-            : explain                                              ? "--explain"
+        const char* const flag = explain                           ? "--explain"
             : stage.is_dry_run()                                   ? "--dry-run"
             : poses.count() > 1 || !poses.compared(recipe).empty() ? "--frames and --pose"
             : has_udim_pattern(stage.output()) || mesh_part_pattern(stage.output())
@@ -185,7 +185,8 @@ int main(int argc, const char** argv)
         if (path == written)
             return true;
         written = path;
-        return write_mesh((*options.scene)->mesh(), path, error);
+        return bakes_strands(tile) ? write_strand_mesh(tile, path, error)
+                                   : write_mesh((*options.scene)->mesh(), path, error);
     };
     return stage.run(argc, argv, [&](std::string& error) {
         if (stage.is_form())

@@ -85,6 +85,13 @@ TEST_F(Unwrap, TheMeshIsWrittenAsBaked)
     write("quad.obj", kQuad);
     done("makevismap quad.obj --up z --write-mesh up.obj -o a.exr --resolution 8 --samples 4");
     EXPECT_THAT(read("up.obj"), HasSubstr("\nv -1 0 1\n"));
+    write("hair.obj", "v 0 0 0\nv 0 1 .5\nv 0 3 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\nl 4 5\n");
+    const std::string strands = " --radius .1 --strand-texels 4 --samples 4 ";
+    for (const std::string again : { "again.obj", "again.glb" }) {
+        done("makevismap hair.obj -o a.exr --write-mesh " + again + strands);
+        done("makevismap " + again + " -o b.exr" + strands);
+        expect_same_pixels("a.exr", "b.exr", 0);
+    }
     refused(2, "\"up.stl\": a mesh is written as .glb or .obj", "makevismap quad.obj --write-mesh up.stl -o x.exr");
     refused(2, "--write-mesh cannot be saved in a recipe", "makevismap quad.obj --write-mesh up.obj -o x.vismap");
     refused(1, "no such folder", "makevismap quad.obj --write-mesh none/up.obj -o x.exr --resolution 8");

@@ -241,6 +241,22 @@ TEST(StrandLayout, MapsAreAboutSquareAndEachStrandHasItsTexels)
     EXPECT_NE(error.find("strand_texels: "), std::string::npos);
 }
 
+TEST(StrandLayout, EachPointHasTheUvOfItsPlaceInTheMap)
+{
+    const Strands strands = straight({ { V3d(0), V3d(0, 3, 0) }, { V3d(1, 0, 0), V3d(1, 6, 0) } }, 0.1);
+    StrandLayout layout;
+    std::string error;
+    ASSERT_TRUE(StrandLayout::make(layout, 2, 8, error)) << error;
+    const std::vector<Imath::V2f> uvs = strand_uvs(strands, layout);
+    ASSERT_EQ(uvs.size(), strands.points.size());
+    for (size_t i = 0; i < uvs.size(); ++i) {
+        // The spline of evenly spaced points passes through them; the ends are the centres of the outer texels.
+        const double expected[] = { .5 / 8, 1. / 3, 2. / 3, 7.5 / 8 };
+        EXPECT_NEAR(uvs[i].x, expected[i % 4], 1e-6) << i;
+        EXPECT_NEAR(uvs[i].y, i < 4 ? .75 : .25, 1e-6) << i;
+    }
+}
+
 TEST(StrandScene, StrandsTooThinToBeMetAreRefused)
 {
     Strands thin = kAlongX;

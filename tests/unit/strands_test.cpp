@@ -2,13 +2,17 @@
 #include "mesh_fixture.h"
 #include "strand_files.h"
 
+#include <vmlight/mesh/export/write_mesh.h>
 #include <vmlight/mesh/import/strands/read_strands.h>
 #include <vmlight/mesh/strand_curve.h>
+
+#include <gmock/gmock.h>
 
 #include <cmath>
 
 using namespace mesh_files;
 using namespace vmlight::strand_files;
+using testing::HasSubstr;
 
 namespace {
 
@@ -93,6 +97,25 @@ TEST_F(StrandFiles, LineStripsOfAGltfAreWhereTheirNodesAre)
     EXPECT_EQ(line.ends, (std::vector<uint32_t> { 3 }));
     EXPECT_EQ(line.points, (std::vector<V3d> { { 5, 0, 0 }, { 7, 0, 0 }, { 5, 2, 0 } }));
     EXPECT_FALSE(is_strand_file(folder / "a.gltf"));
+}
+
+TEST_F(StrandFiles, WhatIsWrittenIsReadAgain)
+{
+    const Strands written = strands("a.hair", hair(false));
+    const std::vector<Imath::V2f> uvs { { .25f, .75f }, { .5f, .75f }, { .25f, .25f }, { .5f, .25f }, { .75f, .25f } };
+    for (const char* name : { "b.obj", "b.glb" }) {
+        SCOPED_TRACE(name);
+        std::string error;
+        ASSERT_TRUE(write_strands(written, uvs, folder / name, error)) << error;
+        Strands again;
+        ASSERT_TRUE(read_strands(again, folder / name, {}, "0.1", error)) << error;
+        EXPECT_EQ(again.ends, written.ends);
+        EXPECT_EQ(again.points, written.points);
+    }
+    EXPECT_THAT(folder.bytes("b.obj"), HasSubstr("\nvt 0.75 0.25\nl 1/1 2/2\nl 3/3 4/4 5/5\n"));
+    std::string error;
+    EXPECT_FALSE(write_strands(written, uvs, folder / "b.ply", error));
+    EXPECT_THAT(error, HasSubstr("is written as .glb or .obj"));
 }
 
 TEST_F(StrandFiles, ZUpTurnsToYUp)

@@ -2,6 +2,7 @@
 #include <vmlight/stage/strand_files.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/export/write_mesh.h>
 #include <vmlight/mesh/import/strands/read_strands.h>
 
 namespace vmlight {
@@ -16,6 +17,15 @@ bool read_strand_file(Strands& dst, StrandLayout& layout, std::vector<FileStamp>
         return false;
     at = "strand_texels";
     return StrandLayout::make(layout, dst.count(), recipe.strand_params.strand_texels, error);
+}
+
+bool write_strand_mesh(const VismapRecipe& recipe, const std::string& path, std::string& error)
+{
+    Strands strands;
+    StrandLayout layout;
+    return read_strands(strands, recipe.mesh, recipe.mesh_params, recipe.strand_params.radius, error)
+        && StrandLayout::make(layout, strands.count(), recipe.strand_params.strand_texels, error)
+        && write_strands(strands, strand_uvs(strands, layout), path, error);
 }
 
 bool build_strand_scene(StrandScene& dst, StrandSceneFacts& facts, const Strands& strands, const VismapRecipe& recipe,

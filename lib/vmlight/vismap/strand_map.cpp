@@ -80,6 +80,15 @@ Imath::V2d StrandLayout::uv(int64_t strand, double share) const
     return { (double(strand / rows) * texels + along) / map.width, 1 - (double(strand % rows) + 0.5) / map.height };
 }
 
+std::vector<Imath::V2f> strand_uvs(const Strands& strands, const StrandLayout& layout)
+{
+    std::vector<Imath::V2f> uvs;
+    for (size_t strand = 0; strand < strands.count(); ++strand)
+        for (const double share : StrandCurve(strands, strand).knot_shares())
+            uvs.emplace_back(layout.uv(int64_t(strand), share));
+    return uvs;
+}
+
 OIIO::ImageSpec describe_strand_map(const Strands& strands, const StrandLayout& layout,
                                     const StrandParams& strand_params, const VismapParams& params)
 {

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -43,6 +44,9 @@ struct StrandLayout
     /// this strand alone.
     Imath::V2d uv(int64_t strand, double share) const;
 };
+
+/// StrandLayout::uv() of each point, where its curve passes it. float: the nearest to the texels' centres.
+std::vector<Imath::V2f> strand_uvs(const Strands& strands, const StrandLayout& layout);
 
 /// Whether `key` of a vismap recipe is one that maps of strands use.
 bool is_strand_parameter(const std::string& key);

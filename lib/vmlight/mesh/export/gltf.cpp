@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 namespace vmlight {
@@ -26,11 +27,11 @@ struct Frame
     double scale = 1;
 };
 
-Frame frame_of(const Mesh& mesh)
+Frame frame_of(const std::vector<V3d>& points)
 {
     Imath::Box3d bounds;
     bool are_floats = true;
-    for (const V3d& p : mesh.positions) {
+    for (const V3d& p : points) {
         bounds.extendBy(p);
         are_floats = are_floats && V3d(V3f(p)) == p;
     }
@@ -57,11 +58,11 @@ int add_array(tinygltf::Model& model, const std::vector<Element>& elements, int 
     return int(model.accessors.size()) - 1;
 }
 
-int add_positions(tinygltf::Model& model, const Mesh& mesh, const Frame& frame)
+int add_positions(tinygltf::Model& model, const std::vector<V3d>& points, const Frame& frame)
 {
     std::vector<V3f> positions;
     V3f low(INFINITY), high(-INFINITY);
-    for (const V3d& p : mesh.positions) {
+    for (const V3d& p : points) {
         positions.push_back(V3f((p - frame.origin) / frame.scale));
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = std::min(low[axis], positions.back()[axis]);
@@ -94,15 +95,28 @@ int add_uvs(tinygltf::Model& model, const Mesh& mesh)
     return add_array(model, uvs, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-std::string utf8_name(const std::string& name)
+// A model of one mesh, without primitives yet.
+tinygltf::Model model_of(const std::string& name, const Frame& frame)
 {
-    return is_utf8(name) ? name : printable_line(name);
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = "vmlight";
+    tinygltf::Node& node = model.nodes.emplace_back();
+    node.name = model.meshes.emplace_back().name = is_utf8(name) ? name : printable_line(name);
+    node.mesh = 0;
+    if (frame.origin != V3d(0))
+        node.translation = { frame.origin.x, frame.origin.y, frame.origin.z };
+    if (frame.scale != 1)
+        node.scale = { frame.scale, frame.scale, frame.scale };
+    model.scenes.emplace_back().nodes = { 0 };
+    model.defaultScene = 0;
+    return model;
 }
 
 tinygltf::Material gltf_material(const Material& material)
 {
     tinygltf::Material result;
-    result.name = utf8_name(material.name);
+    result.name = is_utf8(material.name) ? material.name : printable_line(material.name);
     const Imath::Color4f& color = material.base_color;
     result.pbrMetallicRoughness.baseColorFactor = { color.r, color.g, color.b, color.a };
     result.pbrMetallicRoughness.metallicFactor = 0;
@@ -148,19 +162,15 @@ int add_buffer_view(tinygltf::Model& model, const void* bytes, size_t size, int 
 
 tinygltf::Model gltf_model(const Mesh& mesh)
 {
-    tinygltf::Model model;
-    model.asset.version = "2.0";
-    model.asset.generator = "vmlight";
-    const Frame frame = frame_of(mesh);
-    const int positions = add_positions(model, mesh, frame), normals = add_normals(model, mesh);
+    const Frame frame = frame_of(mesh.positions);
+    tinygltf::Model model = model_of(mesh.name, frame);
+    const int positions = add_positions(model, mesh.positions, frame), normals = add_normals(model, mesh);
     const int uvs = mesh.uvs.empty() ? -1 : add_uvs(model, mesh);
     for (const Material& material : mesh.materials)
         model.materials.push_back(gltf_material(material));
 
-    tinygltf::Mesh& parts = model.meshes.emplace_back();
-    parts.name = utf8_name(mesh.name);
     for (const auto& [kind, corners] : indices_of(mesh)) {
-        tinygltf::Primitive& part = parts.primitives.emplace_back();
+        tinygltf::Primitive& part = model.meshes[0].primitives.emplace_back();
         part.mode = TINYGLTF_MODE_TRIANGLES;
         part.attributes = { { "POSITION", positions }, { "NORMAL", normals } };
         if (!kind.second)
@@ -169,15 +179,6 @@ tinygltf::Model gltf_model(const Mesh& mesh)
                                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         part.material = kind.first < model.materials.size() ? int(kind.first) : -1;
     }
-    tinygltf::Node& node = model.nodes.emplace_back();
-    node.name = parts.name;
-    node.mesh = 0;
-    if (frame.origin != V3d(0))
-        node.translation = { frame.origin.x, frame.origin.y, frame.origin.z };
-    if (frame.scale != 1)
-        node.scale = { frame.scale, frame.scale, frame.scale };
-    model.scenes.emplace_back().nodes = { 0 };
-    model.defaultScene = 0;
     return model;
 }
 
@@ -191,6 +192,36 @@ std::string glb_bytes(tinygltf::Model& model)
 std::vector<MeshFile> gltf_files(const Mesh& mesh, const std::string& path)
 {
     tinygltf::Model model = gltf_model(mesh);
+    return { { path, glb_bytes(model) } };
+}
+
+std::vector<MeshFile> gltf_strand_files(const Strands& strands, const std::vector<V2f>& uvs, const std::string& path)
+{
+    const Frame frame = frame_of(strands.points);
+    tinygltf::Model model = model_of(strands.name, frame);
+    const int positions = add_positions(model, strands.points, frame);
+    std::vector<V2f> downwards;
+    for (const V2f& uv : uvs)
+        downwards.emplace_back(uv.x, 1 - uv.y);
+    const int lookups
+        = add_array(model, downwards, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
+    std::vector<uint32_t> numbers(strands.points.size());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const int all = add_buffer_view(model, numbers.data(), numbers.size() * sizeof(uint32_t),
+                                    TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    for (size_t strand = 0; strand < strands.count(); ++strand) {
+        tinygltf::Accessor points;
+        points.bufferView = all;
+        points.byteOffset = strands.begin(strand) * sizeof(uint32_t);
+        points.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        points.count = strands.end(strand) - strands.begin(strand);
+        points.type = TINYGLTF_TYPE_SCALAR;
+        tinygltf::Primitive& line = model.meshes[0].primitives.emplace_back();
+        line.mode = TINYGLTF_MODE_LINE_STRIP;
+        line.attributes = { { "POSITION", positions }, { "TEXCOORD_0", lookups } };
+        line.indices = int(model.accessors.size());
+        model.accessors.push_back(points);
+    }
     return { { path, glb_bytes(model) } };
 }
 

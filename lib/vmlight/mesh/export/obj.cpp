@@ -27,6 +27,24 @@ void append_coordinate(std::string& dst, double value)
         append_number(dst, value);
 }
 
+void append_points(std::string& dst, const std::vector<Imath::V3d>& points)
+{
+    for (const Imath::V3d& p : points) {
+        dst += 'v';
+        for (int axis = 0; axis < 3; ++axis)
+            append_coordinate(dst, p[axis]);
+        dst += '\n';
+    }
+}
+
+void append_uv(std::string& dst, const Imath::V2f& uv)
+{
+    dst += "vt";
+    append_number(dst, uv.x);
+    append_number(dst, uv.y);
+    dst += '\n';
+}
+
 // A name as one word: readers end it at a blank.
 std::string word(const std::string& name, const std::string& otherwise)
 {
@@ -79,19 +97,9 @@ std::vector<MeshFile> obj_files(const Mesh& mesh, const std::string& path)
         text += "mtllib " + OIIO::Filesystem::filename(materials) + "\n";
     }
     text += "o " + word(OIIO::Filesystem::filename(mesh.name), "mesh") + "\n";
-    for (const Imath::V3d& p : mesh.positions) {
-        text += 'v';
-        for (int axis = 0; axis < 3; ++axis)
-            append_coordinate(text, p[axis]);
-        text += '\n';
-    }
-    for (size_t vertex = 0; vertex < mesh.uvs.size(); ++vertex) {
-        const Imath::V2f uv = has_uv(mesh, uint32_t(vertex)) ? mesh.uvs[vertex] : Imath::V2f(0);
-        text += "vt";
-        append_number(text, uv.x);
-        append_number(text, uv.y);
-        text += '\n';
-    }
+    append_points(text, mesh.positions);
+    for (size_t vertex = 0; vertex < mesh.uvs.size(); ++vertex)
+        append_uv(text, has_uv(mesh, uint32_t(vertex)) ? mesh.uvs[vertex] : Imath::V2f(0));
     for (const Imath::V3f& n : mesh.normals) {
         text += "vn";
         for (int axis = 0; axis < 3; ++axis)
@@ -113,6 +121,24 @@ std::vector<MeshFile> obj_files(const Mesh& mesh, const std::string& path)
     }
     files.push_back({ path, std::move(text) });
     return files;
+}
+
+std::vector<MeshFile> obj_strand_files(const Strands& strands, const std::vector<Imath::V2f>& uvs,
+                                       const std::string& path)
+{
+    std::string text = "# vmlight\no " + word(OIIO::Filesystem::filename(strands.name), "strands") + "\n";
+    append_points(text, strands.points);
+    for (const Imath::V2f& uv : uvs)
+        append_uv(text, uv);
+    for (size_t strand = 0; strand < strands.count(); ++strand) {
+        text += 'l';
+        for (size_t p = strands.begin(strand); p < strands.end(strand); ++p) {
+            const std::string number = std::to_string(p + 1);
+            text += " " + number + "/" + number;
+        }
+        text += '\n';
+    }
+    return { { path, std::move(text) } };
 }
 
 } // namespace vmlight

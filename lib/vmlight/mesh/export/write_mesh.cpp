@@ -11,7 +11,8 @@
 namespace vmlight {
 namespace {
 
-constexpr MeshWriter kWriters[] = { { ".glb", gltf_files }, { ".obj", obj_files } };
+constexpr MeshWriter kWriters[]
+    = { { ".glb", gltf_files, gltf_strand_files }, { ".obj", obj_files, obj_strand_files } };
 
 const MeshWriter* find_writer(const std::string& path)
 {
@@ -20,6 +21,14 @@ const MeshWriter* find_writer(const std::string& path)
         if (extension == writer.extension)
             return &writer;
     return nullptr;
+}
+
+bool write_all(const std::vector<MeshFile>& files, std::string& error)
+{
+    for (const MeshFile& file : files)
+        if (!write_file(file.path, file.bytes, error))
+            return false;
+    return true;
 }
 
 } // namespace
@@ -37,12 +46,14 @@ std::string mesh_name_fault(const std::string& path)
 bool write_mesh(const Mesh& mesh, const std::string& path, std::string& error)
 {
     error = mesh_name_fault(path);
-    if (!error.empty() || !check_mesh(mesh, error))
-        return false;
-    for (const MeshFile& file : find_writer(path)->write(mesh, path))
-        if (!write_file(file.path, file.bytes, error))
-            return false;
-    return true;
+    return error.empty() && check_mesh(mesh, error) && write_all(find_writer(path)->write(mesh, path), error);
+}
+
+bool write_strands(const Strands& strands, const std::vector<Imath::V2f>& uvs, const std::string& path,
+                   std::string& error)
+{
+    error = mesh_name_fault(path);
+    return error.empty() && write_all(find_writer(path)->write_strands(strands, uvs, path), error);
 }
 
 } // namespace vmlight

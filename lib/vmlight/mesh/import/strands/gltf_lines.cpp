@@ -74,8 +74,7 @@ private:
             if (is_skinned || is_morphed)
                 throw gltf::Error(format("strands of mesh \"{}\" are {}, which is not read", mesh.name,
                                          is_skinned ? "skinned" : "morphed"));
-            const gltf::Numbers numbers = gltf::read_accessor(m_document, primitive.attributes.at("POSITION"),
-                                                              TINYGLTF_TYPE_VEC3, 0, "POSITION");
+            const gltf::Numbers& numbers = positions(primitive.attributes.at("POSITION"));
             std::vector<uint32_t> indices(numbers.count);
             std::iota(indices.begin(), indices.end(), 0u);
             if (primitive.indices >= 0)
@@ -97,10 +96,21 @@ private:
         }
     }
 
+    // Thousands of lines may share one array of points, which is read once.
+    const gltf::Numbers& positions(int accessor)
+    {
+        if (m_accessor != accessor)
+            m_positions = gltf::read_accessor(m_document, accessor, TINYGLTF_TYPE_VEC3, 0, "POSITION");
+        m_accessor = accessor;
+        return m_positions;
+    }
+
     Strands& m_strands;
     gltf::Document& m_document;
     const tinygltf::Model& m_model;
     std::vector<M44d> m_transforms;
+    gltf::Numbers m_positions {};
+    int m_accessor = -1; // whose numbers m_positions are
 };
 
 } // namespace
