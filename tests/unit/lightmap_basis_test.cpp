@@ -7,6 +7,10 @@
 #include <vmlight/math/packed_visibility.h>
 #include <vmlight/vismap/vismap.h>
 
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <numeric>
+
 using namespace vmlight;
 using namespace scene;
 
@@ -187,6 +191,31 @@ TEST(LightmapBasis, BitsDependOnNoThreadsAndAutoTakesWhatTheMapHas)
         EXPECT_TRUE(same_bits(image, lit(vm, { stack.back() }, model("auto")))); // all that it reads
         EXPECT_EQ(lit(vm, stack[0]).spec().get_string_attribute("vmlight:model"), "paper");
         EXPECT_EQ(lit(vm, stack, model("lobe")).spec().get_string_attribute("vmlight:model"), "lobe");
+    }
+}
+
+TEST(LightmapBasis, ChannelsMayLieAnywhereInMapsOfAnySize)
+{
+    const std::vector<ImageBuf> stack = filtered_stack(random_cfem(16, 8), 16);
+    for (const char* name : kModels) {
+        const ImageBuf whole = baked(name, 16);
+        const int count = whole.nchannels();
+        std::vector<std::string> names = whole.spec().channelnames;
+        std::vector<int> order(size_t(count), 0), apart;
+        std::iota(order.begin(), order.end(), 0);
+        // The first four, one that no model reads, the rest; and all of them backwards.
+        apart = order;
+        apart.insert(apart.begin() + 4, -1);
+        std::vector<std::string> apart_names = names;
+        apart_names.insert(apart_names.begin() + 4, "samples");
+        const std::vector<int> backwards(order.rbegin(), order.rend());
+        for (const auto& [width, height] : { std::pair(1, 1), { 2, 1 }, { 1, 3 }, { 5, 3 }, { 24, 20 } }) {
+            const ImageBuf vm = OIIO::ImageBufAlgo::cut(whole, { 0, width, 4, 4 + height, 0, 1, 0, count });
+            const ImageBuf image = lit(vm, stack, model(name));
+            for (const ImageBuf& other : { OIIO::ImageBufAlgo::channels(vm, count + 1, apart, {}, apart_names),
+                                           OIIO::ImageBufAlgo::channels(vm, count, backwards) })
+                EXPECT_TRUE(same_bits(lit(other, stack, model(name)), image)) << name << " " << width << "x" << height;
+        }
     }
 }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 namespace vmlight {
 
@@ -55,40 +57,68 @@ bool VismapReader::open(const ImageBuf& image, const LightmapParams& params, boo
     for (const std::string& channel : model.channels)
         m_index.push_back(image.spec().channelindex(channel));
     m_image = &image;
-    m_pixels = nullptr;
-    m_layout = TexelLayout::visibility_first;
+    const int channels = image.nchannels();
+    const OIIO::stride_t pixel = OIIO::stride_t(sizeof(float)) * channels;
+    const bool is_packed = image.localpixels() && image.pixeltype() == OIIO::TypeFloat && image.pixel_stride() == pixel
+        && image.scanline_stride() == pixel * image.spec().width;
+    m_pixels = is_packed ? static_cast<const float*>(image.localpixels()) : nullptr;
 
-    const std::vector<int> first { 0, 1, 2, 3 }, last { 3, 0, 1, 2 };
-    const bool packed = image.localpixels() && image.pixeltype() == OIIO::TypeFloat && image.nchannels() == 4
-        && image.pixel_stride() == 16 && image.scanline_stride() == OIIO::stride_t(16) * image.spec().width;
-    if (packed && (m_index == first || m_index == last)) {
-        m_pixels = static_cast<const float*>(image.localpixels());
-        m_layout = m_index == first ? TexelLayout::visibility_first : TexelLayout::visibility_last;
-    }
+    std::vector<int> in_order(static_cast<size_t>(channels));
+    std::iota(in_order.begin(), in_order.end(), 0);
+    const bool is_last = m_index == std::vector<int> { 3, 0, 1, 2 } && channels == 4;
+    m_is_in_place = is_packed && (is_last || m_index == in_order);
+    m_layout = m_is_in_place && is_last ? TexelLayout::visibility_last : TexelLayout::visibility_first;
+
+    const auto [first, last] = std::minmax_element(m_index.begin(), m_index.end());
+    m_first = *first;
+    m_end = *last + 1;
+    m_runs.clear();
+    for (const int index : m_index)
+        if (!m_runs.empty() && m_first + m_runs.back().from + m_runs.back().count == index)
+            ++m_runs.back().count;
+        else
+            m_runs.push_back({ index - m_first, 1 });
     return true;
+}
+
+// Copies four floats at a time, which is several times as fast as a copy of any length. What is copied too much is
+// written again by what follows; the last texels, which have no other three floats behind them, are copied exactly.
+void VismapReader::gather(float* dst, const float* texel, int stride, size_t texels) const
+{
+    const size_t exact = std::min(texels, size_t(3 / std::min(stride, channels()) + 1));
+    for (size_t i = exact; i < texels; ++i, texel += stride)
+        for (const Run& run : m_runs) {
+            for (int k = 0; k < run.count; k += 4)
+                std::memcpy(dst + k, texel + run.from + k, 4 * sizeof(float));
+            dst += run.count;
+        }
+    for (size_t i = 0; i < exact; ++i, texel += stride)
+        for (const Run& run : m_runs)
+            dst = std::copy_n(texel + run.from, run.count, dst);
 }
 
 const float* VismapReader::read(ROI roi, std::vector<float>& scratch, std::string& error) const
 {
     const OIIO::ImageSpec& spec = m_image->spec();
-    if (m_pixels)
-        return m_pixels + 4 * size_t(roi.ybegin - spec.y) * spec.width;
+    const float* const pixels
+        = m_pixels ? m_pixels + size_t(spec.nchannels) * size_t(roi.ybegin - spec.y) * spec.width : nullptr;
+    if (m_is_in_place)
+        return pixels;
 
-    const auto [first, last] = std::minmax_element(m_index.begin(), m_index.end());
-    const int channels = *last - *first + 1;
-    const size_t texels = size_t(roi.width()) * roi.height();
-    roi.chbegin = *first;
-    roi.chend = *last + 1;
-    scratch.resize(texels * (m_index.size() + size_t(channels)));
-    float* read = scratch.data() + m_index.size() * texels;
-    if (!m_image->get_pixels(roi, OIIO::TypeFloat, read)) {
+    const size_t texels = size_t(roi.width()) * roi.height(), kept = texels * m_index.size();
+    const int read = m_end - m_first;
+    scratch.resize(kept + (pixels ? 0 : texels * size_t(read)));
+    if (pixels) {
+        gather(scratch.data(), pixels + m_first, spec.nchannels, texels);
+        return scratch.data();
+    }
+    roi.chbegin = m_first;
+    roi.chend = m_end;
+    if (!m_image->get_pixels(roi, OIIO::TypeFloat, scratch.data() + kept)) {
         error = named(*m_image, oiio::error_line(*m_image));
         return nullptr;
     }
-    float* texel = scratch.data();
-    for (size_t i = 0; i < texels; ++i, read += channels)
-        for (int index : m_index)
-            *texel++ = read[index - *first];
+    gather(scratch.data(), scratch.data() + kept, read, texels);
     return scratch.data();
 }
 

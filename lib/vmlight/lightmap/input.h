@@ -35,6 +35,9 @@ public:
 
     TexelLayout layout() const { return m_layout; }
 
+    /// Floats of a texel.
+    int channels() const { return int(m_index.size()); }
+
     /// Texels of `roi`, which spans whole rows: in place if memory already holds them as the model takes them, else
     /// copied to `scratch`. nullptr, with the reason in `error`, if they cannot be read.
     const float* read(OIIO::ROI roi, std::vector<float>& scratch, std::string& error) const;
@@ -42,9 +45,20 @@ public:
     std::string name() const { return m_image->name(); }
 
 private:
+    // Channels side by side in the image that are side by side in the model.
+    struct Run
+    {
+        int from, count;
+    };
+
+    void gather(float* dst, const float* texel, int stride, size_t texels) const;
+
     const OIIO::ImageBuf* m_image = nullptr;
-    const float* m_pixels = nullptr;
+    const float* m_pixels = nullptr; // of all channels, if they are floats in memory without gaps
+    bool m_is_in_place = false;
     std::vector<int> m_index;
+    int m_first = 0, m_end = 0; // of the image's channels, those that are read
+    std::vector<Run> m_runs; // from m_first
     TexelLayout m_layout = TexelLayout::visibility_first;
 };
 

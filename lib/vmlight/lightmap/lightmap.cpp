@@ -37,9 +37,9 @@ struct Scratch
 bool shade(ImageBuf& dst, const VismapReader& vismap, const LightmapShader& shader, int nthreads,
            const Progress& progress, std::string& error)
 {
-    // Blocks of whole rows, about 16 thousand texels: long enough to schedule, short enough for Ctrl-C.
+    // Blocks of whole rows, about 64 thousand floats: long enough to schedule, short enough for Ctrl-C and the cache.
     const OIIO::ROI all = dst.roi();
-    const int rows = std::max(1, 16384 / all.width());
+    const int rows = int(std::max<int64_t>(1, 65536 / (int64_t(all.width()) * vismap.channels())));
     std::vector<Scratch> scratch(worker_count(nthreads));
     float* pixels = static_cast<float*>(dst.localpixels());
     std::mutex mutex;
