@@ -185,8 +185,11 @@ int main(int argc, const char** argv)
         if (path == written)
             return true;
         written = path;
-        return bakes_strands(tile) ? write_strand_mesh(tile, path, error)
-                                   : write_mesh((*options.scene)->mesh(), path, error);
+        Strands strands;
+        std::vector<Imath::V2f> uvs;
+        if (bakes_strands(tile))
+            return read_strand_uvs(strands, uvs, tile, error) && write_strands(strands, uvs, path, error);
+        return write_mesh((*options.scene)->mesh(), path, error);
     };
     return stage.run(argc, argv, [&](std::string& error) {
         if (stage.is_form())

@@ -2,7 +2,6 @@
 #include <vmlight/stage/strand_files.h>
 
 #include <vmlight/base/format.h>
-#include <vmlight/mesh/export/write_mesh.h>
 #include <vmlight/mesh/import/strands/read_strands.h>
 
 namespace vmlight {
@@ -19,13 +18,14 @@ bool read_strand_file(Strands& dst, StrandLayout& layout, std::vector<FileStamp>
     return StrandLayout::make(layout, dst.count(), recipe.strand_params.strand_texels, error);
 }
 
-bool write_strand_mesh(const VismapRecipe& recipe, const std::string& path, std::string& error)
+bool read_strand_uvs(Strands& dst, std::vector<Imath::V2f>& uvs, const VismapRecipe& recipe, std::string& error)
 {
-    Strands strands;
     StrandLayout layout;
-    return read_strands(strands, recipe.mesh, recipe.mesh_params, recipe.strand_params.radius, error)
-        && StrandLayout::make(layout, strands.count(), recipe.strand_params.strand_texels, error)
-        && write_strands(strands, strand_uvs(strands, layout), path, error);
+    if (!read_strands(dst, recipe.mesh, recipe.mesh_params, recipe.strand_params.radius, error)
+        || !StrandLayout::make(layout, dst.count(), recipe.strand_params.strand_texels, error))
+        return false;
+    uvs = strand_uvs(dst, layout);
+    return true;
 }
 
 bool build_strand_scene(StrandScene& dst, StrandSceneFacts& facts, const Strands& strands, const VismapRecipe& recipe,

@@ -18,9 +18,9 @@ namespace vmlight {
 bool read_strand_file(Strands& dst, StrandLayout& layout, std::vector<FileStamp>& files, const VismapRecipe& recipe,
                       const SceneStamps& stamps, std::string& at, std::string& error);
 
-/// Write the strands of a recipe, with the UVs of their map, to a .glb or .obj: see write_strands(). False, with the
-/// reason in `error`, as that and as read_strand_file().
-bool write_strand_mesh(const VismapRecipe& recipe, const std::string& path, std::string& error);
+/// Read the strands of a recipe, and the strand_uvs() of their map. False, with the reason in `error`, as
+/// read_strand_file().
+bool read_strand_uvs(Strands& dst, std::vector<Imath::V2f>& uvs, const VismapRecipe& recipe, std::string& error);
 
 /// What is known of a scene once it is built.
 struct StrandSceneFacts

@@ -5,18 +5,15 @@
 #include <vmlight/base/unique_index.h>
 #include <vmlight/mesh/import/alembic.h>
 #include <vmlight/mesh/import/alembic/error.h>
-#include <vmlight/mesh/import/alembic/objects.h>
+#include <vmlight/mesh/import/alembic/hierarchy.h>
 #include <vmlight/mesh/import/alembic/poly_mesh.h>
-#include <vmlight/mesh/import/alembic/transform.h>
 #include <vmlight/mesh/import/polygons.h>
 
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +22,6 @@ namespace vmlight {
 namespace {
 
 using namespace alembic;
-using Imath::M44d;
 using Imath::V2f;
 using Imath::V3d;
 
@@ -34,21 +30,6 @@ struct Triangle
     uint32_t face;
     std::array<uint32_t, 3> corners;
 };
-
-// Where an object appears.
-struct Place
-{
-    int parent = -1; // node
-    M44d to_object;
-    bool is_visible = true;
-};
-
-std::optional<double> seconds_of(const MeshParams& params)
-{
-    if (params.frame == MeshParams::kFirstSample)
-        return std::nullopt;
-    return params.frame / params.fps;
-}
 
 std::string quoted_list(const std::vector<std::string>& names)
 {
@@ -66,17 +47,17 @@ class Walk
 public:
     Walk(MeshBuilder& dst, const std::string& path)
         : m_dst(dst)
-        , m_objects(path)
-        , m_moment(seconds_of(dst.params()))
-        , m_root(dst.root_transform(false))
+        , m_hierarchy(path, dst.params(), dst.root_transform(false))
     {
     }
 
     void append_all()
     {
-        Place place;
-        place.to_object = m_root;
-        append_children(m_objects.top(), place);
+        m_hierarchy.visit([this](const std::string& name, int parent) { return int(m_dst.add_node(name, parent)); },
+                          [this](const Object& object, const std::string& name, const Place& place) {
+                              append(object, name, place);
+                              return true;
+                          });
         if (!m_hidden.empty())
             m_dst.warn(format("hidden, so neither baked nor occluding: {}", quoted_list(m_hidden)));
         if (!m_subdivided.empty())
@@ -85,46 +66,17 @@ public:
     }
 
 private:
-    void append_children(const Object& object, const Place& place)
-    {
-        for (size_t i = 0; i < object.reader->getNumChildren(); ++i)
-            if (!is_face_set(object.reader->getChildHeader(i)))
-                append(m_objects.child(object, i), object.reader->getChildHeader(i).getName(), place);
-    }
-
-    // Recurses as deep as the hierarchy.
     void append(const Object& object, const std::string& name, const Place& place)
     {
-        if (Objects::is_instance(object)) { // another object, under its own name
-            append(m_objects.source(object), name, place);
-            return;
-        }
-        const auto properties = object.reader->getProperties();
-        const Transform transform = read_transform(properties, m_moment);
-        Place here;
-        here.parent = int(m_dst.add_node(name, place.parent));
-        here.to_object = transform.matrix * (transform.inherits ? place.to_object : m_root);
-        here.is_visible = is_visible(properties, place.is_visible);
         const bool is_subdivided = is_subdivision_surface(object.reader->getHeader());
-        if (is_subdivided || is_poly_mesh(object.reader->getHeader())) {
-            if (!here.is_visible)
-                m_hidden.push_back(object.reader->getFullName());
-            else if (is_subdivided)
-                m_subdivided.push_back(object.reader->getFullName());
-            if (here.is_visible)
-                append_mesh(object, name, here);
-        }
-        append_children(object, here);
-    }
-
-    bool is_visible(const AbcA::CompoundPropertyReaderPtr& properties, bool is_parent_visible)
-    {
-        constexpr int8_t kAsParent = -1;
-        const auto visible = find_scalar(properties, "visible");
-        if (!visible)
-            return is_parent_visible;
-        const std::vector<int8_t> said = read_scalar<int8_t>(*visible, samples_at(*visible, m_moment).first);
-        return said.empty() || said[0] == kAsParent ? is_parent_visible : said[0] != 0;
+        if (!is_subdivided && !is_poly_mesh(object.reader->getHeader()))
+            return;
+        if (!place.is_visible)
+            m_hidden.push_back(object.reader->getFullName());
+        else if (is_subdivided)
+            m_subdivided.push_back(object.reader->getFullName());
+        if (place.is_visible)
+            append_mesh(object, name, place);
     }
 
     void append_mesh(const Object& object, const std::string& name, const Place& place)
@@ -147,7 +99,7 @@ private:
     {
         const std::string& path = object.reader->getFullName();
         try {
-            PolyMesh mesh = read_poly_mesh(*object.reader, m_moment, m_dst.params().uv_set);
+            PolyMesh mesh = read_poly_mesh(*object.reader, m_hierarchy.moment(), m_dst.params().uv_set);
             m_last_triangles = triangles_of(mesh);
             for (const std::string& fault : mesh.faults)
                 m_dst.warn(format("\"{}\": {}", path, fault));
@@ -230,10 +182,10 @@ private:
     void warn_of_frame()
     {
         const MeshParams& params = m_dst.params();
-        const auto seconds = seconds_of(params);
-        if (!seconds)
+        if (params.frame == MeshParams::kFirstSample)
             return;
-        const double first = m_moment.first() * params.fps, last = m_moment.last() * params.fps;
+        const Moment& moment = m_hierarchy.moment();
+        const double first = moment.first() * params.fps, last = moment.last() * params.fps;
         constexpr double kHardly = 1e-3; // of a frame
         if (!(first <= last))
             m_dst.warn(format("frame {:.6g}: nothing is animated", params.frame));
@@ -244,9 +196,7 @@ private:
     }
 
     MeshBuilder& m_dst;
-    Objects m_objects;
-    Moment m_moment;
-    const M44d m_root;
+    Hierarchy m_hierarchy;
     uint64_t m_vertices = 0;
     std::map<std::string, uint32_t> m_materials;
     std::vector<std::string> m_hidden, m_subdivided;
@@ -264,18 +214,7 @@ bool read_alembic(MeshBuilder& dst, const ImportRequest& request, std::string& e
         return false;
     if (request.before_open)
         request.before_open(request.path);
-    try {
-        Walk(dst, request.path).append_all();
-        return true;
-    } catch (const alembic::Error& reason) {
-        error = shortened_line(reason.what());
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& exception) { // the library throws at whatever it cannot read
-        error = format("damaged or cut short, says the Alembic library: {}",
-                       shortened_line(OIIO::Strutil::strip(exception.what())));
-    }
-    return false;
+    return without_errors(error, [&] { Walk(dst, request.path).append_all(); });
 }
 
 } // namespace vmlight

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/deep_stack.h>
 #include <vmlight/base/format.h>
+#include <vmlight/mesh/import/alembic.h>
 #include <vmlight/mesh/import/gltf.h>
 #include <vmlight/mesh/import/obj.h>
 #include <vmlight/mesh/import/strands/strand_format.h>
@@ -44,10 +45,11 @@ std::string unknown_strand_format()
 const std::vector<StrandFormat>& strand_formats()
 {
     static const std::vector<StrandFormat> formats {
-        { "HAIR", "hair", is_hair, nullptr, read_hair },
-        { "OBJ", "obj", is_obj, has_obj_lines_alone, read_obj_lines },
-        { "glTF 2.0", "gltf glb", is_gltf, has_gltf_lines_alone, read_gltf_lines },
-        { "TressFX", "tfx", nullptr, nullptr, read_tfx },
+        { "HAIR", "hair", is_hair, nullptr, true, read_hair },
+        { "OBJ", "obj", is_obj, has_obj_lines_alone, false, read_obj_lines },
+        { "glTF 2.0", "gltf glb", is_gltf, has_gltf_lines_alone, false, read_gltf_lines },
+        { "Alembic", "abc", is_alembic, has_alembic_curves_alone, true, read_alembic_curves },
+        { "TressFX", "tfx", nullptr, nullptr, false, read_tfx },
     };
     return formats;
 }
@@ -55,7 +57,7 @@ const std::vector<StrandFormat>& strand_formats()
 bool is_strand_file(const std::string& path)
 {
     const StrandFormat* format = find_strand_format(path, read_head(path));
-    return format && !format->has_lines_alone;
+    return format && (!format->has_lines_alone || (format->has_radius && has_lines_alone(path)));
 }
 
 bool has_lines_alone(const std::string& path)

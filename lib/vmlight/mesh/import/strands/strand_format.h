@@ -33,6 +33,8 @@ struct StrandFormat
     /// Of formats of meshes too, where the user says what is wanted: whether a file has lines and no triangles. False
     /// if it cannot be read. nullptr if there are no meshes.
     bool (*has_lines_alone)(const StrandRequest& request);
+    /// Such a file has a radius too: with lines alone it is one of strands, whether or not the user gives one.
+    bool has_radius;
     /// Append the strands of a file, in its own axes.
     /// @returns false, with the reason in `error` (on one line, without the path), if it cannot be read
     bool (*read)(Strands& dst, const StrandRequest& request, std::string& error);
@@ -54,5 +56,7 @@ bool has_obj_lines_alone(const StrandRequest& request);
 bool read_obj_lines(Strands& dst, const StrandRequest& request, std::string& error);
 bool has_gltf_lines_alone(const StrandRequest& request);
 bool read_gltf_lines(Strands& dst, const StrandRequest& request, std::string& error);
+bool has_alembic_curves_alone(const StrandRequest& request);
+bool read_alembic_curves(Strands& dst, const StrandRequest& request, std::string& error);
 
 } // namespace vmlight
