@@ -6,6 +6,7 @@ import os
 import threading
 import time
 import unittest
+from unittest import mock
 
 from plain_support import InFolder, executable
 from vmlight_addon import job
@@ -56,6 +57,13 @@ class Jobs(InFolder):
     def test_the_tools_take_it_for_a_terminal(self):
         """Otherwise progress would come in tenths only."""
         self.assertEqual(self.run_script("test -t 2 && test -t 1").error, "")
+
+    def test_without_terminals_it_is_a_pipe(self):
+        def no_terminal():
+            raise OSError("out of pty devices")
+        with mock.patch.object(job.pty, "openpty", no_terminal):
+            done = self.run_script('test ! -t 1 && echo "tool0 WARNING: thin"', "exit 3")
+        self.assertEqual((done.log, done.error), ([("WARNING", "thin")], "tool1 ended with code 3"))
 
     def test_cancel_ends_the_process(self):
         for stubborn in "", 'trap "" TERM\n':

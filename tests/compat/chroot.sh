@@ -23,7 +23,7 @@ chroots=()
 clean_chroots() {
     local root mounted
     for root in "${chroots[@]}"; do
-        for mounted in proc ccache; do
+        for mounted in dev/pts proc ccache .; do
             if mountpoint -q "$root/$mounted"; then umount "$root/$mounted"; fi
         done
         if [[ ${KEEP:-} == 1 ]]; then
@@ -51,7 +51,9 @@ make_chroot() {
     chmod 755 "$root" # apt fetches as a user of its own
     log=$(debootstrap --variant=minbase "$suite" "$root" "$mirror" 2>&1) ||
         { tail -n 20 <<<"$log" >&2; fail "debootstrap failed"; }
+    mount --bind "$root" "$root" # tests mount file systems below it in a namespace of their own
     mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
+    mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
     apt-config dump | grep -E '^Acquire::(https?::|Check-)' >"$root/etc/apt/apt.conf.d/90mirror" || true # as the mirror needs
     echo 'Dpkg::Use-Pty "false";' >"$root/etc/apt/apt.conf.d/90pty" # there is none
     echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"

@@ -48,7 +48,7 @@ class Machine(HardCase):
             result = subprocess.run(["unshare", *flags, "sh", "-c", script, "sh", *words], cwd=self.folder,
                                     capture_output=True, text=True, timeout=LIMIT)
             if result.returncode == 77 or "unshare" in result.stderr:
-                self.skipTest("this host lets no file system be mounted: " + result.stderr.strip())
+                self.skip("this host lets no file system be mounted: " + result.stderr.strip())
             self.assertEqual((result.returncode, result.stdout), (1, "x.exr\nold\n"), result.stderr)
             self.assertIn('ERROR: "out/x.exr": ', result.stderr)
             self.assertIn("No space left on device", result.stderr)
@@ -77,7 +77,7 @@ class Machine(HardCase):
                  "32768x32768 pixels of 30 channels need 120.0 GB of memory, ")):
             with open("/proc/meminfo") as info:
                 if int(info.readline().split()[1]) > 100 << 20:
-                    self.skipTest("a machine that may have the memory")
+                    self.skip("a machine that may have the memory")
             self.told(self.run_tool(*words, "-o", "x.exr"), 1, text)
         self.file("wide.vismap", 'mesh = "quad.obj"\nresolution = 32768\nbasis = "sh"\norder = 8\nmargin = "infinite"\nreconstruct = "off"\n')
         code, told = self.reader("wide.vismap")
@@ -92,7 +92,7 @@ class Machine(HardCase):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
         if os.environ.get("VMLIGHT_PRELOAD"):
-            self.skipTest("sanitizers take all addresses there are")
+            self.skip("sanitizers take all addresses there are")
         self.file("x.exr", "old")
         before = self.contents()
         words = ["makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--samples", "1", "--resolution"]

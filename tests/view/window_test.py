@@ -43,7 +43,8 @@ class View:
     def __init__(self, display, *arguments):
         self.folder = tempfile.mkdtemp()
         self.config = tempfile.mkdtemp()
-        self.environment = dict(os.environ, DISPLAY=display, XDG_CONFIG_HOME=self.config, LIBGL_ALWAYS_SOFTWARE="1")
+        self.environment = dict(os.environ, DISPLAY=display, XDG_CONFIG_HOME=self.config, LIBGL_ALWAYS_SOFTWARE="1",
+                                XDG_RUNTIME_DIR=self.config)  # without one, GLFW 3.4 complains on its way to X11
         self.environment.pop("OCIO", None)
         self.display = display
         self.process = subprocess.Popen([BIN + "/vmview", *arguments, "--size", "640x480", "--gl-debug"],

@@ -9,7 +9,7 @@ from . import messages
 
 try:
     import pty
-except ImportError:  # Windows: progress then comes in tenths
+except ImportError:  # Windows
     pty = None
 
 KILL_AFTER = 3.0  # seconds, of a process that does not heed SIGTERM
@@ -79,7 +79,7 @@ class Job:
             try:
                 stream = self._start(step.words)
             except OSError as fault:
-                self.error = f'cannot run "{step.words[0]}": {fault.strerror}'
+                self.error = f'cannot run "{step.words[0]}": {fault.strerror or fault}'
                 return False
         lines = messages.Lines()
         for data in stream:
@@ -103,14 +103,15 @@ class Job:
 
     def _start(self, words):
         """Starts the process, and returns the chunks of what it prints. A terminal hears of progress ten times a second,
-        a pipe every tenth of the work."""
+        a pipe, where there is no terminal, every tenth of the work."""
         options = {"stdin": subprocess.DEVNULL}
         if os.name == "nt":
             options["creationflags"] = subprocess.CREATE_NO_WINDOW
-        if not pty:
+        try:
+            ours, theirs = pty.openpty()
+        except (AttributeError, OSError):  # no module, or a container without terminals
             self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
             return iter(lambda: self._process.stdout.read1(4096), b"")
-        ours, theirs = pty.openpty()
         try:
             self._process = subprocess.Popen(words, stdout=theirs, stderr=theirs, start_new_session=True, **options)
         except OSError:
