@@ -122,7 +122,7 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
                              [](int64_t sum, const Worker& worker) { return sum + worker.rays; });
     work_counts().sun_rays += m_rays;
     if (std::any_of(dst.begin(), dst.end(), [](float t) { return t > 0; }))
-        map.margin().fill(dst.data(), int(count));
+        map.margin().fill(dst.data(), int(count), nthreads);
     return true;
 }
 
