@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/cli/main.h>
 #include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/cli/part_run.h>
@@ -149,8 +150,9 @@ int main(int argc, const char** argv)
         const std::string path = udim_path(write_path, tile.vismap_params.udim);
         if (!path.empty() && !(error = output_file_fault(path)).empty())
             return false;
+        PoseTimes times;
         if (const auto others = poses.compared(tile);
-            !others.empty() && !report_pose_changes(tile, others, poses.error(), options, error))
+            !others.empty() && !report_pose_changes(tile, others, poses.error(), times, options, error))
             return false;
         // What holds for all poses is said once; what is wrong with one of them, then.
         std::set<std::string> said;
@@ -164,6 +166,7 @@ int main(int argc, const char** argv)
         if (parts.is_given() && !parts.make(poses.at(tile, 0), poses.path(output, 0), options, error))
             return false;
         for (size_t i = 0; i < poses.count() && !parts.is_given(); ++i) {
+            const Stopwatch timer;
             MakeOptions own = options;
             if (poses.is_sequence()) {
                 own.pose = poses.name(i);
@@ -181,7 +184,11 @@ int main(int argc, const char** argv)
                     error = own.pose + ": " + error;
                 return false;
             }
+            if (poses.is_sequence())
+                times.add(own.pose, timer(), sequence.last());
         }
+        if (explain)
+            times.report(options);
         if (path == written)
             return true;
         written = path;

@@ -6,6 +6,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/frames.h>
 #include <vmlight/base/output_file.h>
+#include <vmlight/cli/animation.h>
 #include <vmlight/image/picture_file.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/recipe/unused_flags.h>
@@ -36,6 +37,30 @@ std::string output_fault_of(const Request& request)
         if (!sheet.empty() && frame_path(output, frame) == sheet)
             return format("--contact-sheet: \"{}\" is the file of frame {} too", sheet, frame);
     return sheet.empty() ? "" : output_file_fault(sheet);
+}
+
+// visit(key, name) for each input that may have a file for each frame.
+template <class Visit> void each_moving(Request& request, const Visit& visit)
+{
+    visit("mesh", request.object.map.mesh);
+    for (std::string& object : request.stage.object)
+        visit("object", object);
+    visit("vismap", request.object.vismap);
+}
+
+// What is wrong with files for each frame, or "".
+std::string sequence_fault_of(const Request& request)
+{
+    std::string fault;
+    Request copy = request;
+    each_moving(copy, [&](const char* key, const std::string& name) {
+        if (fault.empty() && !request.has_frames && is_sequence(name))
+            fault = sequence_fault(key, name);
+    });
+    if (fault.empty() && request.moves() && !request.sheet.keep.empty())
+        return "--keep is for one map of each object: not with a file for each frame; makevismap --frames and "
+               "makelightmap --frames make those of all";
+    return fault;
 }
 
 std::string models_fault(const Request& request)
@@ -140,6 +165,25 @@ std::string unused_picture(const Request& request, const std::string& name)
 
 } // namespace
 
+bool Request::moves() const
+{
+    bool found = false;
+    Request copy = *this;
+    each_moving(copy,
+                [&](const char*, const std::string& name) { found = found || (has_frames && is_sequence(name)); });
+    return found;
+}
+
+Request Request::at(size_t index) const
+{
+    Request frame = *this;
+    each_moving(frame, [&](const char*, std::string& name) {
+        if (has_frames && is_sequence(name))
+            name = frame_path(name, frames[index]);
+    });
+    return frame;
+}
+
 bool has_strands(const Request& request)
 {
     const std::vector<std::string> paths = paths_of(request);
@@ -164,6 +208,8 @@ std::string request_fault(const Request& request)
         return "ENVIRONMENT is missing, and there is no --texture";
     if (request.object.texture.find('#') != std::string::npos && !request.has_frames)
         return format("--texture: \"{}\" is a sequence: --frames is missing, such as 1-48", request.object.texture);
+    if (const std::string fault = sequence_fault_of(request); !fault.empty())
+        return fault;
     if (!request.object.vismap.empty() && !request.object.texture.empty())
         return "give only one of --vismap and --texture";
     if (!has_light && request.stage.background == "environment")

@@ -11,6 +11,7 @@
 #include <vmlight/reference/reference.h>
 #include <vmlight/stage/recipe/recipe.h>
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -91,6 +92,11 @@ struct Request
     bool is_auto_exposed = false;
     bool explains = false;
     std::string output;
+
+    /// Whether the mesh, its map or another object has a file for each frame.
+    bool moves() const;
+    /// The same with the files of frame number frames[index]; without frames, as it is.
+    Request at(size_t index) const;
 
     /// The models that one picture shows: that of `light`, or those of a comparison.
     std::vector<std::string> models() const

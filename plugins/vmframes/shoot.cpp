@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <set>
 
 namespace vmlight::frames {
 namespace {
@@ -52,6 +54,12 @@ public:
         , m_shot(request)
         , m_models(request.models())
     {
+        // What holds for all frames is said once; what is wrong with the file of one of them, then.
+        const auto said = std::make_shared<std::set<std::string>>();
+        m_options.warn = [said, warn = m_options.warn](const std::string& line) {
+            if (said->insert(line).second)
+                warn(line);
+        };
     }
 
     bool run(std::string& error)

@@ -49,7 +49,7 @@ bool Shot::open_light(const MakeOptions& options, std::string& error)
         return true;
     const std::vector<std::string> models = m_request.models();
     CfemRecipe filter = m_request.filter;
-    filter.stack = needs_stack(models) || has_strands(m_request);
+    filter.stack = needs_stack(models) || has_strands(m_request.at(0));
     filter.suns = m_trace.suns == "off" ? "off" : "auto";
     const bool is_traced = std::find(models.begin(), models.end(), kReferenceModel) != models.end();
     const bool is_seen = m_request.stage.background == "environment";
@@ -63,12 +63,15 @@ bool Shot::open_light(const MakeOptions& options, std::string& error)
     return true;
 }
 
-bool Shot::open_objects(const MakeOptions& options, std::string& error)
+bool Shot::open_objects(size_t index, const MakeOptions& options, std::string& error)
 {
-    std::vector<ObjectRecipe> recipes { m_request.object };
-    for (const std::string& path : m_request.stage.object) {
+    const Request now = m_request.at(index);
+    std::vector<ObjectRecipe> recipes { now.object };
+    Subject subject;
+    m_objects.clear();
+    for (const std::string& path : now.stage.object) {
         ObjectRecipe recipe;
-        recipe.map = m_request.object.map;
+        recipe.map = now.object.map;
         recipe.map.selection = {};
         recipe.map.mesh = path;
         recipes.push_back(recipe);
@@ -83,15 +86,18 @@ bool Shot::open_objects(const MakeOptions& options, std::string& error)
         FrameSurface& surface = m_objects.back()->surface();
         if (surface.strands && !m_request.stage.white)
             surface.strand_color = color_of(m_request.stage.strand_color);
-        m_subject.add(m_objects.back()->mesh(), m_pose);
+        subject.add(m_objects.back()->mesh(), m_pose);
         if (!m_request.stage.white
             && !m_objects.back()->read_materials(m_light.space, m_request.filter.colorconfig, options, error))
             return false;
     }
-    if (!m_subject.is_empty())
-        return true;
-    error = format("\"{}\": nothing in it can be seen", m_request.object.map.mesh);
-    return false;
+    if (subject.is_empty()) {
+        error = format("\"{}\": nothing in it can be seen", now.object.map.mesh);
+        return false;
+    }
+    if (m_subject.is_empty()) // the camera and the ground stay where the first frame has them
+        m_subject = subject;
+    return true;
 }
 
 bool Shot::open_ground(const MakeOptions& options, std::string& error)
@@ -163,10 +169,21 @@ bool Shot::open(const MakeOptions& options, std::string& error)
         return false;
     m_trace = m_request.object.trace;
     // Before the environment is split into suns and the rest: all objects are lit by one or the other.
-    if (!choose_trace(m_trace, m_request.object.vismap, options, error) || !open_light(options, error)
-        || !open_objects(options, error) || !open_ground(options, error) || !open_background(options, error)
-        || !place(error))
+    if (!choose_trace(m_trace, m_request.at(0).object.vismap, options, error) || !open_light(options, error)
+        || !open_frame(0, options, error) || !open_background(options, error))
         return false;
+    warn_of_unused(options);
+    return true;
+}
+
+// All of them anew, if one is: each is in the others' way.
+bool Shot::open_frame(size_t index, const MakeOptions& options, std::string& error)
+{
+    m_past_light_seconds = light_seconds();
+    m_scene.surfaces.clear();
+    if (!open_objects(index, options, error) || !open_ground(options, error) || !place(error))
+        return false;
+    m_open_index = index;
     for (const auto& object : m_objects)
         m_scene.surfaces.push_back(object->surface());
     if (m_ground)
@@ -176,7 +193,6 @@ bool Shot::open(const MakeOptions& options, std::string& error)
         others.erase(others.begin() + std::ptrdiff_t(i));
         (i < m_objects.size() ? *m_objects[i] : *m_ground).set_occluders(std::move(others));
     }
-    warn_of_unused(options);
     return m_scene.build(options.threads, error);
 }
 
@@ -193,6 +209,8 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
 {
     if (m_lit_index == index && m_lit_model == model)
         return true;
+    if (m_open_index != index && m_request.moves() && !open_frame(index, options, error))
+        return false;
     const std::string& texture = m_request.object.texture;
     if (texture.find('#') != std::string::npos) {
         if (!m_objects[0]->show_texture(frame_path(texture, m_request.frames[index]), error))
@@ -260,7 +278,7 @@ bool Shot::render(OIIO::ImageBuf& dst, size_t index, const std::string& model, c
 
 double Shot::light_seconds() const
 {
-    double seconds = m_ground ? m_ground->light_seconds() : 0;
+    double seconds = m_past_light_seconds + (m_ground ? m_ground->light_seconds() : 0);
     for (const auto& object : m_objects)
         seconds += object->light_seconds();
     return seconds;

@@ -50,7 +50,8 @@ public:
 
 private:
     bool open_light(const MakeOptions& options, std::string& error);
-    bool open_objects(const MakeOptions& options, std::string& error);
+    bool open_frame(size_t index, const MakeOptions& options, std::string& error);
+    bool open_objects(size_t index, const MakeOptions& options, std::string& error);
     bool open_ground(const MakeOptions& options, std::string& error);
     bool open_background(const MakeOptions& options, std::string& error);
     void warn_of_unused(const MakeOptions& options) const;
@@ -76,6 +77,8 @@ private:
     // What the objects are lit with now: a frame is lit once for all that is rendered of it.
     size_t m_lit_index = ~size_t(0);
     std::string m_lit_model, m_used_model;
+    size_t m_open_index = 0; ///< of the objects
+    double m_past_light_seconds = 0; ///< of objects of earlier frames
     double m_render_seconds = 0;
 };
 

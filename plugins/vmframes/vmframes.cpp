@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kExamples
     = "  vmframes shoe.glb studio.hdr -o shoe.png\n"
       "  vmframes shoe.glb studio.hdr -o shoe.####.png --frames 1-48 --turntable --ground white\n"
+      "  vmframes walk.####.obj studio.hdr --vismap walk_vismap.####.exr -o walk.####.png --frames 1-24\n"
       "  vmframes hero.obj studio.hdr --vismap hero_vismap.exr --layers albedo,lit,depth -o hero.exr\n"
       "  vmframes hero.obj --texture 'hero_lit.<UDIM>.exr' -o hero.png\n"
       "  vmframes hero.obj sunny.hdr --ground white --suns auto --bounce auto -o hero.png\n"
@@ -55,10 +56,13 @@ int main(int argc, const char** argv)
     StageMain stage("vmframes", "render pictures of a mesh, lit by its visibility map", { "MESH", "[ENVIRONMENT]" },
                     kExamples, OutputKind::Picture);
     stage.group("Output:");
-    stage.option("frames", "RANGE", "Frames to make, such as 1-48, with #### in -o", [&](auto text, auto& error) {
-        request.has_frames = true;
-        return parse_frames(request.frames, std::string(text), error);
-    });
+    stage.option("frames", "RANGE",
+                 "Frames to make, such as 1-48, with #### in -o; a MESH, --object, --vismap or --texture with #### has "
+                 "a file for each",
+                 [&](auto text, auto& error) {
+                     request.has_frames = true;
+                     return parse_frames(request.frames, std::string(text), error);
+                 });
     stage.params("Output:", request.render);
     stage.params("Output:", request.sheet);
     stage.params("Camera:", request.camera);
@@ -109,7 +113,7 @@ int main(int argc, const char** argv)
     };
     stage.unused([&](const std::string& name) {
         complete();
-        return unused_reason(request, name);
+        return unused_reason(request.at(0), name);
     });
     stage.check([&] {
         complete();

@@ -132,6 +132,10 @@ TEST_F(Frames, ASequenceNeedsFrames)
     refused(2, "environment: \"sky.####.exr" + reason, "makelightmap vm.exr sky.####.exr -o x.exr");
     refused(2, "vismap: \"vm.#.exr" + reason, "makelightmap vm.#.exr sky.0001.exr -o x.exr");
     refused(2, "albedo: \"a.#.exr" + reason, "makelightmap vm.exr sky.0001.exr --albedo a.#.exr -o x.exr");
+    refused(2, "mesh: \"m.#.obj" + reason, "makelightmap vm.exr sky.0001.exr --suns on --mesh m.#.obj -o x.exr");
+    refused(
+        2, "occluder: \"o.#.obj" + reason,
+        "makelightmap vm.exr sky.0001.exr --suns on --mesh quad.obj --occluder quad.obj --occluder o.#.obj -o x.exr");
     // A name that has one.
     write("take#3.exr", read("sky.0001.exr"));
     done("makelightmap vm.exr take#3.exr -o lit.exr");

@@ -7,7 +7,9 @@
 #include <cmath>
 
 using namespace vmlight;
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 
 namespace {
@@ -124,8 +126,32 @@ TEST_F(Poses, OccludersMayBeWhatMoves)
 
 TEST_F(Poses, ExplainCountsThem)
 {
-    EXPECT_THAT(done(std::string("makevismap lid.####.obj --frames 1-3 --explain -o vm.####.exr") + kFlags),
-                HasSubstr("3 poses; texels are traced again where V may change by more than 0.02"));
+    const std::string said
+        = run(std::string("makevismap lid.####.obj --frames 1-3 --explain -o vm.####.exr") + kFlags).out;
+    EXPECT_THAT(said, HasSubstr("3 poses; texels are traced again where V may change by more than 0.02"));
+    // After all of them, and what each says of itself beside its seconds.
+    const size_t table = said.find("took, pose by pose, with their files: ");
+    ASSERT_NE(table, std::string::npos);
+    EXPECT_THAT(said.substr(table),
+                MatchesRegex("[^\n]*: [0-9.]+ s\n"
+                             "  frame 1: [0-9.]+ s; baked whole\n"
+                             "  frame 2: [0-9.]+ s; [0-9.]+ % of covered texels traced again\n"
+                             "  frame 3: [0-9.]+ s; [0-9.]+ % of covered texels traced again\n"));
+    for (const int frame : { 2, 3 }) {
+        const std::string pose = said.substr(said.find(format("frame {}: pose: ", frame)));
+        const std::string text = pose.substr(0, pose.find(" % of the texels are traced again"));
+        EXPECT_THAT(
+            said.substr(table),
+            ContainsRegex(format("frame {}: [0-9.]+ s; {} % of covered", frame, text.substr(text.rfind(' ') + 1))));
+    }
+    EXPECT_THAT(
+        done(std::string("makevismap lid.####.obj --frames 1-2 --explain --effects +poses -o vm.####.exr") + kFlags),
+        ContainsRegex("  frame 1: [0-9.]+ s; baked whole\n  frame 2: [0-9.]+ s; baked whole\n"));
+    EXPECT_THAT(
+        done(std::string("makevismap lid.0001.obj --pose lid.0002.obj --explain -o vm.exr") + kFlags),
+        ContainsRegex("took, pose by pose[^\n]*\n  lid.0002.obj: compared in [0-9.]+ s; [1-9][0-9]* texels looked at"));
+    EXPECT_THAT(done(std::string("makevismap lid.0001.obj --pose lid.0002.obj -o vm.exr") + kFlags),
+                Not(HasSubstr("took")));
     EXPECT_THAT(done(std::string("makevismap lid.0001.obj --explain -o vm.exr") + kFlags),
                 HasSubstr("one pose is given"));
 }

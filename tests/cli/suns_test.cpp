@@ -76,6 +76,34 @@ TEST_F(Suns, AFileOfTheMapNeedsItsMeshAndGivesTheSameLight)
             "makelightmap hero.vismap sunny.exr --suns auto --mesh floor.obj -o c.exr");
 }
 
+TEST_F(Suns, MeshesThatMoveHaveAFileForEachFrame)
+{
+    make_sky({ 0.5f, 0.5f, 0.5f }, "paint.exr", 8, 8);
+    for (const char* frame : { "1", "2" }) {
+        write(std::string("floor.") + frame + ".obj", read("floor.obj"));
+        write(std::string("wall.") + frame + ".obj",
+              std::string("v 1 0 9\nv 1 0 -9\nv 1 ") + frame + " -9\nv 1 " + frame + " 9\nf 1 2 3 4\n");
+    }
+    const std::string light = "makelightmap ", with = " sunny.exr --albedo paint.exr --suns on --bounce on ";
+    done("makevismap floor.#.obj --occluder wall.#.obj --frames 1-2 --resolution 32 --samples 16 -o vm.#.exr");
+    done(light + "vm.#.exr" + with + "--mesh floor.#.obj --occluder wall.#.obj --frames 1-2 -o lit.#.exr");
+    for (const char* frame : { "1", "2" }) {
+        const std::string file = std::string(".") + frame;
+        done(light + "vm" + file + ".exr" + with + "--mesh floor" + file + ".obj --occluder wall" + file
+             + ".obj -o one.exr");
+        EXPECT_EQ(read("lit" + file + ".exr"), read("one.exr")) << frame;
+    }
+    EXPECT_NE(pixels("lit.1.exr").values, pixels("lit.2.exr").values);
+    // One that stays is the same in all frames; and one map is not of two scenes.
+    done(light + "vm.#.exr" + with + "--mesh floor.obj --occluder wall.#.obj --frames 1-2 -o stays.#.exr");
+    expect_same_pixels("stays.2.exr", "lit.2.exr", 0);
+    const std::string moving = " --occluder wall.#.obj --frames ";
+    EXPECT_THAT(run(light + "vm.1.exr" + with + "--mesh floor.obj" + moving + "1-2 -o x.#.exr").all(),
+                HasSubstr("\"vm.1.exr\": baked with other occluders"));
+    refused(1, "\"wall.3.obj\": no such file",
+            light + "vm.1.exr" + with + "--mesh floor.obj" + moving + "3 -o y.#.exr");
+}
+
 // A farm that lights whatever it gets does not stop, but says what the picture lacks.
 TEST_F(Suns, AutoIsWhereTheMeshIsKnown)
 {

@@ -265,6 +265,55 @@ TEST_F(Vmframes, SeveralObjectsAreInEachOthersWay)
     expect_finite("shadow.exr");
 }
 
+// Each frame is the picture of its own files, where the first one's camera stands.
+TEST_F(Vmframes, MeshesMayHaveAFileForEachFrame)
+{
+    const auto roof = [](const std::string& height) {
+        return "v -9 " + height + " -9\nv 9 " + height + " -9\nv 9 " + height + " 9\nv -9 " + height
+            + " 9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 -1 0\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+    };
+    write("roof.1.obj", roof("3"));
+    write("roof.2.obj", roof("2"));
+    const std::string lit = " sky.exr --look-at 0,0,0 --fov 0 --elevation 0";
+    // A further object that moves shades one that stays.
+    const std::string quad = "vmframes quad.obj" + lit + small;
+    EXPECT_EQ(count(done(quad + " --object roof.#.obj --frames 1-2 -o over.#.exr"), "WARNING"), 0u);
+    for (const std::string frame : { "1", "2" }) {
+        done(quad + " --object roof." + frame + ".obj -o one.exr");
+        expect_same_pixels("over." + frame + ".exr", "one.exr", 0);
+    }
+    EXPECT_NE(pixels("over.1.exr").values, pixels("over.2.exr").values);
+    // The mesh itself, with a ground, by several models, and with the maps of makevismap --frames.
+    for (const char* frame : { "1", "2" }) {
+        std::string mesh = kQuad; // its upper edge leans
+        mesh.replace(mesh.find("v 1 1 0\nv -1 1 0"), 16, std::string("v 1 1 .") + frame + "\nv -1 1 ." + frame);
+        write(std::string("lean.") + frame + ".obj", mesh + "v -1 -1 1\nv 1 1 1\nv 1 1 0\nf 5 6 7\n");
+    }
+    const std::string ground = lit + " --ground white --side-by-side ao,lobe";
+    done("vmframes lean.#.obj" + ground + small + " --frames 1-2 -o lean.#.exr");
+    done("vmframes lean.2.obj" + ground + small + " -o one.exr");
+    expect_same_pixels("lean.2.exr", "one.exr", 0);
+    EXPECT_NE(pixels("lean.1.exr").values, pixels("lean.2.exr").values);
+    done("makevismap lean.#.obj --frames 1-2 --resolution 16 --samples 4 -o vm.#.exr");
+    const std::string given = few + " --cfem-resolution 16";
+    EXPECT_EQ(count(done("vmframes lean.#.obj" + lit + given + " --vismap vm.#.exr --frames 1-2 -o given.#.exr"),
+                    "another mesh"),
+              0u);
+    done("vmframes lean.2.obj" + lit + given + " --vismap vm.2.exr -o one.exr");
+    expect_same_pixels("given.2.exr", "one.exr", 0);
+    // A map of the first frame alone is one of another mesh in the second.
+    EXPECT_EQ(count(done("vmframes lean.#.obj" + lit + given + " --vismap vm.1.exr --frames 1-2 -o given.#.exr"),
+                    "\"vm.1.exr\": was baked of another mesh than \"lean.2.obj\""),
+              1u);
+    refused(1, "\"roof.4.obj\": ", quad + " --object roof.#.obj --frames 4 -o x.#.exr");
+    const std::string reason = ": no such file, and no frames: a sequence needs --frames, such as 1-48";
+    refused(2, "mesh: \"lean.#.obj\"" + reason, "vmframes lean.#.obj sky.exr -o x.png");
+    refused(2, "object: \"roof.#.obj\"" + reason, "vmframes quad.obj sky.exr --object roof.#.obj -o x.png");
+    refused(2, "vismap: \"vm.#.exr\"" + reason, "vmframes quad.obj sky.exr --vismap vm.#.exr -o x.png");
+    refused(2, "--keep is for one map of each object",
+            "vmframes lean.#.obj sky.exr --frames 1-2 --keep kept -o x.#.exr");
+}
+
 TEST_F(Vmframes, PicturesAreShownThroughTheConfig)
 {
     const std::string line = "vmframes quad.obj sky.exr --colorconfig {config} --exposure -3 -o ";

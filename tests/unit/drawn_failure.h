@@ -35,7 +35,8 @@ inline std::string text_of(const Drawn& drawn)
                  albedo.height, drawn.light.params.model, drawn.light.suns ? ", suns" : "",
                  drawn.light.params.rotate.empty() ? "" : ", rotated", drawn.light.params.exposure)
         + (drawn.light.bounce ? ", bounce" : "")
-        + std::array { "", "; the same again", "; its first occluder moves", "; its vertices move" }[drawn.pose.kind];
+        + std::array { "", "; the same again", "; its first occluder moves", "; its vertices move",
+                       "; its first occluder and its vertices move" }[drawn.pose.kind];
 }
 
 /// Takes away what a failure does not need: what is left still `fails`, and is printed.
@@ -53,7 +54,9 @@ inline std::string shrunk(Drawn drawn, const std::function<bool(const Drawn&)>& 
     for (size_t i = 0; i <= drawn.scene.occluders.size(); ++i)
         fails_without([&](Drawn& less) { less.scene.all_meshes()[i]->opacity = nullptr; });
     const VismapParams plain;
-    fails_without([](Drawn& less) { less.pose.kind = DrawnPose::none; });
+    for (const DrawnPose::Kind less_moves : { DrawnPose::none, DrawnPose::same, DrawnPose::occluder, DrawnPose::mesh })
+        if (less_moves < drawn.pose.kind)
+            fails_without([&](Drawn& less) { less.pose.kind = less_moves; });
     fails_without([](Drawn& less) { less.light.bounce = false; });
     fails_without([](Drawn& less) { less.scene.normal_map.clear(); });
     fails_without([](Drawn& less) { less.scene.params.reconstruct = "off"; });

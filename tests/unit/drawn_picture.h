@@ -28,12 +28,14 @@ namespace vmlight {
 
 struct DrawnPicture
 {
-    OIIO::ImageBuf map, light, pose; ///< `pose` is not initialized if there is one alone
+    OIIO::ImageBuf map, light;
+    OIIO::ImageBuf pose, held, again; ///< after `map`, that pose twice and the first again; not initialized without
     VismapReport report;
     size_t traced_casters = 0, suns = 0;
     CutoutCounts cutouts;
     CutoutWork cutout_work;
     int64_t bounce_rays = 0, kept = 0; ///< `kept`: texels of the pose
+    bool is_based_anew = false; ///< the pose was baked whole, and `held` has texels of it
 
     DrawnPicture(const Drawn& drawn, const std::string& effects)
     {
@@ -41,13 +43,18 @@ struct DrawnPicture
         illuminate(drawn, effects);
     }
 
-    /// "map", "pose", "light", or "" if all is the same: of the pose, what has not moved.
+    /// What differs, or was not the same twice: "map", "pose", "held", "again", "light", or "" if all is the same: of
+    /// further poses, what has not moved.
     std::string difference(const DrawnPicture& other) const
     {
         if (!is_same(map, other.map))
             return "map";
         if (pose.initialized() && !is_same_where_still(pose, other.pose, m_scene->mesh(), *m_posed))
             return "pose";
+        if (pose.initialized() && !(is_same(held, pose) && is_same(other.held, other.pose)))
+            return "held";
+        if (pose.initialized() && !is_same_where_still(again, other.again, m_scene->mesh(), *m_posed))
+            return "again";
         return is_same(light, other.light) ? "" : "light";
     }
 
@@ -114,10 +121,19 @@ private:
         const BakeScenePointer scene = build(posed, recipe);
         const NormalMapPointer normals = normals_of(posed, scene, m_params.size(), effects);
         m_posed = { scene, &scene->mesh() };
-        EXPECT_TRUE(is_sequence ? poses.bake(pose, { scene, m_params, 1, {}, 0, normals }, "second", nullptr)
+        const MapJob next { scene, m_params, 1, {}, 0, normals };
+        EXPECT_TRUE(is_sequence ? poses.bake(pose, next, "second", nullptr)
                                 : make_vismap(pose, scene, m_params, nullptr, 1, {}, 0, normals))
             << pose.geterror();
         kept = poses.last().kept;
+        held = pose;
+        again = map;
+        if (!is_sequence)
+            return;
+        const bool is_whole = poses.last().base.empty();
+        EXPECT_TRUE(poses.bake(held, next, "second held", nullptr)) << held.geterror();
+        is_based_anew = is_whole && poses.last().kept > 0;
+        EXPECT_TRUE(poses.bake(again, job, "first again", nullptr)) << again.geterror();
     }
 
     void illuminate(const Drawn& drawn, const std::string& effects)

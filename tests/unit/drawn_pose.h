@@ -26,7 +26,8 @@ struct DrawnPose
         none, ///< one pose is all
         same, ///< nothing moves
         occluder, ///< the first one moves
-        mesh ///< vertices that are not at the box around the mesh move towards its middle, or away
+        mesh, ///< vertices that are not at the box around the mesh move towards its middle, or away
+        both ///< that occluder, and these vertices
     };
     Kind kind = none;
     Imath::V3d shift { 0 }; ///< of an occluder, in sizes of the mesh
@@ -36,7 +37,7 @@ struct DrawnPose
     {
         std::mt19937 random(seed + 2000);
         const auto number = [&](double low, double high) { return drawn_surface::number(random, low, high); };
-        constexpr std::array kKinds { none, none, none, none, same, occluder, mesh, mesh };
+        constexpr std::array kKinds { none, none, none, none, same, occluder, mesh, both };
         kind = kKinds[size_t(drawn_surface::one_of(random, int(kKinds.size())))];
         shift = Imath::V3d { number(-1, 1), number(-1, 1), number(-1, 1) };
         factor = number(0.5, 1.1);
@@ -45,10 +46,10 @@ struct DrawnPose
     DrawnScene of(DrawnScene scene) const
     {
         const SceneFrame frame = SceneFrame::around(scene.mesh);
-        if (kind == occluder && !scene.occluders.empty())
+        if ((kind == occluder || kind == both) && !scene.occluders.empty())
             for (Imath::V3d& p : scene.occluders[0].positions)
                 p += shift / frame.scale;
-        if (kind != mesh)
+        if (kind != mesh && kind != both)
             return scene;
         Imath::Box3d box;
         for (const Imath::V3d& p : scene.mesh.positions)

@@ -27,7 +27,7 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
 {
     constexpr int kScenes = cases(200, 40);
     int64_t open = 0, covered = 0, culled = 0, fewer = 0, grounds = 0, mixed = 0, transparent = 0, bumpy = 0, suns = 0,
-            bounces = 0, poses = 0, one_color = 0, ones = 0, lookups = 0, all_lookups = 0;
+            bounces = 0, poses = 0, new_bases = 0, one_color = 0, ones = 0, lookups = 0, all_lookups = 0;
     for (uint32_t seed = 0; seed < kScenes; ++seed) {
         const Drawn drawn(seed);
         const LightWork start = LightWork::so_far();
@@ -56,6 +56,7 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
         EXPECT_EQ(a.bounce_rays, b.bounce_rays);
         poses += a.kept > 0;
         EXPECT_EQ(b.kept, 0);
+        new_bases += a.is_based_anew;
         one_color += middle.filter_passes - start.filter_passes < end.filter_passes - middle.filter_passes;
         ones += middle.multiplied - start.multiplied < end.multiplied - middle.multiplied;
     }
@@ -73,6 +74,7 @@ TEST(EffectsSame, AutoAndAllHaveTheSameBytesOnTwoHundredScenes)
     EXPECT_GT(suns, share_of(5));
     EXPECT_GT(bounces, share_of(30));
     EXPECT_GT(poses, share_of(15));
+    EXPECT_GT(new_bases, share_of(1));
     EXPECT_GT(one_color, share_of(40));
     EXPECT_GT(ones, share_of(20));
 }
@@ -93,6 +95,22 @@ TEST(EffectsSame, AFailingSceneIsShrunk)
         EXPECT_THAT(least, testing::HasSubstr("model auto, exposure 0"));
     }
     EXPECT_GE(used, 5);
+}
+
+TEST(EffectsSame, APoseThatFailsMovesNoMoreThanItMust)
+{
+    int used = 0;
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+        const Drawn drawn(seed);
+        if (drawn.pose.kind != DrawnPose::both || drawn.scene.occluders.empty())
+            continue;
+        ++used;
+        EXPECT_THAT(shrunk(drawn, [](const Drawn& less) { return less.pose.kind != DrawnPose::none; }),
+                    testing::EndsWith("; the same again"));
+        EXPECT_THAT(shrunk(drawn, [](const Drawn& less) { return less.pose.kind >= DrawnPose::mesh; }),
+                    testing::EndsWith("; its vertices move"));
+    }
+    EXPECT_GE(used, 2);
 }
 
 TEST(EffectsSame, AConvexMeshTracesNoRay)

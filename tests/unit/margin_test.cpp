@@ -209,3 +209,31 @@ TEST(Margin, FurtherChannelsAreLeftAlone)
     EXPECT_EQ(image.at(3, 4)[4], -7);
     EXPECT_EQ(image.at(3, 4)[3], 0.5f);
 }
+
+TEST(Margin, APlanFillsTheSameOnAnyNumberOfThreads)
+{
+    Image image(400, 300);
+    cover_at_random(image, 40, 5);
+    const Image empty = image;
+    MarginPlan plan;
+    fill_margin(image.pixels.data(), 4, image.coverage, 60, {}, &plan);
+    int shared = 0; // rings of several parts
+    for (size_t part = 1; part < plan.parts.size(); ++part)
+        shared += plan.parts[part].ring == plan.parts[part - 1].ring;
+    EXPECT_GT(shared, 10);
+    EXPECT_EQ(plan.parts.back().ring, 59);
+    for (const int threads : { 1, 4 }) {
+        Image again = empty;
+        plan.fill(again.pixels.data(), 4, threads);
+        EXPECT_EQ(again.pixels, image.pixels) << threads;
+    }
+    // Appended to, it fills one after the other.
+    Image first(64, 64), both(64, 64);
+    MarginPlan twice;
+    for (Image* each : { &first, &both })
+        cover_at_random(*each, 3, 6);
+    for (int ring = 0; ring < 2; ++ring)
+        fill_margin(first.pixels.data(), 4, first.coverage, 1, {}, &twice);
+    twice.fill(both.pixels.data(), 4, 4);
+    EXPECT_EQ(both.pixels, first.pixels);
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What texels see of a disc of the sky, against closed forms.
+#include "baked_map.h"
 #include "scenes.h"
 
 #include <vmlight/lightmap/sun_light.h>
@@ -45,6 +46,14 @@ VismapParams sun_map_of(int side, int margin = 0)
     return map;
 }
 
+// With the rays of texels that nothing rises above.
+VismapParams traced_map_of(int side, int margin = 0)
+{
+    VismapParams map = sun_map_of(side, margin);
+    map.skip_open = false;
+    return map;
+}
+
 Disc disc_at(double elevation, double half_angle, double azimuth = 0)
 {
     const double e = elevation * latlong::pi / 180, a = azimuth * latlong::pi / 180;
@@ -61,7 +70,7 @@ TEST(SunVisibility, AnOpenFloorSeesTheWholeDisc)
             if (elevation < half_angle)
                 continue;
             const Disc disc = disc_at(elevation, half_angle, 77);
-            const SunTrace traced(floor_facing_z(1), {}, { disc }, sun_map_of(16));
+            const SunTrace traced(floor_facing_z(1), {}, { disc }, traced_map_of(16));
             for (const float t : traced.seen)
                 ASSERT_NEAR(t, disc.direction.z * (1 + std::cos(disc.half_angle)) / 2, 1e-6);
             // The corners of the map have too few neighbours to agree with, and probe the disc.
@@ -78,13 +87,61 @@ TEST(SunVisibility, WhatIsBelowTheHorizonTracesNoRay)
         ASSERT_EQ(t, 0);
     // Half of a box faces away, and no side hides another.
     const Mesh box = scenes::box(V3d(-1), V3d(1), false);
-    const SunTrace lit(box, {}, { disc_at(35, 0.265, 45) }, sun_map_of(64)),
-        other(box, {}, { disc_at(-35, 0.265, 225) }, sun_map_of(64));
+    const SunTrace lit(box, {}, { disc_at(35, 0.265, 45) }, traced_map_of(64)),
+        other(box, {}, { disc_at(-35, 0.265, 225) }, traced_map_of(64));
     // And eight in the corners of two sides, which have too few neighbours.
     EXPECT_EQ(lit.rays, std::count_if(lit.seen.begin(), lit.seen.end(), [](float t) { return t > 0; }) + 8 * 8);
     EXPECT_NEAR(double(lit.rays), double(other.rays), 0.1 * double(lit.rays));
     for (size_t i = 0; i < lit.seen.size(); ++i)
         ASSERT_TRUE(lit.seen[i] == 0 || other.seen[i] == 0);
+}
+
+TEST(SunVisibility, WhatNothingRisesAboveTracesNoRay)
+{
+    const Mesh ball = icosphere(2), box = scenes::box(V3d(-1), V3d(1), false),
+               inside = scenes::box(V3d(-1), V3d(1), true);
+    const std::vector<Mesh> beside { sphere(V3d(2.5, 0, 0), 0.5, 16) };
+    const std::vector<Disc> discs { disc_at(20, 0.265, 10), disc_at(2, 5, 77), disc_at(80, 25) }; // the second sets
+    const auto rays_of = [&](const Mesh& mesh, const std::vector<Mesh>& occluders, bool is_over_ground) {
+        VismapParams all = traced_map_of(64, 3), some = sun_map_of(64, 3);
+        all.ground = some.ground = is_over_ground;
+        const SunTrace traced(mesh, occluders, discs, all), spared(mesh, occluders, discs, some);
+        EXPECT_EQ(spared.seen, traced.seen);
+        EXPECT_GT(traced.mean(), 0);
+        return std::pair(spared.rays, traced.rays);
+    };
+    for (const bool is_over_ground : { false, true }) {
+        for (const Mesh& convex : { ball, box, floor_facing_z(1) })
+            EXPECT_EQ(rays_of(convex, {}, is_over_ground).first, 0);
+        const auto [some, all] = rays_of(box, beside, is_over_ground);
+        EXPECT_GT(some, 0);
+        EXPECT_LT(some, all);
+    }
+    // Three sides of an open room, which all see each other.
+    Mesh room = inside;
+    room.triangles.resize(6);
+    const auto [some, all] = rays_of(room, {}, false);
+    EXPECT_EQ(some, all);
+}
+
+TEST(SunVisibility, SunsOfAMapTraceNoRayEither)
+{
+    VismapParams map = sun_map_of(32);
+    map.samples = 16;
+    const BakedMap plain(scenes::box(V3d(-1), V3d(1), false), {}, map);
+    map.sun_directions = "1,2,3;0,0,1,5;-1,0.02,0,10";
+    const BakedMap spared(scenes::box(V3d(-1), V3d(1), false), {}, map);
+    map.skip_open = false;
+    const BakedMap traced(scenes::box(V3d(-1), V3d(1), false), {}, map);
+    EXPECT_EQ(plain.report.rays, 0);
+    EXPECT_EQ(spared.report.rays, 0);
+    EXPECT_GT(traced.report.rays, 0);
+    const auto pixels_of = [](const BakedMap& baked) {
+        std::vector<float> pixels(baked.spec().image_pixels() * size_t(baked.spec().nchannels));
+        EXPECT_TRUE(baked.image().get_pixels(baked.image().roi(), OIIO::TypeFloat, pixels.data()));
+        return pixels;
+    };
+    EXPECT_EQ(pixels_of(spared), pixels_of(traced));
 }
 
 // Where a disc is cut by the horizon, the mean of n.w above it: by quadrature.

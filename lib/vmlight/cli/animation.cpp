@@ -9,12 +9,6 @@
 namespace vmlight {
 namespace {
 
-bool is_sequence(const std::string& name)
-{
-    const std::string path = recipe_path(name);
-    return path.find('#') != std::string::npos && !OIIO::Filesystem::exists(path);
-}
-
 // visit(key, name) for each input that may be a sequence.
 template <class Visit> void each_input(LightmapRecipe& recipe, const Visit& visit)
 {
@@ -22,9 +16,23 @@ template <class Visit> void each_input(LightmapRecipe& recipe, const Visit& visi
     visit("environment", recipe.environment);
     visit("cfem", recipe.cfem);
     visit("albedo", recipe.albedo);
+    visit("mesh", recipe.mesh);
+    for (std::string& occluder : recipe.occluder)
+        visit("occluder", occluder);
 }
 
 } // namespace
+
+bool is_sequence(const std::string& name)
+{
+    const std::string path = recipe_path(name);
+    return path.find('#') != std::string::npos && !OIIO::Filesystem::exists(path);
+}
+
+std::string sequence_fault(const std::string& key, const std::string& name)
+{
+    return format("{}: \"{}\": no such file, and no frames: a sequence needs --frames, such as 1-48", key, name);
+}
 
 std::string Animation::fault(const std::string& output) const
 {
@@ -41,8 +49,7 @@ std::string Animation::input_fault(const LightmapRecipe& recipe) const
     LightmapRecipe copy = recipe;
     each_input(copy, [&](const char* key, const std::string& name) {
         if (fault.empty() && !has_frames && is_sequence(name))
-            fault
-                = format("{}: \"{}\": no such file, and no frames: a sequence needs --frames, such as 1-48", key, name);
+            fault = sequence_fault(key, name);
     });
     return fault;
 }

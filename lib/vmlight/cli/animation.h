@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Animated lightmaps: a turntable of frames, inputs with a file for each.
+/// Animations: inputs with a file for each frame, and lightmaps of a turntable.
 #pragma once
 
 #include <vmlight/base/frames.h>
@@ -10,6 +10,12 @@
 #include <vector>
 
 namespace vmlight {
+
+/// Whether `name`, of a file or recipe, stands for a file for each frame: it has a #, and no file has that name.
+bool is_sequence(const std::string& name);
+
+/// What to say of a sequence as the input `key` where there are no frames.
+std::string sequence_fault(const std::string& key, const std::string& name);
 
 struct Animation
 {

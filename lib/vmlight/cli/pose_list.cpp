@@ -3,6 +3,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/frames.h>
+#include <vmlight/cli/animation.h>
 #include <vmlight/mesh/import/importer.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -10,15 +11,6 @@
 #include <algorithm>
 
 namespace vmlight {
-namespace {
-
-bool has_number(const std::string& path)
-{
-    return path.find('#') != std::string::npos && !OIIO::Filesystem::exists(path);
-}
-
-} // namespace
-
 PoseList::PoseList(StageMain& stage, VismapRecipe& recipe)
     : m_stage(stage)
     , m_recipe(recipe)
@@ -69,7 +61,7 @@ std::string PoseList::fault()
         return "";
     std::vector<std::string> inputs { m_mesh, m_normal_map };
     inputs.insert(inputs.end(), m_occluders.begin(), m_occluders.end());
-    const bool has_files = std::any_of(inputs.begin(), inputs.end(), has_number);
+    const bool has_files = std::any_of(inputs.begin(), inputs.end(), vmlight::is_sequence);
     m_has_time = std::any_of(inputs.begin(), inputs.end(), [](const std::string& path) { return has_time(path); });
     if (!has_files && !m_has_time)
         return format(
@@ -93,8 +85,9 @@ VismapRecipe PoseList::at(const VismapRecipe& recipe, size_t index) const
 {
     VismapRecipe pose = recipe;
     if (has_frames()) {
-        const auto name
-            = [&](const std::string& path) { return has_number(path) ? frame_path(path, m_frames[index]) : path; };
+        const auto name = [&](const std::string& path) {
+            return vmlight::is_sequence(path) ? frame_path(path, m_frames[index]) : path;
+        };
         pose.mesh = name(m_mesh);
         pose.normal_map = name(m_normal_map);
         std::transform(m_occluders.begin(), m_occluders.end(), pose.occluder.begin(), name);

@@ -2,6 +2,7 @@
 #include <vmlight/stage/pose_report.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/same_triangles.h>
 #include <vmlight/stage/bake_switches.h>
@@ -11,6 +12,8 @@
 #include <vmlight/vismap/pose_ground.h>
 #include <vmlight/vismap/pose_plan.h>
 #include <vmlight/vismap/pose_proof.h>
+
+#include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
 
@@ -60,8 +63,8 @@ std::string unturned_text(const VismapParams& params)
                                                                   : "its suns");
 }
 
-bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allowed, const MakeOptions& options,
-                   std::string& error)
+bool report_change(PoseChange& change, const PosedMap& base, const VismapRecipe& recipe, double allowed,
+                   const MakeOptions& options, std::string& error)
 {
     PosedMap pose;
     if (!read_pose(pose, recipe, options, error))
@@ -87,7 +90,6 @@ bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allo
         return true;
     }
     VismapBaker baker;
-    PoseChange change;
     if (!baker.prepare(pose.scene, params, error, options.threads, options.step("compare", 0, 0), 0, pose.normal_map))
         return false;
     if (!measure_change(change, { base, pose, motion, baker }, allowed, options.threads,
@@ -100,6 +102,36 @@ bool report_change(const PosedMap& base, const VismapRecipe& recipe, double allo
 }
 
 } // namespace
+
+void PoseTimes::add(const std::string& name, double seconds, const PoseChange& change)
+{
+    add(seconds,
+        format("{}: compared in {:.2f} s; {} looked at", name, seconds, count_text(change.probes, "texel", "texels")));
+}
+
+void PoseTimes::add(const std::string& name, double seconds, const PoseReport& pose)
+{
+    add(seconds,
+        format("{}: {:.2f} s; {}", name, seconds,
+               pose.base.empty() ? "baked whole"
+                                 : format("{:.1f} % of covered texels traced again",
+                                          percent_of(pose.covered - pose.kept, pose.covered))));
+}
+
+void PoseTimes::add(double seconds, const std::string& line)
+{
+    m_seconds += seconds;
+    m_lines.push_back("  " + line);
+}
+
+void PoseTimes::report(const MakeOptions& options) const
+{
+    if (m_lines.empty())
+        return;
+    options.report_answer(format("took, pose by pose, with their files: {:.2f} s", m_seconds));
+    for (const std::string& line : m_lines)
+        options.report_answer(line);
+}
 
 void report_pose(const PoseReport& pose, const MakeOptions& options)
 {
@@ -121,7 +153,7 @@ void report_pose(const PoseReport& pose, const MakeOptions& options)
 }
 
 bool report_pose_changes(const VismapRecipe& recipe, const std::vector<VismapRecipe>& poses, double error_allowed,
-                         const MakeOptions& options, std::string& error)
+                         PoseTimes& times, const MakeOptions& options, std::string& error)
 {
     PosedMap base;
     if (!read_pose(base, recipe, options, error))
@@ -129,7 +161,11 @@ bool report_pose_changes(const VismapRecipe& recipe, const std::vector<VismapRec
     if (options.scene)
         *options.scene = base.scene; // the bake shares it
     return std::all_of(poses.begin(), poses.end(), [&](const VismapRecipe& pose) {
-        return report_change(base, pose, error_allowed, options, error);
+        const Stopwatch timer;
+        PoseChange change;
+        const bool done = report_change(change, base, pose, error_allowed, options, error);
+        times.add(OIIO::Filesystem::filename(pose.mesh), timer(), change);
+        return done;
     });
 }
 

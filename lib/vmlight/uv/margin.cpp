@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uv/margin.h>
 
+#include <vmlight/base/parallel.h>
 #include <vmlight/base/work_counts.h>
 
 #include <algorithm>
@@ -9,6 +10,9 @@
 
 namespace vmlight {
 namespace {
+
+// Texels that are worth a thread's while.
+constexpr size_t kPart = 2048;
 
 struct Texel
 {
@@ -110,8 +114,12 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, con
                 }
             });
         work_counts().margin_texels += int64_t(next.size());
-        for (const Texel& t : next)
-            average_neighbours(pixels, channels, filled, coverage, t, plan);
+        const int number = plan && !plan->parts.empty() ? plan->parts.back().ring + 1 : 0;
+        for (size_t i = 0; i < next.size(); ++i) {
+            if (plan && i % kPart == 0)
+                plan->parts.push_back({ plan->texels.size(), plan->sources.size(), number });
+            average_neighbours(pixels, channels, filled, coverage, next[i], plan);
+        }
         // Only now: the result must not depend on the order within a ring.
         for (const Texel& t : next)
             coverage.set(t.x, t.y);
@@ -119,18 +127,30 @@ void fill_margin(float* pixels, int channels, Coverage& coverage, int rings, con
     }
 }
 
-void MarginPlan::fill(float* pixels, int channels) const
+void MarginPlan::fill_part(size_t part, float* pixels, size_t channels) const
 {
-    const size_t stride = size_t(channels);
-    const uint32_t* source = sources.data();
-    for (const Texel& texel : texels) {
-        for (size_t c = 0; c < stride; ++c) {
+    const uint32_t* source = sources.data() + parts[part].source;
+    const size_t end = part + 1 < parts.size() ? parts[part + 1].texel : texels.size();
+    for (size_t i = parts[part].texel; i < end; ++i) {
+        const Texel& texel = texels[i];
+        for (size_t c = 0; c < channels; ++c) {
             double sum = 0;
             for (uint32_t k = 0; k < texel.sources; ++k)
-                sum += double(pixels[size_t(source[k]) * stride + c]);
-            pixels[size_t(texel.index) * stride + c] = float(sum / double(texel.sources));
+                sum += double(pixels[size_t(source[k]) * channels + c]);
+            pixels[size_t(texel.index) * channels + c] = float(sum / double(texel.sources));
         }
         source += texel.sources;
+    }
+}
+
+void MarginPlan::fill(float* pixels, int channels, int nthreads) const
+{
+    for (size_t first = 0, end; first < parts.size(); first = end) {
+        end = first;
+        while (end < parts.size() && parts[end].ring == parts[first].ring)
+            ++end;
+        parallel_items(int64_t(end - first), nthreads,
+                       [&](int64_t item, int) { fill_part(first + size_t(item), pixels, size_t(channels)); });
     }
 }
 

@@ -45,12 +45,26 @@ struct MarginPlan
         uint32_t index; ///< row by row
         uint32_t sources; ///< how many of `sources`, after those of the texels before
     };
+    /// Texels of one ring, of which none is a source of another.
+    struct Part
+    {
+        size_t texel, source; ///< the first; the part ends where the next begins
+        int ring;
+    };
     std::vector<Texel> texels; ///< ring by ring
     std::vector<uint32_t> sources; ///< indices
+    std::vector<Part> parts;
 
-    /// Fill the margin of `pixels`, all of whose `channels` are averaged.
-    void fill(float* pixels, int channels) const;
-    size_t bytes() const { return texels.capacity() * sizeof(Texel) + sources.capacity() * sizeof(uint32_t); }
+    /// Fill the margin of `pixels`, all of whose `channels` are averaged. The same bits for any number of threads.
+    void fill(float* pixels, int channels, int nthreads = 1) const;
+    size_t bytes() const
+    {
+        return texels.capacity() * sizeof(Texel) + sources.capacity() * sizeof(uint32_t)
+            + parts.capacity() * sizeof(Part);
+    }
+
+private:
+    void fill_part(size_t part, float* pixels, size_t channels) const;
 };
 
 /// Grow `coverage` by `rings` texels (negative: until every texel is filled). The averaged channels of a new texel are

@@ -114,7 +114,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             if (m_setup->has_coverage)
                 out[channel_count - 1] = 1;
             for (size_t sun = 0; sun < suns.size(); ++sun)
-                suns[sun].add(points[size_t(k)], tile_x + x, tile_y + y, out + suns_at + sun);
+                suns[sun].add(points[size_t(k)], open[size_t(k)], tile_x + x, tile_y + y, out + suns_at + sun);
         }
     }
     counts.rays = scratch.integrator.rays() - rays_before;

@@ -20,7 +20,7 @@ DiscLook::DiscLook(const Occluder& occluder, const Disc& disc, const DiscSamples
 {
 }
 
-DiscHeight DiscLook::add(const SurfacePoint& point, int left, int top, int x, int y, float* dst)
+DiscHeight DiscLook::add(const SurfacePoint& point, bool is_open, int left, int top, int x, int y, float* dst)
 {
     const DiscHeight height = m_horizon.height(point);
     if (height != DiscHeight::whole)
@@ -28,10 +28,15 @@ DiscHeight DiscLook::add(const SurfacePoint& point, int left, int top, int x, in
     const uint32_t hash = texel_hash(uint32_t(left + x), uint32_t(top + y), m_seed).u;
     const V3f& direction = m_samples.probe(hash / 4, hash % 4 != 0); // three of four at the rim
     const double facing = V3d(point.normal).dot(m_horizon.direction);
+    const auto value = float(facing * m_mean_length / DiscHorizon::counted(point));
+    if (is_open && direction.dot(point.geometric_normal) > 0) { // in floats too, as Horizon asks
+        *dst = value;
+        m_looked.set(x, y, true);
+        return height;
+    }
     m_origins[size_t(m_count)] = point.origin;
     m_directions[size_t(m_count)] = direction;
-    m_waiting[size_t(m_count)]
-        = { dst, float(facing * m_mean_length / DiscHorizon::counted(point)), uint8_t(x), uint8_t(y) };
+    m_waiting[size_t(m_count)] = { dst, value, uint8_t(x), uint8_t(y) };
     m_is_near = m_is_near || point.is_near;
     if (++m_count == kPacketSize)
         flush();

@@ -64,7 +64,8 @@ public:
     /// Look from `point`, of column and row `x`, `y` of the tile whose first texel is (left, top), along one ray, if
     /// the whole disc is above its horizons. Then `*dst` is set, by the next flush() at the latest: to T of
     /// DiscTracer::add() as if the whole disc were alike.
-    DiscHeight add(const SurfacePoint& point, int left, int top, int x, int y, float* dst);
+    /// @param is_open  nothing can block a ray of the point above its triangle: none is traced, for the same bits
+    DiscHeight add(const SurfacePoint& point, bool is_open, int left, int top, int x, int y, float* dst);
     /// Trace what is left.
     void flush();
 

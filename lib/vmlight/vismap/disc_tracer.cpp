@@ -107,15 +107,16 @@ bool DiscTracer::place(Texel& dst, const SurfacePoint& point, int x, int y) cons
     const double facing = V3d(point.normal).dot(m_horizon.direction);
     const double scale = (is_whole ? facing * m_mean_length : 1.0 / m_rays_each) / DiscHorizon::counted(point);
     const uint32_t hash = texel_hash(uint32_t(x), uint32_t(y), m_seed).u;
-    dst = { dst.dst, point, hash, scale, is_whole, is_whole, m_horizon.ground.lowest_ray(point), 0, 0, 0 };
+    dst = { dst.dst, point, hash, scale, dst.is_open, is_whole, is_whole, m_horizon.ground.lowest_ray(point), 0, 0, 0 };
     return true;
 }
 
-void DiscTracer::add(const SurfacePoint& point, int x, int y, float* dst)
+void DiscTracer::add(const SurfacePoint& point, bool is_open, int x, int y, float* dst)
 {
     *dst = 0;
     Texel texel {};
     texel.dst = dst;
+    texel.is_open = is_open;
     if (place(texel, point, x, y))
         start(texel, !texel.is_probe ? m_rays_each : m_rays_each > kLeastRays ? kProbes : kFewProbes);
 }
@@ -135,6 +136,12 @@ void DiscTracer::start(const Texel& texel, int rays)
             continue;
         }
         own.all += cosine;
+        if (own.is_open) {
+            own.seen += cosine;
+            if (--own.rays_left == 0)
+                finish(own);
+            continue;
+        }
         m_is_near = m_is_near || own.point.is_near;
         m_origins[size_t(m_count)] = own.point.origin;
         m_directions[size_t(m_count)] = direction;

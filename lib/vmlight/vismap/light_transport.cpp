@@ -272,7 +272,7 @@ bool LightTransport::gather(std::vector<float>& dst, OIIO::cspan<float> map, OII
     work_counts().bounce_rays += rays;
     ++work_counts().bounces_made;
     if (done)
-        setup.map.margin().fill(dst.data(), 3);
+        setup.map.margin().fill(dst.data(), 3, nthreads);
     return done;
 }
 

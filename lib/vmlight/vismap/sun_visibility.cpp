@@ -46,6 +46,10 @@ bool SunTracer::prepare(BakeScenePointer scene, const VismapParams& map, std::st
         return false;
     }
     m_points = std::move(points);
+    m_open = {};
+    if (map.skip_open) // for one trace, if no more: a search that pays then pays always
+        m_open.find(m_points->scene(), map.max_distance * m_points->scene().frame().scale,
+                    double(m_points->width()) * m_points->height());
     return true;
 }
 
@@ -89,8 +93,9 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
         DiscTracer all = tracer_of(k);
         const int left = map.left(tile), top = map.top(tile);
         for (const MapPoint& point : points)
-            if (one.add(point.surface, left, top, point.x, point.y, &value(tile, point, k)) == DiscHeight::cut)
-                all.add(point.surface, left + point.x, top + point.y, &value(tile, point, k));
+            if (const bool is_open = m_open.is_open(point.triangle);
+                one.add(point.surface, is_open, left, top, point.x, point.y, &value(tile, point, k)) == DiscHeight::cut)
+                all.add(point.surface, is_open, left + point.x, top + point.y, &value(tile, point, k));
         one.flush();
         all.flush();
         return one.rays() + all.rays();
@@ -103,7 +108,8 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
         DiscTracer tracer = tracer_of(k);
         for (const MapPoint& point : points)
             if (edge[point.y] >> point.x & 1)
-                tracer.add(point.surface, map.left(tile) + point.x, map.top(tile) + point.y, &value(tile, point, k));
+                tracer.add(point.surface, m_open.is_open(point.triangle), map.left(tile) + point.x,
+                           map.top(tile) + point.y, &value(tile, point, k));
         tracer.flush();
         return tracer.rays();
     };
@@ -115,8 +121,8 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
     m_rays = std::accumulate(workers.begin(), workers.end(), int64_t(0),
                              [](int64_t sum, const Worker& worker) { return sum + worker.rays; });
     work_counts().sun_rays += m_rays;
-    if (m_rays > 0)
-        map.margin().fill(dst.data(), int(count));
+    if (std::any_of(dst.begin(), dst.end(), [](float t) { return t > 0; }))
+        map.margin().fill(dst.data(), int(count), nthreads);
     return true;
 }
 

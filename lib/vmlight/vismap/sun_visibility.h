@@ -10,6 +10,7 @@
 #include <vmlight/vismap/disc_look.h>
 #include <vmlight/vismap/map_points.h>
 #include <vmlight/vismap/normal_map.h>
+#include <vmlight/vismap/open_triangles.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/span.h>
@@ -50,7 +51,8 @@ public:
     /// which is n.d (1 + cos a) / 2 where all of it is seen. As in visibility maps and the reference, directions below
     /// the geometric surface g are left out, and the result is divided by the share of the cosine above it, (1 + n.g)
     /// / 2. A texel whose horizon is above the disc gets 0 and traces no ray.
-    void add(const SurfacePoint& point, int x, int y, float* dst);
+    /// @param is_open  nothing can block a ray of the point above its triangle: none is traced, for the same bits
+    void add(const SurfacePoint& point, bool is_open, int x, int y, float* dst);
     /// Trace what is left.
     void flush();
 
@@ -63,7 +65,7 @@ private:
         SurfacePoint point;
         uint32_t hash;
         double scale; // of a mean
-        bool is_whole; // the whole disc is above all horizons
+        bool is_open, is_whole; // `is_whole`: the whole disc is above all horizons
         bool is_probe; // traced again with all rays if these do not agree
         float lowest; // GroundPlane::lowest_ray()
         double all = 0, seen = 0; // sums of cosines
@@ -102,7 +104,7 @@ public:
     ///
     /// @param scene    built
     /// @param map      as for the visibility map of the same texels: size, UDIM tile, maximum distance, ground,
-    ///                 margin and seed
+    ///                 margin and seed; and whether texels that nothing rises above are spared
     /// @param normal_map   likewise; nullptr without
     /// @returns false, with the reason in `error`, if a parameter is out of range or `progress` stopped the work
     bool prepare(BakeScenePointer scene, const VismapParams& map, std::string& error, int nthreads = 0,
@@ -121,6 +123,7 @@ public:
 
 private:
     std::unique_ptr<MapPoints> m_points;
+    OpenTriangles m_open;
     int64_t m_rays = 0;
 };
 
