@@ -68,6 +68,7 @@ demo | test) shift ;;
 package)
     shift
     packages+=("${package_tools[@]}")
+    umask 022 # CPack gives it to the members of packages
     ;;
 -h | --help)
     usage
