@@ -7,6 +7,7 @@
 #include "stages.h"
 #include "work.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/reference/reference.h>
 #include <vmlight/stage/environment_file.h>
 #include <vmlight/stage/make_stage.h>
@@ -37,7 +38,7 @@ Image bake_files(const Call& call, VismapRecipe recipe, const MeshInput& input)
     do_work(call.work, input.paths(), [&](const MakeOptions& options, std::string& error) {
         if (make_image(map, recipe, options))
             return true;
-        error = map.geterror();
+        error = oiio::error_line(map);
         return false;
     });
     return own_one(std::move(map));
@@ -54,7 +55,7 @@ Image bake_arrays(const Call& call, const VismapParams& params, const MeshInput&
         const Progress progress = options.step("bake", params.size().width, params.size().height);
         if (make_vismap(map, *input.mesh, input.occluders, params, nullptr, options.threads, progress))
             return true;
-        error = map.geterror();
+        error = oiio::error_line(map);
         return false;
     });
     return own_one(std::move(map));
@@ -117,7 +118,7 @@ bool trace(OIIO::ImageBuf& dst, const MeshInput& input, const ReferenceArguments
         made = make_reference(dst, *scene, light, map, given.light, params, options.threads, progress);
     }
     if (!made)
-        error = dst.geterror();
+        error = oiio::error_line(dst);
     return made;
 }
 

@@ -7,6 +7,7 @@
 #include "stages.h"
 #include "work.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/stage/make_stage.h>
@@ -45,7 +46,7 @@ Image filter_image(const Call& call, const CfemRecipe& recipe)
             return make_cfem_stack(images, environment.first(), params, error, options.threads, progress);
         if (make_cfem(images.emplace_back(), environment.first(), params, options.threads, progress))
             return true;
-        error = images[0].geterror();
+        error = oiio::error_line(images[0]);
         return false;
     });
     return own(std::move(images));

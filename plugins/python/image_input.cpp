@@ -6,6 +6,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -72,7 +73,7 @@ Image image_of_imagebuf(const char* name, const py::object& value, bool is_kept)
     if (is_shared)
         return { { shared_with(std::make_unique<OIIO::ImageBuf>(view_of(image)), value) } };
     if (!is_copied)
-        throw py::value_error(format("{}: {}", name, image.has_error() ? image.geterror() : "not a flat image"));
+        throw py::value_error(format("{}: {}", name, image.has_error() ? oiio::error_line(image) : "not a flat image"));
     return { { copy } };
 }
 

@@ -5,6 +5,7 @@
 #include "recipe_input.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/color.h>
@@ -204,7 +205,7 @@ bool LightInput::filter(const OIIO::ImageBuf& environment, bool stack, const Mak
         m_inputs.cfem.resize(1);
         made = make_cfem(m_inputs.cfem[0], environment, filter, options.threads, progress);
         if (!made)
-            error = m_inputs.cfem[0].geterror();
+            error = oiio::error_line(m_inputs.cfem[0]);
     }
     if (!made)
         error = with_filter_prefix(error);

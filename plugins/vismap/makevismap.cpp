@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/cli/main.h>
@@ -178,7 +179,7 @@ int main(int argc, const char** argv)
             }
             OIIO::ImageBuf vismap;
             if (!make_image(vismap, poses.at(tile, i), own))
-                error = vismap.geterror();
+                error = oiio::error_line(vismap);
             if (!error.empty() || !stage.write(vismap, poses.path(output, i), error)) {
                 if (poses.is_sequence())
                     error = own.pose + ": " + error;

@@ -6,6 +6,7 @@
 #include "timing.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/parallel.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/sun_light.h>
@@ -52,7 +53,7 @@ int tracing_seed(const CostParams& params)
 
 bool failed(const OIIO::ImageBuf& image, std::string& error)
 {
-    error = image.geterror();
+    error = oiio::error_line(image);
     return false;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bounce_bench.h"
 
+#include <vmlight/base/oiio_compat.h>
+
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
@@ -40,7 +42,7 @@ bool BounceBench::light(OIIO::ImageBuf& dst, const std::vector<OIIO::ImageBuf>& 
     if (make_lightmap(dst, m_map, images, nullptr, m_bounce.light.empty() ? nullptr : &m_bounce, params, nullptr,
                       m_options.threads, m_progress))
         return true;
-    error = dst.geterror();
+    error = oiio::error_line(dst);
     return false;
 }
 

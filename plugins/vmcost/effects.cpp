@@ -7,6 +7,7 @@
 #include "timing.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/sun_light.h>
@@ -27,7 +28,7 @@ constexpr const char* kEffectModel = "lobe";
 
 bool stage_failed(const OIIO::ImageBuf& image, std::string& error)
 {
-    error = image.geterror();
+    error = oiio::error_line(image);
     return false;
 }
 

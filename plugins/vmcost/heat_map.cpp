@@ -70,7 +70,7 @@ bool heat_map_png(std::string& png, const OIIO::ImageBuf& map, int side, std::st
     const bool written = out && out->set_ioproxy(&memory) && out->open("heat.png", spec)
         && out->write_image(OIIO::TypeDesc::FLOAT, color.localpixels()) && out->close();
     if (!written)
-        error = "cannot encode a heat map as PNG: " + (out ? out->geterror() : OIIO::geterror());
+        error = "cannot encode a heat map as PNG: " + (out ? oiio::error_line(*out) : oiio::error_line());
     png.assign(bytes.begin(), bytes.end());
     return written;
 }

@@ -8,6 +8,7 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/interrupt.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/reference/reference.h>
@@ -74,7 +75,7 @@ bool trace(Environment& environment, const Inputs& inputs, const CostParams& par
     const VismapParams map = reference_map(params);
     if (!make_reference(environment.reference, *inputs.scene, environment.image, map, {}, reference_params(params),
                         nthreads, progress)) {
-        const std::string reason = environment.reference.geterror();
+        const std::string reason = oiio::error_line(environment.reference);
         error = reason == "interrupted" ? reason : format("\"{}\": {}", environment.path, reason);
         return false;
     }

@@ -3,6 +3,7 @@
 
 #include "page/page.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/vismap/baker.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ bool make_live_page(std::string& html, const Inputs& inputs, const CfemRecipe& l
     const VismapParams map_params = reference_map(params);
     OIIO::ImageBuf map;
     if (!make_vismap(map, inputs.scene, map_params, nullptr, options.threads, progress)) {
-        error = map.geterror();
+        error = oiio::error_line(map);
         return false;
     }
     const TexelSurface surface(mesh, map.spec().width, map.spec().height, map_params.udim, options.threads);

@@ -57,6 +57,15 @@ class Rooms(unittest.TestCase):
         for at, room in enumerate(rooms):
             self.assertLessEqual(set(self.plan[room]), set(rooms[:at]), room)
 
+    def test_errors_of_openimageio_are_put_on_one_line(self):
+        """By oiio::error_line(): OpenImageIO 3 reports some in several."""
+        for folder in LIBRARY, os.path.join(SOURCE, "plugins"):
+            for path in source_files(folder):
+                with open(os.path.join(folder, path)) as file:
+                    code = re.sub("//.*", "", file.read())
+                if os.path.basename(path) != "oiio_compat.h":
+                    self.assertNotIn("geterror()", code, path)
+
     def test_only_trace_includes_embree(self):
         for path in source_files(LIBRARY):
             with open(os.path.join(LIBRARY, path)) as file:

@@ -9,6 +9,8 @@
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/filesystem.h>
 
+#include <gmock/gmock.h>
+
 using namespace color_case;
 
 namespace {
@@ -116,7 +118,9 @@ TEST_P(WhatWins, IsTheSameInTheDocumentation)
     if (OIIO::ColorConfig::OpenColorIO_version_hex() >= 0x02020000) // OpenColorIO's own
         for (const char* config : { "ocio://default", "ocio://cg-config-v1.0.0_aces-v1.3_ocio-v2.1" })
             if (*GetParam().label && GetParam().bundled != std::string("Raw") && !*GetParam().primaries) {
-                EXPECT_EQ(read_as(config), GetParam().no_rule) << config;
+                // Those of OpenColorIO 2.5 have a space for it, "Linear P3-D65".
+                const char* const known = GetParam().label == kP3 ? "Linear" : GetParam().no_rule;
+                EXPECT_THAT(read_as(config), testing::AnyOf(GetParam().no_rule, known)) << config;
             }
 }
 
@@ -162,7 +166,8 @@ TEST_F(Color, AnExrIsReadAsItsLabelsSay)
     ASSERT_TRUE(image.write(folder / "labelled.exr")) << image.geterror();
     ImageBuf aces = flat({ 0.5f, 0.25f, 0.125f });
     aces.specmod().attribute("acesImageContainerFlag", 1);
-    ASSERT_TRUE(aces.write(folder / "aces.exr")) << aces.geterror();
+    aces.specmod().attribute("compression", "none"); // and half, as OIIO 3 demands of a container
+    ASSERT_TRUE(aces.write(folder / "aces.exr", OIIO::TypeHalf)) << aces.geterror();
     ImageBuf labelled(folder / "labelled.exr"), container(folder / "aces.exr");
     ASSERT_TRUE(convert(labelled, folder / "labelled.exr", { kConfig, "" })) << error;
     EXPECT_EQ(note, "Linear Rec.709 (sRGB) -> ACEScg");

@@ -2,6 +2,8 @@
 #include "temporary_folder.h"
 #include "written_images.h"
 
+#include <vmlight/base/oiio_compat.h>
+
 #include <OpenImageIO/imagebufalgo.h>
 #include <gtest/gtest.h>
 
@@ -74,6 +76,15 @@ TEST(ImageFile, HalfIsWrittenOnRequest)
     OIIO::ImageBuf back(folder / "a.exr");
     EXPECT_EQ(back.nativespec().format, OIIO::TypeDesc::HALF);
     EXPECT_EQ(back.getchannel(0, 0, 0, back.spec().channelindex("direction.y")), 0.25f);
+}
+
+TEST(ImageFile, ErrorsOfOpenImageIOAreOnOneLine)
+{
+    OIIO::ImageBuf image;
+    image.errorfmt("cannot decode");
+    image.errorfmt("tile 3 is cut short\ncannot decode");
+    EXPECT_EQ(oiio::error_line(image), "cannot decode; tile 3 is cut short");
+    EXPECT_EQ(oiio::error_line(image), "");
 }
 
 TEST(ImageFile, UncompressedPixelsAreTheSame)

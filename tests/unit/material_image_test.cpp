@@ -47,16 +47,18 @@ MaterialTexture png_of_size(uint32_t side)
 
 TEST(MaterialImage, WhatDoesNotFitInMemoryIsRefusedByItsHeader)
 {
+    // OpenImageIO 3 refuses it when it is opened.
+    const auto is_too_large = testing::AnyOf(HasSubstr("memory"), HasSubstr("limits:imagesize_MB"));
     OIIO::ImageBuf image;
     std::string error;
     EXPECT_FALSE(MaterialImage::read_all(image, png_of_size(900000), 3, error));
     EXPECT_THAT(error, HasSubstr("\"hero.glb\": "));
-    EXPECT_THAT(error, HasSubstr("memory"));
+    EXPECT_THAT(error, is_too_large);
     // As a texture of colours too.
     std::array<int, 3> index;
     error.clear();
     EXPECT_FALSE(read_material_texture(image, index, png_of_size(900000), {}, 1, error));
-    EXPECT_THAT(error, HasSubstr("memory"));
+    EXPECT_THAT(error, is_too_large);
 }
 
 TEST(MaterialImage, BrokenPixelsAreAnError)

@@ -16,15 +16,26 @@
 
 namespace vmlight::oiio {
 
-/// The pending error of an ImageBuf, ImageOutput or ColorConfig, on one line. OIIO 3 reports some errors twice, one per
-/// line.
-template <class Object> std::string error_line(Object& object)
+/// An error text of OIIO's on one line. OIIO 3 reports some errors in several lines, and some twice.
+inline std::string one_line(const std::string& error)
 {
     std::vector<std::string> lines;
-    for (const std::string& line : OIIO::Strutil::splits(object.geterror(), "\n"))
+    for (const std::string& line : OIIO::Strutil::splits(error, "\n"))
         if (!line.empty() && std::find(lines.begin(), lines.end(), line) == lines.end())
             lines.push_back(line);
     return OIIO::Strutil::join(lines, "; ");
+}
+
+/// The pending error of an ImageBuf, ImageInput, ImageOutput, TextureSystem or ColorConfig, on one line.
+template <class Object> std::string error_line(Object& object)
+{
+    return one_line(object.geterror());
+}
+
+/// OIIO's own pending error, on one line.
+inline std::string error_line()
+{
+    return one_line(OIIO::geterror());
 }
 
 /// OIIO's `reason` for `path`, prefixed with the path in quotes, which OIIO may have named already.

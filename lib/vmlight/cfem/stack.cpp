@@ -2,6 +2,7 @@
 #include <vmlight/cfem/stack.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/exact.h>
 #include <vmlight/cfem/one_color.h>
 #include <vmlight/cfem/radiance.h>
@@ -62,7 +63,7 @@ bool make_lobes(std::vector<OIIO::ImageBuf>& dst, const Environment& env, const 
     dst.clear();
     std::vector<OIIO::ImageBuf> levels(kStackLevels);
     if (!make_cfem(levels[0], env, params, nthreads, share(progress, 0, 0.5))) {
-        error = levels[0].geterror();
+        error = oiio::error_line(levels[0]);
         return false;
     }
     const int sanitized = levels[0].spec().get_int_attribute("vmlight:sanitized");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/frame/ground.h>
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/sun_light.h>
 #include <vmlight/math/disc.h>
@@ -91,7 +92,7 @@ bool find_unshadowed(float& dst, const Mesh& ground, const SceneLight& light, co
         return false;
     const SunLight suns { light.suns, open.roi(), open_suns(light.suns, rotate(rotation, V3d(n))) };
     if (!make_lightmap(lit, open, light.filtered, light.suns.empty() ? nullptr : &suns, any, nullptr, 0, {})) {
-        error = lit.geterror();
+        error = oiio::error_line(lit);
         return false;
     }
     lit.getpixel(0, 0, rgb);

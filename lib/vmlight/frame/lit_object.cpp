@@ -2,6 +2,7 @@
 #include <vmlight/frame/lit_object.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/frame/object_mesh.h>
@@ -117,7 +118,7 @@ bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOpt
         OIIO::ImageBuf& map = dst[udim];
         if (!make_vismap(map, m_scene, params, &report, options.threads, options.step("bake", size.width, size.height),
                          m_recipe.map.time_budget)) {
-            error = map.geterror();
+            error = oiio::error_line(map);
             return false;
         }
         if (report.covered == 0 && tiles.size() > 1) { // corners that reach into it by rounding
@@ -180,7 +181,7 @@ bool LitObject::light_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& 
         bounce = traced->bounce();
     }
     if (!make_lightmap(dst, map, light.filtered, suns, bounce, params, nullptr, options.threads, {}))
-        error = dst.geterror();
+        error = oiio::error_line(dst);
     return error.empty();
 }
 
@@ -199,7 +200,7 @@ bool LitObject::trace_tile(OIIO::ImageBuf& dst, int udim, const OIIO::ImageBuf& 
         same.bounce_albedo = m_recipe.trace.bounce.bounce_albedo;
     if (!make_reference(dst, *m_scene, light.environment, size, turned, same, options.threads,
                         options.step("trace", size.width, size.height)))
-        error = dst.geterror();
+        error = oiio::error_line(dst);
     return error.empty();
 }
 

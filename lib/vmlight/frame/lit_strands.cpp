@@ -2,6 +2,7 @@
 #include <vmlight/frame/lit_strands.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cfem/stack.h>
@@ -82,7 +83,7 @@ bool LitStrands::bake_map(OIIO::ImageBuf& dst, const MakeOptions& options, std::
     const StrandBaker baker(*m_strands, *m_scene, m_layout, params);
     const OIIO::ImageSpec spec = describe_strand_map(*m_strands, m_layout, m_recipe.map.strand_params, params);
     if (!make_strand_map(dst, spec, baker, options.threads, rays, options.step("bake", spec.width, spec.height))) {
-        error = dst.geterror();
+        error = oiio::error_line(dst);
         return false;
     }
     options.report(format("bake: {}: {} of {}, {} rays each, in {:.2f} s", m_strands->name,
@@ -113,7 +114,7 @@ bool LitStrands::filter_light(const SceneLight& light, const MakeOptions& option
     params.kernel = kStrandKernel;
     params.resolution = { spec.width, spec.height };
     if (!make_cfem(m_sine, light.filtered.back(), params, options.threads))
-        error = m_sine.geterror();
+        error = oiio::error_line(m_sine);
     return error.empty();
 }
 
@@ -179,7 +180,7 @@ bool LitStrands::light(const SceneLight& light, const LightmapParams& given, con
     const OIIO::cspan<OIIO::ImageBuf> filtered
         = model.light == ModelLight::cfem ? OIIO::cspan<OIIO::ImageBuf>(&m_sine, 1) : light.filtered;
     if (!make_lightmap(lightmap, map, filtered, has_suns ? &m_suns : nullptr, params, nullptr, options.threads, {})) {
-        error = lightmap.geterror();
+        error = oiio::error_line(lightmap);
         return false;
     }
     if (!show_light(kFirstUdim, lightmap, options.threads, error))

@@ -3,6 +3,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/color.h>
 #include <vmlight/stage/material_image.h>
 #include <vmlight/stage/material_texture.h>
@@ -100,7 +101,7 @@ private:
         const size_t count = size_t(spec.width) * size_t(spec.height), channels = size_t(spec.nchannels);
         std::vector<float> all(count * channels), rgba(count * 4);
         if (!image.get_pixels(image.roi(), OIIO::TypeFloat, all.data())) {
-            error = format("\"{}\": {}", texture.path, image.geterror());
+            error = format("\"{}\": {}", texture.path, oiio::error_line(image));
             return nullptr;
         }
         for (size_t i = 0; i < count; ++i) {

@@ -122,7 +122,7 @@ bool FileTexture::lookup(const TextureFootprint& uv, float* dst, std::string& er
     const auto& [file, is_gray] = tile->second;
     if (!m_system->texture(file, options, float(at.st.x), float(at.st.y), float(at.dx.x), float(at.dx.y),
                            float(at.dy.x), float(at.dy.y), is_gray ? 1 : 3, dst)) {
-        error = format("\"{}\": {}", file.string(), m_system->geterror());
+        error = format("\"{}\": {}", file.string(), oiio::error_line(*m_system));
         return false;
     }
     if (is_gray)

@@ -2,6 +2,7 @@
 #include <vmlight/frame/traced_light.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/frame/explain_light.h>
 #include <vmlight/frame/layers.h>
 #include <vmlight/frame/surface_color.h>
@@ -24,7 +25,7 @@ bool read_channel(std::vector<float>& dst, const ImageBuf& map, int channel, std
     roi.chbegin = channel;
     roi.chend = channel + 1;
     dst.resize(size_t(roi.npixels()));
-    error = map.get_pixels(roi, OIIO::TypeFloat, dst.data()) ? "" : map.geterror();
+    error = map.get_pixels(roi, OIIO::TypeFloat, dst.data()) ? "" : oiio::error_line(map);
     return error.empty();
 }
 

@@ -2,6 +2,7 @@
 #include <vmlight/image/display.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/color_conversion.h>
 #include <vmlight/image/color_space.h>
 
@@ -47,7 +48,7 @@ OIIO::ColorProcessorHandle find_processor(const DisplayParams& params, const std
     note = format("display: {}, view: {}", display, view) + (params.look.empty() ? "" : ", look: " + params.look);
     auto processor = config->createDisplayTransform(display, view, from, params.look);
     if (!processor)
-        error = format("OCIO: {}", config->geterror());
+        error = format("OCIO: {}", oiio::error_line(*config));
     return processor;
 }
 
@@ -87,7 +88,7 @@ bool show_on_display(OIIO::ImageBuf& image, const DisplayParams& params, const s
     unmultiply(image);
     if (!OIIO::ImageBufAlgo::colorconvert(image, image, processor.get(), false, color, nthreads)
         || !OIIO::ImageBufAlgo::clamp(image, image, 0.0f, 1.0f, false, color, nthreads)) {
-        error = image.geterror();
+        error = oiio::error_line(image);
         return false;
     }
     return true;

@@ -62,7 +62,7 @@ std::string unreadable(const std::string& path, OIIO::cspan<OIIO::ImageBuf> imag
     const auto in = OIIO::ImageInput::create("openexr");
     OIIO::ImageSpec spec;
     if (!in || !in->open(path, spec))
-        return in ? oiio::error_line(*in) : OIIO::geterror();
+        return in ? oiio::error_line(*in) : oiio::error_line();
     for (int i = 0; i < int(images.size()); ++i) {
         if (!in->seek_subimage(i, 0) || OIIO::get_roi(in->spec()) != OIIO::get_roi(images[i].spec()))
             return format("image {} of {} is not what was written", i + 1, images.size());
@@ -117,12 +117,12 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::strin
         OIIO::ImageSpec ignored;
         if (file && file->open(name, ignored, hints))
             return file;
-        error = oiio::with_path(name, file ? oiio::error_line(*file) : OIIO::geterror());
+        error = oiio::with_path(name, file ? oiio::error_line(*file) : oiio::error_line());
         return nullptr;
     }
     auto file = OIIO::ImageInput::open(name, &hints);
     if (!file)
-        error = oiio::with_path(name, OIIO::geterror());
+        error = oiio::with_path(name, oiio::error_line());
     return file;
 }
 
@@ -222,7 +222,7 @@ bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, c
     const auto write = [&] {
         auto out = OIIO::ImageOutput::create("openexr");
         if (!out)
-            return failed(OIIO::geterror());
+            return failed(oiio::error_line());
         if (!file.ok())
             return failed(file.reason());
         const int count = int(specs.size());

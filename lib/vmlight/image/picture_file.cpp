@@ -78,7 +78,7 @@ bool write(OIIO::cspan<OIIO::ImageBuf> pictures, const std::string& path, double
     OutputFile file(path, TemporaryFileKind::Hidden);
     const auto out = OIIO::ImageOutput::create(format_found->oiio_name);
     if (!out || !file.ok()) {
-        error = format("\"{}\": {}", path, out ? file.reason() : OIIO::geterror());
+        error = format("\"{}\": {}", path, out ? file.reason() : oiio::error_line());
         return false;
     }
     // OIIO 2.4 compresses TIFF on several threads and corrupts memory.

@@ -20,7 +20,7 @@ bool encode_texture(std::string& bytes, const OIIO::ImageBuf& texture, const cha
     spec.attribute("oiio:ColorSpace", ""); // without it OIIO 3 marks PNG as sRGB
     const auto out = OIIO::ImageOutput::create(writer);
     if (!out || !out->supports("ioproxy")) {
-        error = format("OpenImageIO cannot write {}: {}", writer, out ? "to memory" : OIIO::geterror());
+        error = format("OpenImageIO cannot write {}: {}", writer, out ? "to memory" : oiio::error_line());
         return false;
     }
     std::vector<unsigned char> buffer;

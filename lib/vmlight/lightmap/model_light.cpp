@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/model_light.h>
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/cfem/stack.h>
 
@@ -16,7 +17,7 @@ bool make_model_light(std::vector<OIIO::ImageBuf>& dst, const Environment& env, 
         return make_radiance(dst[0], env, params, error, progress);
     if (make_cfem(dst[0], env, params, nthreads, progress))
         return true;
-    error = dst[0].geterror();
+    error = oiio::error_line(dst[0]);
     return false;
 }
 

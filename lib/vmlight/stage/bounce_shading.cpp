@@ -2,6 +2,7 @@
 #include <vmlight/stage/bounce_shading.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/cfem/radiance.h>
@@ -43,7 +44,7 @@ bool read_visibility(std::vector<float>& dst, const ImageBuf& vismap, std::strin
     roi.chend = index[0] + 1;
     dst.resize(size_t(roi.npixels()));
     if (!vismap.get_pixels(roi, OIIO::TypeFloat, dst.data()))
-        error = vismap.geterror();
+        error = oiio::error_line(vismap);
     return error.empty();
 }
 
@@ -261,7 +262,7 @@ bool BounceShading::light(BounceLight& dst, const ImageBuf& vismap, OIIO::cspan<
     ImageBuf first;
     const auto step = [&] { return options.step("bounce", dst.roi.width(), dst.roi.height()); };
     if (!make_lightmap(first, vismap, cfem, suns, unexposed, nullptr, options.threads, step())) {
-        error = first.geterror();
+        error = oiio::error_line(first);
         return false;
     }
     if (!light_points(points, vismap, cfem, suns, unexposed, options, error))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/once_cache.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
@@ -169,7 +170,7 @@ private:
             return make_radiance(dst[0], environment, params, error, progress);
         if (make_cfem(dst[0], environment, params, options.threads, progress))
             return true;
-        error = dst[0].geterror();
+        error = oiio::error_line(dst[0]);
         return false;
     }
 

@@ -2,6 +2,7 @@
 #include <vmlight/stage/make_stage.h>
 
 #include <vmlight/base/fail_with.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/open_source.h>
@@ -62,7 +63,7 @@ bool make_lightmap(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const Ligh
         roi.chbegin = channel;
         roi.chend = channel + 1;
         dst.resize(size_t(roi.npixels()));
-        reason = inputs.vismap.get_pixels(roi, OIIO::TypeFloat, dst.data()) ? "" : inputs.vismap.geterror();
+        reason = inputs.vismap.get_pixels(roi, OIIO::TypeFloat, dst.data()) ? "" : oiio::error_line(inputs.vismap);
         return reason.empty();
     };
     if (inputs.suns && !inputs.suns->shading->light(suns, inputs.suns->list, params, read, options, error))
@@ -78,7 +79,7 @@ bool make_lightmap(OIIO::ImageBuf& dst, const LightmapInputs& inputs, const Ligh
     }
     if (!make_lightmap(dst, inputs.vismap, inputs.cfem, lit_suns, bounce.light.empty() ? nullptr : &bounce, params,
                        inputs.albedo_or_none(), options.threads, options.step("light", map.width, map.height))) {
-        error = dst.geterror();
+        error = oiio::error_line(dst);
         return false;
     }
     if (inputs.bounce)

@@ -57,7 +57,7 @@ bool MaterialImage::open_embedded(const MaterialTexture& texture, std::string& e
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     m_in = OIIO::ImageInput::open(format_of->name, &config, proxy);
     if (!m_in)
-        error = format("\"{}\": a texture in it: {}", texture.path, OIIO::geterror());
+        error = format("\"{}\": a texture in it: {}", texture.path, oiio::error_line());
     return m_in != nullptr;
 }
 

@@ -97,7 +97,7 @@ public:
         if (!file)
             return false;
         if (!file->seek_subimage(m_first, 0)) {
-            error = oiio::with_path(m_path, file->geterror());
+            error = oiio::with_path(m_path, oiio::error_line(*file));
             return false;
         }
         m_spec = file->spec();
@@ -174,7 +174,7 @@ private:
         if (!file)
             return false;
         if (!file->seek_subimage(m_first + subimage, 0)) {
-            error = oiio::with_path(m_path, file->geterror());
+            error = oiio::with_path(m_path, oiio::error_line(*file));
             return false;
         }
         const OIIO::ImageSpec& spec = spec_of(subimage);
@@ -185,7 +185,7 @@ private:
         file->threads(threads);
         if (file->read_image(m_first + subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst))
             return true;
-        error = oiio::with_path(m_path, file->geterror());
+        error = oiio::with_path(m_path, oiio::error_line(*file));
         return false;
     }
 
@@ -206,7 +206,7 @@ private:
                                  OIIO::TypeFloat, pixels)
             : m_file->read_scanlines(m_first, 0, roi.ybegin, roi.yend, z, 0, channels, OIIO::TypeFloat, pixels);
         if (!good)
-            throw BadBlock(m_file->geterror());
+            throw BadBlock(oiio::error_line(*m_file));
         return block;
     }
 

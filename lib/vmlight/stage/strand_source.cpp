@@ -3,6 +3,7 @@
 
 #include <vmlight/base/file_stamp.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/once_cache.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/base/text_format.h>
@@ -62,7 +63,7 @@ public:
         OIIO::ImageBuf& map = dst.emplace_back();
         if (!make_strand_map(map, m_spec, m_baker, options.threads, rays,
                              options.step("bake", m_spec.width, m_spec.height))) {
-            error = map.geterror();
+            error = oiio::error_line(map);
             return false;
         }
         if (!m_facts.occluder_hashes.empty())

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/stage/make_stage.h>
 
 #include <vmlight/base/format.h>
@@ -89,7 +90,7 @@ public:
         if (!(poses ? poses->bake(map, job, options.pose, &report)
                     : make_vismap(map, job.scene, job.params, &report, job.nthreads, job.progress, job.time_budget,
                                   job.normal_map, job.at_step))) {
-            error = map.geterror();
+            error = oiio::error_line(map);
             return false;
         }
         tag(map.specmod(), *inputs.scene);

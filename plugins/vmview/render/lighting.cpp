@@ -5,6 +5,7 @@
 #include "false_color.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 
 namespace vmlight::view {
 
@@ -48,7 +49,7 @@ bool show_surface(Renderer& renderer, int slot, const std::string& word, const L
         return renderer.relight(slot, chosen, error);
     OIIO::ImageBuf lightmap;
     if (!make_lightmap(lightmap, map.image, renderer.light()->filtered(), chosen)) {
-        error = lightmap.geterror();
+        error = oiio::error_line(lightmap);
         return false;
     }
     renderer.set_texture(slot, static_cast<const float*>(lightmap.localpixels()), true);

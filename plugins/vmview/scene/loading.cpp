@@ -2,6 +2,7 @@
 #include "loading.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/frame/scene_light.h>
 #include <vmlight/image/channels.h>
@@ -38,7 +39,7 @@ MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples
     params.samples = samples;
     OIIO::ImageBuf image;
     if (!make_vismap(image, mesh.scene, params, nullptr, threads, progress)) {
-        error = image.geterror();
+        error = oiio::error_line(image);
         return nullptr;
     }
     return make_map_asset(std::move(image), samples, mesh, threads);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light_jobs.h"
 
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/reference/reference.h>
 
 #include <utility>
@@ -19,7 +20,7 @@ ImageJob::Work relight_work(MapPointer map, LightPointer light, const LightmapPa
         JobResult<OIIO::ImageBuf> result;
         result.is_last = true;
         if (!make_lightmap(result.value, map->image, light->filtered(), params, nullptr, threads, go_on))
-            result.error = result.value.geterror();
+            result.error = oiio::error_line(result.value);
         post(std::move(result));
     };
 }
@@ -40,7 +41,7 @@ ImageJob::Work reference_work(MeshPointer mesh, MapPointer map, LightPointer lig
             result.is_last = pairs == kMostPairs;
             if (!make_reference(result.value, *mesh->scene, light->light.environment, size, turned, reference, threads,
                                 go_on)) {
-                result.error = result.value.geterror();
+                result.error = oiio::error_line(result.value);
                 result.is_last = true;
             }
             const bool is_last = result.is_last;

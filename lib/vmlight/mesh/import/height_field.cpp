@@ -3,6 +3,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/oiio_compat.h>
 #include <vmlight/mesh/import/height_grid.h>
 
 #include <OpenImageIO/imageio.h>
@@ -53,7 +54,7 @@ bool read_heights(HeightGrid& dst, const std::string& path, float scale, std::st
 {
     const auto input = OIIO::ImageInput::open(path);
     if (!input) {
-        error = format("not an image that can be read: {}", OIIO::geterror());
+        error = format("not an image that can be read: {}", oiio::error_line());
         return false;
     }
     const OIIO::ImageSpec spec = input->spec();
@@ -72,7 +73,7 @@ bool read_heights(HeightGrid& dst, const std::string& path, float scale, std::st
     dst.full_rows = spec.full_height;
     dst.heights.resize(size_t(spec.width) * size_t(spec.height));
     if (!input->read_image(0, 0, channel, channel + 1, OIIO::TypeFloat, dst.heights.data())) {
-        error = input->geterror();
+        error = oiio::error_line(*input);
         return false;
     }
     for (size_t i = 0; i < dst.heights.size(); ++i) {
