@@ -12,17 +12,10 @@ KEEP=1 in the environment keeps the chroot and prints its path; CCACHE=FOLDER sh
 END
 }
 
-case ${1:-} in
--*)
-    usage
-    [[ $1 == -h || $1 == --help ]] && exit 0
-    exit 2
-    ;;
-esac
-(($# <= 1)) || { usage >&2; exit 2; }
-suite=${1:-sid}
 # shellcheck source=tests/compat/chroot.sh
 source "$(dirname "${BASH_SOURCE[0]}")/chroot.sh"
+check_arguments 1 "$@"
+suite=${1:-sid}
 
 say "debootstrap"
 make_chroot
