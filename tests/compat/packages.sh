@@ -34,11 +34,14 @@ else
     make_chroot
     date=$(git -C "$source" log -1 --format=%ct)
     copy_tree /vmlight
+    again=/home/some/where/else/vmlight
+    if [[ ${TWICE:-} == 1 ]]; then # now: who works on the tree meanwhile changes neither
+        mkdir -p "$root${again%/*}"
+        cp -a "$root/vmlight" "$root$again"
+    fi
     step "bootstrap.sh package" inside SOURCE_DATE_EPOCH="$date" /vmlight/bootstrap.sh package
     packages=$root/vmlight/build/package/packages
     if [[ ${TWICE:-} == 1 ]]; then
-        again=/home/some/where/else/vmlight
-        copy_tree $again
         step "the same in another folder, with another umask, time zone and language" inside SOURCE_DATE_EPOCH="$date" \
             TZ=Asia/Kolkata LC_ALL=C LANG=C bash -c "umask 077; $again/bootstrap.sh package"
         for package in "$packages"/*.deb; do
