@@ -7,6 +7,7 @@
 #include <vmlight/base/frames.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/cli/animation.h>
+#include <vmlight/image/image_file.h>
 #include <vmlight/image/picture_file.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/recipe/unused_flags.h>
@@ -160,6 +161,8 @@ std::string unused_picture(const Request& request, const std::string& name)
     if (is_any(param_names(DisplayParams()), name) && is_exr_name(request.output)
         && request.sheet.contact_sheet.empty())
         return "an EXR holds scene-linear light, as no display shows it";
+    if (is_any(param_names(FileParams()), name) && !is_exr_name(request.output))
+        return "only an EXR is stored so";
     return "";
 }
 

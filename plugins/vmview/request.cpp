@@ -2,6 +2,7 @@
 #include "request.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/image/image_file.h>
 #include <vmlight/image/picture_file.h>
 #include <vmlight/stage/recipe/unused_flags.h>
 
@@ -49,6 +50,8 @@ std::string unused_reason(const Request& request, const std::string& name)
         return "only --background environment is blurred";
     if (is_one_of(param_names(DisplayParams())) && OIIO::Strutil::iends_with(request.output, ".exr"))
         return "an EXR holds scene-linear light, as no display shows it";
+    if (is_one_of(param_names(FileParams())) && !OIIO::Strutil::iends_with(request.output, ".exr"))
+        return "only an EXR is stored so";
     const std::string reason = unused_reason(request.camera, name);
     return reason.empty() ? unused_reason(request.mesh, name) : reason;
 }

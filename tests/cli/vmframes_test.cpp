@@ -335,6 +335,8 @@ TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
     EXPECT_EQ(centre[0], 0); // green hair is in front
     EXPECT_GT(centre[1], 0);
     done("vmframes hair.obj sky.exr --radius .05 -o alone.png --samples 4" + few);
+    for (const std::string flag : { "--format half", "--compression none" })
+        refused(2, "only an EXR is stored so", "vmframes quad.obj sky.exr -o a.png " + flag + small);
     refused(2, "no object is strands", "vmframes quad.obj sky.exr --radius .1 -o a.png" + small);
     refused(2, "no object is strands", "vmframes quad.obj sky.exr --strand-color 1,0,0 -o a.png" + small);
     refused(2, "--white shows all white",

@@ -58,6 +58,7 @@ class Command(unittest.TestCase):
         self.assert_fails(2, "MESH is missing; only a window opens without one", "-o", "a.exr")
         self.assert_fails(2, "ENVIRONMENT is missing", MESH, "-o", "a.exr")
         self.assert_fails(2, "--headless needs -o PICTURE, or --bench", MESH, SKY, "--headless")
+        self.assert_fails(2, "--format half: only an EXR is stored so", MESH, SKY, "--headless", "-o", "a.png", "--format", "half")
         self.assert_fails(2, '"a.gif": the extension must be exr, png, jpg, webp or tif', MESH, SKY, "-o", "a.gif")
         self.assert_fails(2, "show", MESH, SKY, "-o", "a.exr", "--show", "nonsense")
         self.assert_fails(2, "unexpected argument", MESH, SKY, SKY, "-o", "a.exr")

@@ -107,11 +107,11 @@ class Job:
         options = {"stdin": subprocess.DEVNULL}
         if os.name == "nt":
             options["creationflags"] = subprocess.CREATE_NO_WINDOW
-        try:
-            ours, theirs = pty.openpty()
-        except (AttributeError, OSError):  # no module, or a container without terminals
+        terminal = _open_terminal()
+        if not terminal:
             self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
             return iter(lambda: self._process.stdout.read1(4096), b"")
+        ours, theirs = terminal
         try:
             self._process = subprocess.Popen(words, stdout=theirs, stderr=theirs, start_new_session=True, **options)
         except OSError:
@@ -120,6 +120,14 @@ class Job:
         finally:
             os.close(theirs)
         return _terminal(ours)
+
+
+def _open_terminal():
+    """Both ends of a new one, or None."""
+    try:
+        return pty.openpty() if pty else None
+    except OSError:  # a container without /dev/pts
+        return None
 
 
 def _terminal(descriptor):
