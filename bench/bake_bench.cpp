@@ -152,8 +152,8 @@ int main(int argc, const char** argv)
                 if (cover.triangle[texel] == TileCover::kNone)
                     continue;
                 const SurfacePoint p = surface.at(cover.triangle[texel], cover.weight1[texel], cover.weight2[texel]);
-                const Point32 hash = texel_hash(uint32_t(tile_x + x), uint32_t(tile_y + y), 0);
-                pattern.directions(fan, TangentFrame(p.normal), p.geometric_normal, hash);
+                const Point32 shift = pattern.texel(tile_x + x, tile_y + y, 0);
+                pattern.directions(fan, TangentFrame(p.normal), p.geometric_normal, shift);
                 rays.packets_each = fan.packets;
                 rays.origins.push_back(p.origin);
                 for (int packet = 0; packet < fan.packets; ++packet)

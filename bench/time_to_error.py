@@ -32,6 +32,8 @@ THREADS = os.environ.get("VMLIGHT_THREADS", "2")
 ROUNDS = int(os.environ.get("VMLIGHT_ROUNDS", "3"))
 REFERENCE = os.environ.get("VMLIGHT_REFERENCE_SAMPLES", "2048")
 COUNTS = [2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024]
+FIRST = COUNTS.index(16)
+SLOPE = .65  # of the logarithms of errors over those of rays, roughly; two counts apart, rays double
 QUANTITIES = {"V": 0, "B": 3}  # columns of map_error
 
 
@@ -65,10 +67,14 @@ def bake(binaries, mesh, out, samples, *flags):
 class Build:
     """Maps of a mesh by one build, and their errors."""
 
-    def __init__(self, binaries, kind, folder, mesh, truth, *flags):
-        self.binaries, self.flags, self.kind, self.folder, self.mesh, self.truth = binaries, flags, kind, folder, mesh, truth
+    def __init__(self, binaries, kind, folder, mesh, flags=(), plain_flags=()):
+        self.binaries, self.flags, self.kind, self.folder, self.mesh = binaries, flags, kind, folder, mesh
         self.name = os.path.splitext(os.path.basename(mesh))[0]
         self.known = {}
+        # Each has its own: the old build cuts bent quads along other diagonals, which is another surface.
+        self.truth = os.path.join(folder, f"{self.name}.{RESOLUTION}.truth.{kind}.exr")
+        if not os.path.exists(self.truth):
+            bake(binaries, mesh, self.truth, REFERENCE, "--seed", "77", "--channels", "coverage", *plain_flags)
 
     def errors(self, samples):
         if samples not in self.known:
@@ -80,15 +86,21 @@ class Build:
 
     def rays_for(self, column, error):
         """The fewest rays per texel: between two counts, by their errors' logarithms. None if out of reach."""
-        few = None
-        for many in COUNTS:
-            if self.errors(many)[column] <= error:
+        # Leaps along the slope that errors usually have find the two counts with few bakes; then single steps make sure.
+        here, meets = FIRST, {}
+        while True:
+            meets[here] = self.errors(COUNTS[here])[column] <= error
+            below = max((k for k, met in meets.items() if not met), default=-1)
+            above = min((k for k, met in meets.items() if met and k > below), default=len(COUNTS))
+            if above - below == 1:
                 break
-            few = many
-        else:
+            leap = round(math.log2(self.errors(COUNTS[here])[column] / error) / SLOPE * 2)
+            here = min(max(here + leap, below + 1), above - 1)
+        if above == len(COUNTS):
             return None
-        if few is None:
-            return many
+        if below < 0:
+            return COUNTS[above]
+        few, many = COUNTS[below], COUNTS[above]
         low, high = (math.log(self.errors(count)[column]) for count in (few, many))
         share = (low - math.log(error)) / (low - high)
         return math.ceil(few * (many / few) ** share)
@@ -128,11 +140,8 @@ def main():
     six = [os.path.join(scenes, name + ".obj") for name in reconstruct.SCENES]
     for mesh in six + more:
         name = os.path.splitext(os.path.basename(mesh))[0]
-        truth = os.path.join(folder, f"{name}.{RESOLUTION}.truth.exr")
-        if not os.path.exists(truth):
-            bake(BIN, mesh, truth, REFERENCE, "--reconstruct", "off", "--seed", "77", "--channels", "coverage")
-        builds = [Build(old, "old", folder, mesh, truth),
-                  Build(BIN, "new", folder, mesh, truth, "--reconstruct", "auto")]
+        builds = [Build(old, "old", folder, mesh),
+                  Build(BIN, "new", folder, mesh, ["--reconstruct", "auto"], ["--reconstruct", "off"])]
         for quantity, column in QUANTITIES.items():
             for error in ERRORS:
                 rays = [build.rays_for(column, error) for build in builds]

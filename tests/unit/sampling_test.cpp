@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/math/lattice.h>
 #include <vmlight/math/sampling.h>
 
 #include <gtest/gtest.h>
@@ -111,22 +112,16 @@ TEST(Sampling, ScramblingIsNestedAndOneToOne)
     EXPECT_NEAR(flipped, 2048, 160); // five sigma
 }
 
-TEST(Sampling, FibonacciPointsAreALatticeInBothCoordinates)
+TEST(Sampling, OnlyTheLatticesTexelsComplementEachOther)
 {
-    for (int count : { 1, 2, 13, 100, 144, 1000, 4181 }) {
-        std::vector<double> us, vs;
-        for (int i = 0; i < count; ++i) {
-            us.push_back(fraction(fibonacci_point(uint32_t(i), uint32_t(count)).u));
-            vs.push_back(fraction(fibonacci_point(uint32_t(i), uint32_t(count)).v));
-            EXPECT_NEAR(us.back(), double(i) / count, 1e-9);
-            EXPECT_NEAR(vs.back(), std::fmod(i * (std::sqrt(5.0) - 1) / 2, 1.0), 1e-6);
+    const SamplePattern lattice("fibonacci", 64, false), sobol("sobol", 64, false), halton("halton", 64, false);
+    for (int x : { 0, 5 })
+        for (uint32_t seed : { 0u, 9u }) {
+            const Point32 hash = texel_hash(uint32_t(x), 3, seed);
+            for (const SamplePattern* pattern : { &sobol, &halton })
+                EXPECT_EQ(pattern->texel(x, 3, seed).u, hash.u);
+            EXPECT_EQ(lattice.texel(x, 3, seed).v, Lattice(64).shift(uint32_t(x), 3, seed).v);
         }
-        // Gaps of multiples of the golden ratio: none above 1 + golden ratio times the mean one.
-        std::sort(vs.begin(), vs.end());
-        vs.push_back(1 + vs.front());
-        for (size_t i = 0; i + 1 < vs.size(); ++i)
-            EXPECT_LT((vs[i + 1] - vs[i]) * count, 2.7) << count;
-    }
 }
 
 TEST(Sampling, TexelsSeedsAndCoordinatesAllGiveOtherNumbers)

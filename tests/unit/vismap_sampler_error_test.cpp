@@ -73,8 +73,10 @@ TEST(VismapSamplerError, TheErrorThatIsStatedIsTheDistanceToTheTruth)
             const BakedMap map(floor_facing_z(kTiny), scene.occluders, params);
             const MapError error = error_of(map, { scene.visibility, V3d(0) });
             SCOPED_TRACE(testing::Message() << scene.name << ", " << samples << " rays");
-            // Of 2304 texels each, so that chance leaves 3 % of a root mean square; facets add 2e-4 at most.
-            EXPECT_NEAR(error.visibility, map.report.error, 0.12 * map.report.error + 2e-4);
+            // Of 2304 texels each, so that chance leaves 3 % of a root mean square; facets add 2e-4 at most. A wall
+            // through the texel hides exactly half of a lattice: a ray on its edge in one texel of 1500 is all the
+            // error there is.
+            EXPECT_NEAR(error.visibility, map.report.error, 0.12 * map.report.error + 2e-4 + 1.0 / samples / 40);
             EXPECT_LE(std::abs(error.visibility_bias), 4 * map.report.error / side + 2e-4);
         }
 }

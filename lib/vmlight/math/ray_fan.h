@@ -35,13 +35,17 @@ struct RayFan
     std::vector<uint8_t> lanes;
 };
 
-/// Of all lanes: those to trace, or those that were unoccluded.
-inline int64_t count_rays(const RayFan& fan)
+/// Of all packets' lane bits: those to trace, or those that were unoccluded.
+inline int64_t count_rays(const std::vector<uint8_t>& packets)
 {
     int64_t rays = 0;
-    for (const uint8_t lanes : fan.lanes)
+    for (const uint8_t lanes : packets)
         rays += __builtin_popcount(lanes);
     return rays;
+}
+inline int64_t count_rays(const RayFan& fan)
+{
+    return count_rays(fan.lanes);
 }
 
 } // namespace vmlight

@@ -2,6 +2,7 @@
 #include <vmlight/math/sampling.h>
 
 #include <vmlight/math/latlong.h>
+#include <vmlight/math/lattice.h>
 #include <vmlight/math/sampling_kernel.h>
 
 #include <algorithm>
@@ -50,11 +51,6 @@ Point32 sobol_point(uint32_t index)
     return { reverse_bits(index), v };
 }
 
-Point32 fibonacci_point(uint32_t index, uint32_t count)
-{
-    return { uint32_t((uint64_t(index) << 32) / count), index * 0x9e3779b9u };
-}
-
 void sort_for_packets(std::vector<Point32>& points)
 {
     std::stable_sort(points.begin(), points.end(),
@@ -86,23 +82,38 @@ TangentFrame::TangentFrame(const V3f& n)
     bitangent = V3f(b, sign + n.y * n.y * a, -n.y);
 }
 
+std::vector<Point32> sample_points(const std::string& sampler, int count)
+{
+    const Lattice lattice(static_cast<uint32_t>(count));
+    std::vector<Point32> points;
+    for (uint32_t i = 0; i < lattice.count(); ++i)
+        points.push_back(sampler == "halton"      ? halton_point(i)
+                             : sampler == "sobol" ? sobol_point(i)
+                                                  : lattice.point(i));
+    sort_for_packets(points);
+    return points;
+}
+
 SamplePattern::SamplePattern(const std::string& sampler, int count, bool uniform)
     : m_count(count)
     , m_uniform(uniform)
     , m_owen(sampler == "sobol")
+    , m_lattice(sampler == "fibonacci" ? std::make_unique<Lattice>(uint32_t(count)) : nullptr)
 {
-    std::vector<Point32> points(static_cast<size_t>(count));
-    for (int i = 0; i < count; ++i)
-        points[i] = sampler == "halton" ? halton_point(uint32_t(i))
-            : sampler == "sobol"        ? sobol_point(uint32_t(i))
-                                        : fibonacci_point(uint32_t(i), uint32_t(count));
-    sort_for_packets(points);
+    std::vector<Point32> points = sample_points(sampler, count);
     const size_t padded = size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize;
     points.resize(padded, points.back());
     for (const Point32& p : points) {
         m_u.push_back(m_owen ? reverse_bits(p.u) : p.u);
         m_v.push_back(m_owen ? reverse_bits(p.v) : p.v);
     }
+}
+
+SamplePattern::~SamplePattern() = default;
+
+Point32 SamplePattern::texel(int x, int y, uint32_t seed) const
+{
+    return m_lattice ? m_lattice->shift(uint32_t(x), uint32_t(y), seed) : texel_hash(uint32_t(x), uint32_t(y), seed);
 }
 
 void SamplePattern::directions(RayFan& fan, const TangentFrame& frame, const V3f& geometric_normal, Point32 texel) const

@@ -7,6 +7,7 @@
 #include <vmlight/math/ray_fan.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,6 @@ struct Point32
 Point32 halton_point(uint32_t index);
 /// The first two dimensions of Sobol's sequence.
 Point32 sobol_point(uint32_t index);
-/// The rank-1 lattice (i / count, frac(i / golden ratio)). Needs the count in advance.
-Point32 fibonacci_point(uint32_t index, uint32_t count);
 /// Owen's nested scrambling of a 32-bit fraction: a random permutation of each half, quarter, ... of the interval.
 /// Source: S. Laine, T. Karras, "Stratified Sampling for Stochastic Transparency", EGSR 2011, section 3.1
 /// (the same hash).
@@ -43,6 +42,11 @@ struct TangentFrame
     explicit TangentFrame(const Imath::V3f& n);
 };
 
+/// The points of a sampler ("halton", "sobol" or "fibonacci"), in the order of sort_for_packets().
+std::vector<Point32> sample_points(const std::string& sampler, int count);
+
+class Lattice;
+
 /// The directions of all texels: `count` points, in the order of sort_for_packets().
 class SamplePattern
 {
@@ -50,10 +54,15 @@ public:
     /// @param sampler  "halton", "sobol" or "fibonacci"
     /// @param uniform  distribute directions uniformly over the hemisphere, else by the cosine
     SamplePattern(const std::string& sampler, int count, bool uniform);
+    ~SamplePattern();
 
     int count() const { return m_count; }
 
-    /// Fill `fan` with the texel's directions: unit vectors around frame.normal. Lane bits are set for directions
+    /// What turns the points into those of a texel. By "fibonacci", neighbours have shifts that complement each other
+    /// (Lattice::shift()); by others, independent ones.
+    Point32 texel(int x, int y, uint32_t seed) const;
+
+    /// Fill `fan` with a texel's directions: unit vectors around frame.normal. Lane bits are set for directions
     /// strictly above the surface, on the side of `geometric_normal`.
     void directions(RayFan& fan, const TangentFrame& frame, const Imath::V3f& geometric_normal, Point32 texel) const;
 
@@ -64,6 +73,7 @@ public:
 private:
     int m_count;
     bool m_uniform, m_owen;
+    std::unique_ptr<const Lattice> m_lattice; // of "fibonacci"
     // Padded to whole packets. Texels shift them modulo 1 (Cranley-Patterson) or Owen-scramble them (stored
     // bit-reversed).
     std::vector<uint32_t> m_u, m_v;

@@ -48,12 +48,7 @@ StrandPattern::StrandPattern(const std::string& sampler, int count)
     : m_count(count)
     , m_owen(sampler == "sobol")
 {
-    std::vector<Point32> points;
-    for (uint32_t i = 0; i < uint32_t(count); ++i)
-        points.push_back(sampler == "halton" ? halton_point(i)
-                             : m_owen        ? sobol_point(i)
-                                             : fibonacci_point(i, uint32_t(count)));
-    sort_for_packets(points);
+    std::vector<Point32> points = sample_points(sampler, count);
     points.resize(size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize, points.back());
     for (const Point32& p : points) {
         m_u.push_back(m_owen ? reverse_bits(p.u) : p.u);

@@ -95,8 +95,9 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             const int x = columns[size_t(k)];
             float* out = texels + size_t(y) * pitch + size_t(x) * channel_count;
             const RayMemory memory = memory_of(hints, points[size_t(k)], triangles[size_t(k)], tile_x + x, tile_y + y);
-            const Visibility seen = scratch.integrator.integrate(points[size_t(k)], tile_x + x, tile_y + y,
-                                                                 open[size_t(k)], out + basis_at, memory);
+            const Point32 shift = m_setup->pattern.texel(tile_x + x, tile_y + y, uint32_t(m_setup->params.seed));
+            const Visibility seen
+                = scratch.integrator.integrate(points[size_t(k)], shift, open[size_t(k)], out + basis_at, memory);
             counts.dark += seen.visibility < 0.01;
             if (hints.contexts)
                 hints.contexts->at(tile_x + x, tile_y + y)
@@ -110,7 +111,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
             for (int c = 0; c < 3 && m_setup->has_normal; ++c)
                 out[4 + c] = points[size_t(k)].normal[c];
             if (m_setup->has_error)
-                out[suns_at - 1] = float(seen.error * m_setup->error.lane_scale);
+                out[suns_at - 1] = float(seen.error * m_setup->error.scatter_scale);
             if (m_setup->has_coverage)
                 out[channel_count - 1] = 1;
             for (size_t sun = 0; sun < suns.size(); ++sun)

@@ -36,9 +36,9 @@ BounceRays::Count BounceRays::trace(const SurfacePoint& point, size_t texel, int
     const SamplePattern& pattern = is_own ? m_pattern : m_bake_pattern;
     RayFan& fan = is_own ? m_fan : m_bake_fan;
     const auto seed = uint32_t(m_map.params().seed);
-    const Point32 hash = texel_hash(uint32_t(x), uint32_t(y), is_own ? seed ^ (kOtherSeed + uint32_t(round)) : seed);
+    const Point32 shift = pattern.texel(x, y, is_own ? seed ^ (kOtherSeed + uint32_t(round)) : seed);
     const bool is_mapped = point.normal != point.mesh_normal;
-    pattern.directions(fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, hash);
+    pattern.directions(fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, shift);
     const float lowest = m_ground.lowest_ray(point);
     const double height = m_ground.exists() ? m_ground.height_of(point) : 0;
     Count count;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/neighbour_weights.h>
 
+#include <vmlight/vismap/neighbour_scatter.h>
+
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
@@ -14,11 +16,17 @@ namespace vmlight::kernel {
 
 // How much farther apart than UVs say two texels may be on the surface, squared.
 constexpr float kStretch = 2.25f;
-// By how much more than by chance texels may differ, in what they differ by chance. Measured: below 1.2 less is gained,
-// from 1.4 on single texels near edges become worse.
-constexpr float kTolerance = 1.25f;
-// By how much more two texels alone may differ: by chance they hardly ever do, and a patch around both may hide it.
-constexpr float kAlone = 10;
+// By how much more than by chance patches may differ, squared, in what they differ by chance; and two texels alone: by
+// chance they hardly ever do, and a patch around both may hide it.
+struct Tolerance
+{
+    float patch, alone;
+};
+// Where texels scatter. Measured: below 1.2 squared less is gained, from 1.4 squared on single texels near edges become
+// worse.
+constexpr Tolerance kScattered { 1.25f * 1.25f, 10 };
+// Where they do not: nearly all weights are those of distance and surface.
+constexpr Tolerance kEven { 2.5f * 2.5f, 40 };
 constexpr float kPatchTexels = (2 * NeighbourWindow::kPatch + 1) * (2 * NeighbourWindow::kPatch + 1);
 // Of the weight by distance, in texels.
 constexpr float kSpread = 2;
@@ -35,19 +43,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Window = NeighbourWindow;
 using WeightTag = hn::CappedTag<float, 8>;
 using WeightVec = hn::Vec<WeightTag>;
-
-struct Neighbour
-{
-    int x, y;
-};
-
-// Around a texel, row by row, without the texel itself.
-HWY_INLINE Neighbour neighbour(int number)
-{
-    constexpr int kAcross = 2 * Window::kReach + 1;
-    const int cell = number + (number >= Window::kNeighbours / 2);
-    return { cell % kAcross - Window::kReach, cell / kAcross - Window::kReach };
-}
 
 HWY_INLINE WeightVec square(WeightVec v)
 {
@@ -69,7 +64,7 @@ HWY_INLINE bool wants(uint64_t row, int first, int last)
 
 // Of each texel that a patch of the tile reaches and its neighbour: how different they are, how different they may be
 // by chance, and how near on the surface.
-HWY_INLINE void compare(Window& window, Neighbour to)
+HWY_INLINE void compare(Window& window, Window::Offset to)
 {
     const WeightTag d;
     // Over a square of texels. A step of one texel may be longer on the surface, where its triangles are stretched.
@@ -119,9 +114,10 @@ void weigh_neighbours_target(Window& window)
 {
     const WeightTag d;
     const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least = hn::Set(d, 1e-30f);
+    find_evenness(window, window.scratch_evenness);
     std::fill(window.scale.begin(), window.scale.end(), 1.0f);
     for (int number = 0; number < Window::kNeighbours; ++number) {
-        const Neighbour to = neighbour(number);
+        const Window::Offset to = Window::neighbour(number);
         compare(window, to);
         const auto nearby = hn::Set(d, 1 - float(to.x * to.x + to.y * to.y) / (16 * kSpread * kSpread));
         const auto near = square(square(square(nearby)));
@@ -131,14 +127,19 @@ void weigh_neighbours_target(Window& window)
                 if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
                     continue;
                 const size_t i = Window::index(x, y);
+                const auto even = hn::LoadU(d, window.scratch_evenness.data() + size_t(y) * kTileSize + size_t(x));
+                const auto between = [&](float scattered, float is_even) {
+                    return hn::Add(hn::Set(d, scattered), hn::Mul(even, hn::Set(d, is_even - scattered)));
+                };
                 const auto expected = patch_sum(window.scratch_expected, i);
                 const auto beyond = hn::Max(zero, hn::Sub(patch_sum(window.scratch_difference, i), expected));
                 // (1 - x / 8)^8: exp(-x) to within .03, and exactly 0 from x = 8 on.
-                const auto tolerated = hn::Max(hn::Mul(expected, hn::Set(d, 8 * kTolerance * kTolerance)), least);
+                const auto tolerance = between(8 * kScattered.patch, 8 * kEven.patch);
+                const auto tolerated = hn::Max(hn::Mul(expected, tolerance), least);
                 const auto x8 = hn::Div(beyond, tolerated);
                 // Of a few rays that agree by chance the scatter is 0: that of the patches tells more.
                 const auto alone = hn::Mul(load(window.scratch_difference, i), hn::Set(d, kPatchTexels));
-                const auto is_alike = hn::Le(alone, hn::Mul(expected, hn::Set(d, kAlone)));
+                const auto is_alike = hn::Le(alone, hn::Mul(expected, between(kScattered.alone, kEven.alone)));
                 const auto alike
                     = hn::IfThenElseZero(is_alike, square(square(square(hn::Max(zero, hn::Sub(one, x8))))));
                 const auto gives = load(window.gives, Window::index(x + to.x, y + to.y));
@@ -163,7 +164,7 @@ void mean_change_target(const Window& window, const float* plane, float* change)
             const auto own = hn::LoadU(d, plane + i);
             auto sum = hn::Zero(d);
             for (int number = 0; number < Window::kNeighbours; ++number) {
-                const Neighbour to = neighbour(number);
+                const Window::Offset to = Window::neighbour(number);
                 const auto weight
                     = hn::LoadU(d, window.weights.data() + size_t(number) * kTileSize * kTileSize + texel);
                 const auto other = hn::LoadU(d, plane + Window::index(x + to.x, y + to.y));
@@ -183,7 +184,7 @@ void mean_variance_target(const Window& window, float* variance)
             const size_t i = Window::index(x, y), texel = size_t(y) * kTileSize + size_t(x);
             auto sum = load(window.variance, i);
             for (int number = 0; number < Window::kNeighbours; ++number) {
-                const Neighbour to = neighbour(number);
+                const Window::Offset to = Window::neighbour(number);
                 const auto weight
                     = hn::LoadU(d, window.weights.data() + size_t(number) * kTileSize * kTileSize + texel);
                 sum = hn::Add(sum, hn::Mul(square(weight), load(window.variance, Window::index(x + to.x, y + to.y))));

@@ -48,14 +48,28 @@ struct NeighbourWindow
     /// 1 where a texel gives to others, 0 where it does not: all do, unless it is set after clear().
     Plane gives;
 
+    /// Where neighbour `number` is from a texel: row by row, without the texel itself.
+    struct Offset
+    {
+        int x, y;
+    };
+    static constexpr Offset neighbour(int number)
+    {
+        constexpr int kAcross = 2 * kReach + 1;
+        const int cell = number + (number >= kNeighbours / 2);
+        return { cell % kAcross - kReach, cell / kAcross - kReach };
+    }
+
     /// Set by weigh_neighbours(): for each neighbour its weight in each texel of the tile, row by row, and one over
     /// their sum, in which the texel itself has the weight 1.
     std::vector<float> weights, scale;
     Plane scratch_difference, scratch_expected, scratch_surface;
+    std::vector<float> scratch_evenness;
 };
 
 /// Weigh the neighbours of each texel of the tile by how alike the patches around both are, beyond what their variance
-/// explains, by normals and distance on the surface. A weight is exactly 0 where they differ by more than chance.
+/// explains, by normals and distance on the surface. A weight is exactly 0 where they differ by more than chance. How
+/// much more two may differ depends on whether all around the texel do (neighbour_scatter.h).
 /// Source: A. Buades, B. Coll, J.-M. Morel, "A non-local algorithm for image denoising", CVPR 2005; with the variance
 /// of F. Rousselle, C. Knaus, M. Zwicker, "Adaptive rendering with non-local means filtering", TOG 31(6), 2012.
 void weigh_neighbours(NeighbourWindow& window);

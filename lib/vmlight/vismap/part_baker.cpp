@@ -32,8 +32,8 @@ PartBaker::PartBaker(const VismapBaker& baker, int nthreads)
         worker.scratch = baker.scratch();
         worker.texels.resize(kTileSize * m_pitch);
         if (reconstructs)
-            worker.reconstruction
-                = std::make_unique<Reconstruction>(baker.params(), baker.error().lane_scale, baker.error().error_scale);
+            worker.reconstruction = std::make_unique<Reconstruction>(baker.params(), baker.error().scatter_scale,
+                                                                     baker.error().error_scale);
     }
     if (reconstructs) {
         m_raw.resize(size_t(baker.width()) * size_t(baker.height()) * m_channels);

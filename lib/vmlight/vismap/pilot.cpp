@@ -17,16 +17,17 @@ namespace {
 
 // Rays between two progress checks: few enough to stop in well under a second.
 constexpr int64_t kRaysPerItem = 1 << 14;
-// Of lane_scale() in the scenes that were measured: see lane_scatter(). It counts as much as so many texels.
-constexpr double kUsualScale = 0.4, kUsualTexels = 16;
+// Of scatter_scale() at one ray, in the scenes that were measured: it falls with the fourth root of their number, as
+// the samplers' error falls with rays^-0.75. It counts as much as so many texels.
+constexpr double kUsualScale = 1.05, kUsualTexels = 16;
 
 } // namespace
 
-double lane_scale(const PilotError& measured, int64_t texels)
+double scatter_scale(const PilotError& measured, int64_t texels)
 {
-    const double found = measured.lane_rms > 0 ? measured.rms / measured.lane_rms : kUsualScale;
-    return std::sqrt((double(texels) * found * found + kUsualTexels * kUsualScale * kUsualScale)
-                     / (double(texels) + kUsualTexels));
+    const double usual = kUsualScale * std::pow(std::max(1, measured.samples), -0.25);
+    const double found = measured.scatter_rms > 0 ? measured.rms / measured.scatter_rms : usual;
+    return std::sqrt((double(texels) * found * found + kUsualTexels * usual * usual) / (double(texels) + kUsualTexels));
 }
 
 VismapPilot::VismapPilot(const BakeScene& scene, const NormalMap* normal_map, const VismapParams& params, int nthreads,
@@ -100,11 +101,11 @@ bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open, int64_
 bool VismapPilot::bake(std::vector<std::array<Visibility, 2>>& seen, int samples, int times, bool with_basis) const
 {
     const SamplePattern pattern(m_params.sampler, samples, m_params.measure == "uniform");
-    const Point32 hash = texel_hash(uint32_t(samples), 0, uint32_t(m_params.seed));
+    const Point32 seeds = texel_hash(uint32_t(samples), 0, uint32_t(m_params.seed));
     std::array<VismapParams, 2> params { m_params, m_params };
     // No user seed has the highest bit set.
-    params[0].seed = int(hash.u | 0x80000000u);
-    params[1].seed = int((hash.v == hash.u ? ~hash.v : hash.v) | 0x80000000u);
+    params[0].seed = int(seeds.u | 0x80000000u);
+    params[1].seed = int((seeds.v == seeds.u ? ~seeds.v : seeds.v) | 0x80000000u);
 
     struct Worker
     {
@@ -125,8 +126,10 @@ bool VismapPilot::bake(std::vector<std::array<Visibility, 2>>& seen, int samples
         for (int64_t i = item * step; i < std::min(texels(), (item + 1) * step); ++i)
             for (size_t k = 0; k < size_t(times); ++k) {
                 const Texel& texel = m_texels[size_t(i)];
-                seen[size_t(i)][k] = integrators[k]->integrate(texel.point, texel.x, texel.y, texel.open,
-                                                               with_basis ? basis.data() : nullptr);
+                // Shifts that complement each other would be as far from the other seed's in all texels.
+                const Point32 hash = texel_hash(uint32_t(texel.x), uint32_t(texel.y), uint32_t(params[k].seed));
+                seen[size_t(i)][k]
+                    = integrators[k]->integrate(texel.point, hash, texel.open, with_basis ? basis.data() : nullptr);
             }
     };
     return parallel_items((texels() + step - 1) / step, m_threads, bake, m_progress);
@@ -149,13 +152,13 @@ bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
     std::vector<std::array<Visibility, 2>> seen;
     if (!bake(seen, samples, 2, with_basis))
         return false;
-    double variance = 0, lane_variance = 0;
+    double variance = 0, scatter_variance = 0;
     for (const auto& [one, other] : seen) {
         variance += std::pow(one.visibility - other.visibility, 2) / 2;
-        lane_variance += (std::pow(one.error, 2) + std::pow(other.error, 2)) / 2;
+        scatter_variance += (std::pow(one.error, 2) + std::pow(other.error, 2)) / 2;
     }
     const double count = double(std::max<int64_t>(1, texels()));
-    dst = { samples, std::sqrt(variance / count), std::sqrt(lane_variance / count), timer() };
+    dst = { samples, std::sqrt(variance / count), std::sqrt(scatter_variance / count), timer() };
     return true;
 }
 

@@ -25,14 +25,14 @@ struct PilotError
     /// Of V: see VismapPilot::measure().
     double rms = 0;
     /// Root mean square of Visibility::error; 0 unless the channel is asked for.
-    double lane_rms = 0;
+    double scatter_rms = 0;
     /// Time of the measurement.
     double seconds = 0;
 };
 
 /// What Visibility::error is to be multiplied by to be the error of V, as reconstruction needs it: measured, and where
 /// few texels were, near what is usual. A larger factor would average what differs.
-double lane_scale(const PilotError& measured, int64_t texels);
+double scatter_scale(const PilotError& measured, int64_t texels);
 
 class VismapPilot
 {

@@ -60,7 +60,8 @@ bool bake_points(std::vector<float>& dst, const BakeScene& scene, const VismapPa
             integrator = std::make_unique<VisibilityIntegrator>(scene.occluder(), pattern, params, scene.frame().scale,
                                                                 ground);
         float* out = &dst[index * channels];
-        const Visibility seen = integrator->integrate(point, int(index), 0, false, out + 7);
+        const Point32 hash = texel_hash(uint32_t(index), 0, uint32_t(params.seed));
+        const Visibility seen = integrator->integrate(point, hash, false, out + 7);
         out[0] = float(seen.visibility);
         for (int c = 0; c < 3; ++c) {
             out[1 + c] = float(seen.direction[c]);

@@ -73,7 +73,7 @@ double PoseProbe::change_of_known(const SurfacePoint& point, const uint8_t* know
 double PoseProbe::change(uint32_t triangle, float weight1, float weight2, int x, int y, const Rotation& turn)
 {
     const SurfacePoint after = point_of(m_pose, triangle, weight1, weight2, x, y);
-    const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
+    const Point32 texel = m_pattern.texel(x, y, uint32_t(m_params.seed));
     if (m_hints) {
         const RayMemory memory = memory_of(*m_hints, after, triangle, x, y);
         if (memory.known)

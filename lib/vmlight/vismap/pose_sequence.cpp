@@ -99,7 +99,7 @@ public:
                 if (!m_base.errors.empty()) // each map scales it by what it measures
                     map.pixels[at + m_error_at]
                         = float(m_base.errors[size_t(row) * size_t(m_baker.width()) + size_t(column)]
-                                * m_baker.error().lane_scale);
+                                * m_baker.error().scatter_scale);
                 if (!hints.contexts)
                     continue;
                 const SurfacePoint point

@@ -77,12 +77,12 @@ std::string map_memory_shortage(const OIIO::ImageSpec& spec, const VismapParams&
         : shortage + "; with --reconstruct off it fits";
 }
 
-Reconstruction::Reconstruction(const VismapParams& params, double lane_scale, double error_scale)
+Reconstruction::Reconstruction(const VismapParams& params, double scatter_scale, double error_scale)
     : m_layout { size_t(describe_vismap("", params).nchannels), kVismapChannels.size() + (params.has("normal") ? 3 : 0),
                  kVismapChannels.size() + (params.has("normal") ? 3 : 0) + (params.has("error") ? 1 : 0)
                      + sun_channels(params.sun_directions).size(),
                  params.basis == "sh" ? params.order : 0, params.has("error") }
-    , m_lane_scale(float(lane_scale))
+    , m_scatter_scale(float(scatter_scale))
     , m_error_scale(float(error_scale))
 {
     if (m_layout.order > 0)
@@ -111,7 +111,7 @@ void Reconstruction::add(int x, int y, const float* texel, const TexelContext& c
     m_window.x[i] = texel[1] - open * context.normal.x;
     m_window.y[i] = texel[2] - open * context.normal.y;
     m_window.z[i] = texel[3] - open * context.normal.z;
-    m_window.variance[i] = context.variance * m_lane_scale * m_lane_scale;
+    m_window.variance[i] = context.variance * m_scatter_scale * m_scatter_scale;
     for (int c = 0; c < 3; ++c) {
         m_window.normal[size_t(c)][i] = context.normal[c];
         m_window.position[size_t(c)][i] = context.position[c];

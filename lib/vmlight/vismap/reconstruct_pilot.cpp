@@ -85,7 +85,8 @@ bool ReconstructPilot::measure(const PilotError& plain, double scale, Reconstruc
                 const Texel& texel = m_windows[k][size_t(i)];
                 if (texel.spacing == 0)
                     continue;
-                const Visibility seen = integrators[0]->integrate(texel.point, texel.x, texel.y, texel.open);
+                const Visibility seen = integrators[0]->integrate(
+                    texel.point, pattern.texel(texel.x, texel.y, uint32_t(params[0].seed)), texel.open);
                 const TexelContext context { texel.point.near_origin, texel.point.normal, texel.spacing,
                                              float(seen.error * seen.error) };
                 const std::array<float, kChannels> channels { float(seen.visibility), float(seen.direction.x),
@@ -111,8 +112,8 @@ bool ReconstructPilot::measure(const PilotError& plain, double scale, Reconstruc
                 const size_t channel = size_t(at.y) * kPitch + size_t(at.x) * kChannels;
                 double square = 1, plain_square = 1;
                 for (size_t p = 1; p < 3; ++p) {
-                    const double truth
-                        = integrators[p]->integrate(texel.point, texel.x, texel.y, texel.open).visibility;
+                    const Point32 hash = texel_hash(uint32_t(texel.x), uint32_t(texel.y), uint32_t(params[p].seed));
+                    const double truth = integrators[p]->integrate(texel.point, hash, texel.open).visibility;
                     square *= double(texels[channel]) - truth;
                     plain_square *= double(raw[channel]) - truth;
                 }

@@ -44,7 +44,7 @@ public:
     /// % of the root mean square of the map. The same bits for every number of threads. False if stopped.
     ///
     /// @param plain    the error of rays alone, and their number, as the pilot measured it
-    /// @param scale    SampleCount::lane_scale at that number
+    /// @param scale    SampleCount::scatter_scale at that number
     bool measure(const PilotError& plain, double scale, ReconstructError& dst) const;
 
 private:

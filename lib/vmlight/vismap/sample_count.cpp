@@ -18,7 +18,7 @@ namespace {
 constexpr int kFirst = 64, kMost = 1 << 20;
 // The error is known to a few per cent only: closer counts are equally good.
 constexpr double kNear = 1.04;
-// Texels that are enough to scale the scatter of lanes, and one of how many at most.
+// Texels that are enough to scale Visibility::error, and one of how many at most.
 constexpr int64_t kScaleTexels = 1024, kScaleStep = 16;
 // All of fewer texels may agree by chance.
 constexpr int64_t kTelling = 256;
@@ -131,7 +131,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         return false;
     }
     const Stopwatch timer;
-    // The scatter of lanes is scaled by texels of its own, so that measuring the error changes nothing else.
+    // Visibility::error is scaled by texels of its own, so that measuring the error changes nothing else.
     VismapPilot pilot(scene, normal_map, params, nthreads, progress);
     VismapPilot scatter(scene, normal_map, params, nthreads, progress);
     ReconstructPilot windows(scene, pilot, params, nthreads, progress);
@@ -144,7 +144,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         if (reconstructs) {
             if (!scatter.measure(samples, error_there))
                 return false;
-            reconstruct_scale = lane_scale(error_there, scatter.texels());
+            reconstruct_scale = scatter_scale(error_there, scatter.texels());
         }
         if (!wants_error)
             return true;
@@ -186,7 +186,9 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
     if (reconstructs && target > 0 && !measure(dst.samples, measured)) // the last try may have been another count
         return stopped();
     dst.pilot_seconds = timer();
-    dst.lane_scale = reconstructs ? reconstruct_scale : measured.lane_rms > 0 ? measured.rms / measured.lane_rms : 1;
+    dst.scatter_scale = reconstructs ? reconstruct_scale
+        : measured.scatter_rms > 0   ? measured.rms / measured.scatter_rms
+                                     : 1;
     dst.error_scale = error_scale;
     if (!wants_error)
         return true;

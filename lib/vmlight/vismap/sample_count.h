@@ -26,7 +26,7 @@ struct SampleCount
     int64_t texels = 0;
     /// Factor for Visibility::error that makes its root mean square that of the rays' error; measured for the channel
     /// `error`, and where the map is reconstructed.
-    double lane_scale = 1;
+    double scatter_scale = 1;
     /// Of a map that is reconstructed, the factor for the standard error that is expected of its texels that makes its
     /// root mean square `rms`.
     double error_scale = 1;

@@ -54,6 +54,14 @@ double lane_scatter(const std::vector<uint8_t>& traced, const std::vector<uint8_
     return lanes > 1 ? std::sqrt(squares * lanes / (lanes - 1)) / rays : 0;
 }
 
+double independent_error(int64_t open, int64_t traced)
+{
+    if (traced < 2)
+        return 0;
+    const double share = double(open) / double(traced);
+    return std::sqrt(share * (1 - share) / double(traced));
+}
+
 VisibilityIntegrator::~VisibilityIntegrator()
 {
     work_counts().directions_below_ground += m_below_ground;
@@ -69,11 +77,10 @@ template <class Test> void VisibilityIntegrator::take_out(const Test& is_out)
         }
 }
 
-Visibility VisibilityIntegrator::integrate(SurfacePoint point, int x, int y, bool open, float* basis,
+Visibility VisibilityIntegrator::integrate(SurfacePoint point, Point32 texel, bool open, float* basis,
                                            const RayMemory& memory)
 {
     m_memory = memory;
-    const Point32 texel = texel_hash(uint32_t(x), uint32_t(y), uint32_t(m_params.seed));
     const bool is_mapped = point.normal != point.mesh_normal;
     m_pattern.directions(m_fan, TangentFrame(point.normal), is_mapped ? point.normal : point.geometric_normal, texel);
     if (is_mapped)
@@ -141,6 +148,12 @@ void VisibilityIntegrator::trace_unknown(const SurfacePoint& point)
     m_rays += unknown;
 }
 
+double VisibilityIntegrator::error_of(const std::vector<uint8_t>& traced) const
+{
+    return m_is_reconstructed ? independent_error(count_rays(m_fan), count_rays(traced))
+                              : lane_scatter(traced, m_fan.lanes);
+}
+
 DirectionSums VisibilityIntegrator::trace(Visibility& dst, const SurfacePoint& point, const DirectionSums& all,
                                           const DirectionSums& above, bool open)
 {
@@ -155,7 +168,8 @@ DirectionSums VisibilityIntegrator::trace(Visibility& dst, const SurfacePoint& p
     const DirectionSums seen = open ? above : sum_directions(m_fan, point.normal);
     dst.visibility = double(seen.rays) / double(all.rays);
     dst.direction = mean_direction(seen, all, point.normal);
-    dst.error = m_wants_error ? lane_scatter(m_traced, m_fan.lanes) : 0;
+    if (m_wants_error)
+        dst.error = error_of(m_traced);
     return seen;
 }
 
@@ -182,7 +196,7 @@ void VisibilityIntegrator::trace_over_ground(Visibility& dst, const SurfacePoint
     dst.visibility = view.visibility * share;
     dst.direction = seen.sum / rays + (view.direction - above.sum / rays) * share;
     if (m_wants_error)
-        dst.error = view.visibility * lane_scatter(m_traced_above, m_fan.lanes);
+        dst.error = view.visibility * error_of(m_traced_above);
 }
 
 V3d VisibilityIntegrator::mean_direction(const DirectionSums& seen, const DirectionSums& all,

@@ -39,8 +39,8 @@ struct VismapParams
     /// same, where the basis and the measure allow it (docs/accuracy.md). `off`: of its own rays alone. Does not apply
     /// to `sun_directions`, nor to maps with normals of their own.
     std::string reconstruct = "auto";
-    /// Sample pattern. `fibonacci` has the least error at a fixed number of rays (docs/accuracy.md); `halton` is the
-    /// paper's.
+    /// Sample pattern. `fibonacci`, a lattice, has the least error at a fixed number of rays, and neighbouring texels
+    /// shift it so that reconstruction gains more (docs/accuracy.md); `halton` is the paper's.
     std::string sampler = "fibonacci";
     /// Same seed, same pixels, for any number of threads.
     int seed = 0;
