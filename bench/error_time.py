@@ -47,6 +47,10 @@ def plot(rows, path):
     script = data + f"""set terminal svg size 720,440 font 'sans,13' background 'white'
 set output '{path}'
 set logscale xy
+set autoscale xfixmin
+set autoscale xfixmax
+set offsets graph .05, graph .05, 0, 0
+set yrange [.002:.2]
 set xlabel 'processor seconds of makevismap, mean of six scenes'
 set ylabel 'RMS error of V'
 set grid lc rgb '#dddddd'
