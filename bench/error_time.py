@@ -10,21 +10,16 @@ least time counts) change what is measured. Prints a Markdown table. Maps are ke
 """
 import math
 import os
-import resource
 import subprocess
 import sys
 
 import reconstruct
+from time_to_error import processor_seconds
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 COUNTS = [4, 8, 16, 32, 64, 128, 256, 512]
 MODES = ["off", "auto"]
 ROUNDS = int(os.environ.get("VMLIGHT_ROUNDS", "3"))
-
-
-def processor_seconds():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def timed(folder, mesh, count, mode):

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -21,8 +20,7 @@ double share_of_one(uint32_t x)
     return x * 0x1p-32;
 }
 
-// The worst-case error of a lattice, squared, by its Fourier series: over the dual lattice, 1 / max(1, h)^2 for each
-// coordinate. Slow and cut off, but no closed form.
+// P2 by its definition, cut off: over the dual lattice, 1 / max(1, h)^2 for each coordinate.
 double merit_by_series(int64_t count, int64_t generator)
 {
     constexpr int kMost = 200;

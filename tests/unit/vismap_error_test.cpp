@@ -148,6 +148,14 @@ TEST(VismapError, OfATexelIsItsRaysScatter)
     EXPECT_EQ(lane_scatter({ 0 }, { 0 }), 0);
 }
 
+TEST(VismapError, OfIndependentRaysIsThatOfAShare)
+{
+    EXPECT_DOUBLE_EQ(independent_error(4, 16), std::sqrt(0.25 * 0.75 / 16));
+    EXPECT_DOUBLE_EQ(independent_error(12, 16), independent_error(4, 16));
+    for (const auto& [open, traced] : { std::pair(0, 16), { 16, 16 }, { 1, 1 }, { 0, 1 }, { 0, 0 } })
+        EXPECT_EQ(independent_error(open, traced), 0) << open << " of " << traced;
+}
+
 // Measured: 0.5 on the cow, 0.4 on the building.
 TEST(VismapError, OfTexelsTellsWhereItIsLarge)
 {

@@ -34,13 +34,14 @@ std::array<Edge, 2> shortest_edges(int64_t count, int64_t generator)
     }
 }
 
-// The figure of merit P2: the squared error of the worst function whose mixed second derivatives have unit norm, at a
-// random shift. The sum of what multiplies to it: the factor of one coordinate, x / n.
+// Of one coordinate, x, to figure_of_merit(): 2 pi^2 times a Bernoulli polynomial, whose Fourier series is that of
+// h^-2.
 double merit_factor(double x)
 {
     return 1 + 2 * pi * pi * (x * x - x + 1.0 / 6);
 }
 
+// P2: the sum over the dual lattice of max(1, |h|)^-2 max(1, |k|)^-2, by its closed form.
 double figure_of_merit(int64_t count, int64_t generator)
 {
     double sum = 0;
@@ -49,11 +50,11 @@ double figure_of_merit(int64_t count, int64_t generator)
     return sum / double(count) - 1;
 }
 
-// Steps of figure_of_merit() that the search takes: all generators of up to 1024 points.
+// Steps of figure_of_merit() that the search takes: all generators of up to 1024 points, or their mirror images.
 constexpr int64_t kSteps = int64_t(1) << 20;
 
-// Of how far the steps to the next texel, right and down, move a lattice within its cell, in 2^-32 of the cell's edges.
-// Found by search: these leave least of the first harmonics of the lattice in Gaussian windows of 2 to 20 texels.
+// How far a step right, and one down, moves the lattice along either edge of its cell, in 2^-32 of that edge. Found by
+// search: means over Gaussian windows of 8, 19 and 36 texels keep least of the lattice's first harmonics.
 constexpr uint32_t kStep[2][2] = { { 0x1d38fe6cu, 0x6ba0c707u }, { 0x70ab290fu, 0xada55388u } };
 
 } // namespace

@@ -31,6 +31,21 @@ uint64_t morton(const Point32& p)
     return spread_bits(p.u) << 1 | spread_bits(p.v);
 }
 
+// Choosing a lattice takes time: only where its points are asked for, and once.
+std::unique_ptr<const Lattice> lattice_of(const std::string& sampler, int count)
+{
+    return sampler == "fibonacci" ? std::make_unique<Lattice>(uint32_t(count)) : nullptr;
+}
+
+std::vector<Point32> ordered_points(const std::string& sampler, int count, const Lattice* lattice)
+{
+    std::vector<Point32> points;
+    for (uint32_t i = 0; i < uint32_t(count); ++i)
+        points.push_back(lattice ? lattice->point(i) : sampler == "halton" ? halton_point(i) : sobol_point(i));
+    sort_for_packets(points);
+    return points;
+}
+
 } // namespace
 
 Point32 halton_point(uint32_t index)
@@ -84,23 +99,16 @@ TangentFrame::TangentFrame(const V3f& n)
 
 std::vector<Point32> sample_points(const std::string& sampler, int count)
 {
-    const Lattice lattice(static_cast<uint32_t>(count));
-    std::vector<Point32> points;
-    for (uint32_t i = 0; i < lattice.count(); ++i)
-        points.push_back(sampler == "halton"      ? halton_point(i)
-                             : sampler == "sobol" ? sobol_point(i)
-                                                  : lattice.point(i));
-    sort_for_packets(points);
-    return points;
+    return ordered_points(sampler, count, lattice_of(sampler, count).get());
 }
 
 SamplePattern::SamplePattern(const std::string& sampler, int count, bool uniform)
     : m_count(count)
     , m_uniform(uniform)
     , m_owen(sampler == "sobol")
-    , m_lattice(sampler == "fibonacci" ? std::make_unique<Lattice>(uint32_t(count)) : nullptr)
+    , m_lattice(lattice_of(sampler, count))
 {
-    std::vector<Point32> points = sample_points(sampler, count);
+    std::vector<Point32> points = ordered_points(sampler, count, m_lattice.get());
     const size_t padded = size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize;
     points.resize(padded, points.back());
     for (const Point32& p : points) {

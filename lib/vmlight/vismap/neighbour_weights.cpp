@@ -24,9 +24,9 @@ struct Tolerance
 };
 // Where texels scatter. Measured: below 1.2 squared less is gained, from 1.4 squared on single texels near edges become
 // worse.
-constexpr Tolerance kScattered { 1.25f * 1.25f, 10 };
+constexpr Tolerance kWhereScattered { 1.25f * 1.25f, 10 };
 // Where they do not: nearly all weights are those of distance and surface.
-constexpr Tolerance kEven { 2.5f * 2.5f, 40 };
+constexpr Tolerance kWhereEven { 2.5f * 2.5f, 40 };
 constexpr float kPatchTexels = (2 * NeighbourWindow::kPatch + 1) * (2 * NeighbourWindow::kPatch + 1);
 // Of the weight by distance, in texels.
 constexpr float kSpread = 2;
@@ -134,12 +134,13 @@ void weigh_neighbours_target(Window& window)
                 const auto expected = patch_sum(window.scratch_expected, i);
                 const auto beyond = hn::Max(zero, hn::Sub(patch_sum(window.scratch_difference, i), expected));
                 // (1 - x / 8)^8: exp(-x) to within .03, and exactly 0 from x = 8 on.
-                const auto tolerance = between(8 * kScattered.patch, 8 * kEven.patch);
+                const auto tolerance = between(8 * kWhereScattered.patch, 8 * kWhereEven.patch);
                 const auto tolerated = hn::Max(hn::Mul(expected, tolerance), least);
                 const auto x8 = hn::Div(beyond, tolerated);
                 // Of a few rays that agree by chance the scatter is 0: that of the patches tells more.
                 const auto alone = hn::Mul(load(window.scratch_difference, i), hn::Set(d, kPatchTexels));
-                const auto is_alike = hn::Le(alone, hn::Mul(expected, between(kScattered.alone, kEven.alone)));
+                const auto is_alike
+                    = hn::Le(alone, hn::Mul(expected, between(kWhereScattered.alone, kWhereEven.alone)));
                 const auto alike
                     = hn::IfThenElseZero(is_alike, square(square(square(hn::Max(zero, hn::Sub(one, x8))))));
                 const auto gives = load(window.gives, Window::index(x + to.x, y + to.y));
