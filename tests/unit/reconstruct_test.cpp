@@ -25,6 +25,8 @@ namespace {
 
 using Neighbours = NeighbourWindow;
 constexpr size_t kTileTexels = size_t(kTileSize) * kTileSize;
+// As pattern error: rays are as good as independent.
+constexpr double kIndependent = 100;
 
 // A flat tile whose texels are 1 apart, with visibility(x, y), and noise of that deviation.
 void fill_window(Neighbours& window, double deviation, const std::function<double(int x, int y)>& visibility)
@@ -35,8 +37,8 @@ void fill_window(Neighbours& window, double deviation, const std::function<doubl
     for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
         for (int x = -Neighbours::kHalo; x < kTileSize + Neighbours::kHalo; ++x) {
             const size_t i = Neighbours::index(x, y);
-            window.visibility[i] = float(visibility(x, y)) + float(deviation) * noise(chance);
-            for (Neighbours::Plane* plane : { &window.x, &window.y, &window.z })
+            window.values[0][i] = float(visibility(x, y)) + float(deviation) * noise(chance);
+            for (Neighbours::Plane* plane : { &window.values[1], &window.values[2], &window.values[3] })
                 (*plane)[i] = float(deviation) * 0.43f * noise(chance);
             window.variance[i] = float(deviation * deviation);
             window.normal[2][i] = 1;
@@ -50,10 +52,10 @@ std::vector<float> reconstructed(Neighbours& window)
 {
     weigh_neighbours(window);
     std::vector<float> result(kTileTexels);
-    mean_change(window, window.visibility.data(), result.data());
+    mean_change(window, window.values[0].data(), result.data());
     for (int y = 0; y < kTileSize; ++y)
         for (int x = 0; x < kTileSize; ++x)
-            result[size_t(y) * kTileSize + size_t(x)] += window.visibility[Neighbours::index(x, y)];
+            result[size_t(y) * kTileSize + size_t(x)] += window.values[0][Neighbours::index(x, y)];
     return result;
 }
 
@@ -102,9 +104,9 @@ TEST(Reconstruct, AConstantStaysAsItIsToTheBit)
     std::fill(window.variance.begin(), window.variance.end(), 1e-3f);
     weigh_neighbours(window);
     std::vector<float> change(kTileTexels, 1);
-    mean_change(window, window.visibility.data(), change.data());
+    mean_change(window, window.values[0].data(), change.data());
     EXPECT_EQ(change, std::vector<float>(kTileTexels, 0.0f));
-    EXPECT_LT(window.scale[kTileTexels / 2], 0.1f) << "neighbours have weight";
+    EXPECT_LT(window.own_weight[kTileTexels / 2], 0.1f) << "neighbours have weight";
 }
 
 TEST(Reconstruct, NoiseOnAConstantFalls)
@@ -163,7 +165,7 @@ TEST(Reconstruct, NothingPassesBetweenUnlikeSides)
         const std::vector<float> before = reconstructed(window);
         for (int y = -Neighbours::kHalo; y < kTileSize + Neighbours::kHalo; ++y)
             for (int x = 30; x < kTileSize + Neighbours::kHalo; ++x)
-                window.visibility[Neighbours::index(x, y)] += 0.01f;
+                window.values[0][Neighbours::index(x, y)] += 0.01f;
         const std::vector<float> after = reconstructed(window);
         for (int y = 0; y < kTileSize; ++y)
             for (int x = 0; x < 30; ++x)
@@ -321,7 +323,7 @@ TEST(Reconstruct, ARecipeThatCannotHaveItIsBakedWithout)
 // Half of a floor has something above it, half has nothing.
 TEST(Reconstruct, WhereNoRayAroundIsBlockedATexelStaysAsItIs)
 {
-    Reconstruction reconstruction(reconstruct_params(kTileSize, 16), 1);
+    Reconstruction reconstruction(reconstruct_params(kTileSize, 16), kIndependent);
     TexelContexts contexts(0, 0, kTileSize, kTileSize);
     std::vector<float> raw(kTileTexels * 6, 0.0f);
     for (int y = 0; y < kTileSize; ++y)
@@ -351,7 +353,7 @@ TEST(Reconstruct, NoTexelMovesFartherThanItsOwnScatterExplains)
     constexpr double kDeviation = 0.02;
     const double limit = kDeviation * std::sqrt(4 * 14.0 / 9);
     for (const double below : { 1.0, 2.0, 3.5 }) {
-        Reconstruction reconstruction(reconstruct_params(kTileSize, 16), 1);
+        Reconstruction reconstruction(reconstruct_params(kTileSize, 16), kIndependent);
         TexelContexts contexts(0, 0, kTileSize, kTileSize);
         std::vector<float> raw(kTileTexels * 6, 0.0f);
         const size_t middle = (30 * kTileSize + 30) * 6;

@@ -3,6 +3,7 @@
 #include "cases.h"
 #include "error_scenes.h"
 
+#include <vmlight/vismap/pilot.h>
 #include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
@@ -154,6 +155,27 @@ TEST(VismapError, OfIndependentRaysIsThatOfAShare)
     EXPECT_DOUBLE_EQ(independent_error(12, 16), independent_error(4, 16));
     for (const auto& [open, traced] : { std::pair(0, 16), { 16, 16 }, { 1, 1 }, { 0, 1 }, { 0, 0 } })
         EXPECT_EQ(independent_error(open, traced), 0) << open << " of " << traced;
+}
+
+TEST(VismapError, OfAPatternIsThatOfIndependentRaysWhereFewAreBlockedAndNoMoreThanTheLargest)
+{
+    EXPECT_EQ(pattern_variance(0, 0.1), 0);
+    EXPECT_EQ(pattern_variance(0.1, 0), 0);
+    EXPECT_NEAR(pattern_variance(1e-6, 0.1), 1e-6, 1e-9);
+    EXPECT_NEAR(pattern_variance(1, 0.1), 0.01, 1e-4);
+    EXPECT_DOUBLE_EQ(pattern_variance(0.01, 0.1), 0.005) << "half of either";
+}
+
+TEST(VismapError, OfAPatternIsTheUsualOneWhereFewTexelsTellIt)
+{
+    PilotError measured;
+    measured.samples = 64;
+    measured.pattern = 0.05;
+    const double usual = pattern_error(measured, 0);
+    EXPECT_NEAR(usual * 64, 1.1, 1e-12) << "rays";
+    EXPECT_NEAR(pattern_error(measured, 1 << 20), 0.05, 1e-5);
+    EXPECT_GT(pattern_error(measured, 16), usual);
+    EXPECT_LT(pattern_error(measured, 16), 0.05);
 }
 
 // Measured: 0.5 on the cow, 0.4 on the building.

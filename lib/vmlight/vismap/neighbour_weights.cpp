@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/neighbour_weights.h>
 
-#include <vmlight/vismap/neighbour_scatter.h>
+#include <vmlight/vismap/neighbour_fit.h>
 
 #include <algorithm>
 
@@ -10,12 +10,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <vmlight/vismap/neighbour_near-inl.h>
+
 #ifndef VMLIGHT_NEIGHBOUR_WEIGHTS
 #define VMLIGHT_NEIGHBOUR_WEIGHTS
 namespace vmlight::kernel {
 
-// How much farther apart than UVs say two texels may be on the surface, squared.
-constexpr float kStretch = 2.25f;
 // By how much more than by chance patches may differ, squared, in what they differ by chance; and two texels alone: by
 // chance they hardly ever do, and a patch around both may hide it.
 struct Tolerance
@@ -26,10 +26,30 @@ struct Tolerance
 // worse.
 constexpr Tolerance kWhereScattered { 1.25f * 1.25f, 10 };
 // Where they do not: nearly all weights are those of distance and surface.
-constexpr Tolerance kWhereEven { 2.5f * 2.5f, 40 };
+constexpr Tolerance kWhereEven { 2 * 2, 40 };
 constexpr float kPatchTexels = (2 * NeighbourWindow::kPatch + 1) * (2 * NeighbourWindow::kPatch + 1);
-// Of the weight by distance, in texels.
-constexpr float kSpread = 2;
+// What is summed over patches: of two texels, how different they are, squared, how different they may be by chance, 1
+// if they are near on the surface, and the differences.
+enum Sum
+{
+    kSquares,
+    kExpected,
+    kCount,
+    kDifferences,
+    kSums = kDifferences + 4
+};
+// Of the rows that the patches of a tile reach: of one of them texel by texel, and of all over three columns.
+struct PatchRows
+{
+    static constexpr size_t kRows = kTileSize + 2 * NeighbourWindow::kPatch;
+
+    PatchRows()
+    {
+        line.fill(std::vector<float>(NeighbourWindow::kStride));
+        sums.fill(std::vector<float>(kRows * kTileSize));
+    }
+    std::array<std::vector<float>, kSums> line, sums;
+};
 
 } // namespace vmlight::kernel
 #endif
@@ -38,161 +58,200 @@ HWY_BEFORE_NAMESPACE();
 namespace vmlight::kernel {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Window = NeighbourWindow;
-using WeightTag = hn::CappedTag<float, 8>;
-using WeightVec = hn::Vec<WeightTag>;
-
-HWY_INLINE WeightVec square(WeightVec v)
+HWY_INLINE void add(TexelVec value, std::vector<float>& plane, size_t at)
 {
-    return hn::Mul(v, v);
+    hn::StoreU(hn::Add(load(plane, at), value), TexelTag(), plane.data() + at);
 }
 
-HWY_INLINE WeightVec load(const Window::Plane& plane, size_t at)
+// One row of each sum: of each texel that a patch of the tile's row reaches and its neighbour, then over columns.
+template <bool kSloped> HWY_INLINE void compare_row(const Window& window, Window::Offset to, int y, PatchRows& rows)
 {
-    return hn::LoadU(WeightTag(), plane.data() + at);
-}
-
-// Whether the tile wants a texel from `first` to `last` of a row.
-HWY_INLINE bool wants(uint64_t row, int first, int last)
-{
-    first = first < 0 ? 0 : first;
-    last = last < kTileSize ? last : kTileSize - 1;
-    return first <= last && (row >> first & ~uint64_t(0) >> (kTileSize - 1 - last + first)) != 0;
-}
-
-// Of each texel that a patch of the tile reaches and its neighbour: how different they are, how different they may be
-// by chance, and how near on the surface.
-HWY_INLINE void compare(Window& window, Window::Offset to)
-{
-    const WeightTag d;
-    // Over a square of texels. A step of one texel may be longer on the surface, where its triangles are stretched.
-    const auto farthest = hn::Set(d, kStretch * float(to.x * to.x + to.y * to.y));
-    const auto both = hn::Set(d, kVarianceOfBoth);
-    const auto zero = hn::Zero(d);
-    for (int y = -Window::kPatch; y < kTileSize + Window::kPatch; ++y) {
-        uint64_t rows = 0; // whose patches have a texel of this row
-        for (int row = std::max(0, y - Window::kPatch); row <= std::min(kTileSize - 1, y + Window::kPatch); ++row)
-            rows |= window.wanted[size_t(row)];
-        for (int x = -Window::kPatch; x < kTileSize + Window::kPatch; x += int(hn::Lanes(d))) {
-            if (!wants(rows, x - Window::kPatch, x + int(hn::Lanes(d)) - 1 + Window::kPatch))
-                continue;
-            const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
-            auto facing = zero, distance = zero;
-            for (size_t c = 0; c < 3; ++c) {
-                facing = hn::Add(facing, hn::Mul(load(window.normal[c], i), load(window.normal[c], j)));
-                distance = hn::Add(distance, square(hn::Sub(load(window.position[c], i), load(window.position[c], j))));
-            }
-            const auto spacing = hn::Max(load(window.spacing, i), load(window.spacing, j));
-            const auto exists = hn::And(hn::Gt(load(window.spacing, i), zero), hn::Gt(load(window.spacing, j), zero));
-            const auto near = hn::And(hn::Le(distance, hn::Mul(square(spacing), farthest)), hn::Gt(facing, zero));
-            const auto kept = hn::And(exists, near);
-            const auto visibility = square(hn::Sub(load(window.visibility, i), load(window.visibility, j)));
-            const auto direction = hn::Add(hn::Add(square(hn::Sub(load(window.x, i), load(window.x, j))),
-                                                   square(hn::Sub(load(window.y, i), load(window.y, j)))),
-                                           square(hn::Sub(load(window.z, i), load(window.z, j))));
-            const auto difference = hn::Add(visibility, direction);
-            const auto expected = hn::Mul(both, hn::Add(load(window.variance, i), load(window.variance, j)));
-            hn::StoreU(hn::IfThenElseZero(kept, difference), d, window.scratch_difference.data() + i);
-            hn::StoreU(hn::IfThenElseZero(kept, expected), d, window.scratch_expected.data() + i);
-            hn::StoreU(hn::IfThenElseZero(kept, square(square(square(facing)))), d, window.scratch_surface.data() + i);
+    const TexelTag d;
+    const int lanes = int(hn::Lanes(d));
+    constexpr int kPatch = Window::kPatch;
+    const auto both = hn::Set(d, kVarianceOfBoth), zero = hn::Zero(d);
+    uint64_t wanted = 0; // whose patches have a texel of this row
+    for (int row = std::max(0, y - kPatch); row <= std::min(kTileSize - 1, y + kPatch); ++row)
+        wanted |= window.wanted[size_t(row)];
+    if (wanted == 0)
+        return;
+    constexpr size_t kRead = kSloped ? kSums : kCount; // of the sums
+    for (int x = -kPatch; x < kTileSize + kPatch; x += lanes) {
+        if (!wants_any(wanted, x - kPatch, x + lanes - 1 + kPatch))
+            continue;
+        const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
+        auto facing = zero, difference = zero;
+        const auto kept = are_near(window, i, j, to, facing);
+        if (hn::AllFalse(d, kept)) {
+            for (size_t sum = 0; sum < kRead; ++sum)
+                hn::StoreU(zero, d, rows.line[sum].data() + x + kPatch);
+            continue;
         }
+        for (size_t c = 0; c < 4; ++c) {
+            const auto value = hn::IfThenElseZero(kept, hn::Sub(load(window.values[c], j), load(window.values[c], i)));
+            difference = hn::Add(difference, square(value));
+            if (kSloped)
+                hn::StoreU(value, d, rows.line[kDifferences + c].data() + x + kPatch);
+        }
+        const auto expected = hn::Mul(both, hn::Add(load(window.variance, i), load(window.variance, j)));
+        hn::StoreU(difference, d, rows.line[kSquares].data() + x + kPatch);
+        hn::StoreU(hn::IfThenElseZero(kept, expected), d, rows.line[kExpected].data() + x + kPatch);
+        if (kSloped)
+            hn::StoreU(hn::IfThenElseZero(kept, hn::Set(d, 1.0f)), d, rows.line[kCount].data() + x + kPatch);
     }
+    for (size_t sum = 0; sum < kRead; ++sum)
+        for (int x = 0; x < kTileSize; x += lanes) {
+            const float* from = rows.line[sum].data() + x;
+            const auto across = hn::Add(hn::Add(hn::LoadU(d, from), hn::LoadU(d, from + 1)), hn::LoadU(d, from + 2));
+            hn::StoreU(across, d, rows.sums[sum].data() + size_t(y + kPatch) * kTileSize + size_t(x));
+        }
 }
 
-HWY_INLINE WeightVec patch_sum(const Window::Plane& plane, size_t at)
+HWY_INLINE TexelVec patch_sum(const std::vector<float>& rows, size_t texel)
 {
-    auto sum = hn::Zero(WeightTag());
-    for (int y = -Window::kPatch; y <= Window::kPatch; ++y)
-        for (int x = -Window::kPatch; x <= Window::kPatch; ++x)
-            sum = hn::Add(sum, load(plane, size_t(int64_t(at) + y * Window::kStride + x)));
-    return sum;
+    const TexelTag d;
+    const float* row = rows.data() + texel;
+    return hn::Add(hn::Add(hn::LoadU(d, row), hn::LoadU(d, row + kTileSize)), hn::LoadU(d, row + 2 * kTileSize));
+}
+
+// Set the weights of neighbour `number` by how alike it is, and add them to their sum, and with its steps.
+template <bool kSloped>
+HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std::array<std::vector<float>, 2>& steps)
+{
+    const TexelTag d;
+    const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least = hn::Set(d, 1e-30f);
+    const Window::Offset to = Window::neighbour(number);
+    for (int y = -Window::kPatch; y < kTileSize + Window::kPatch; ++y)
+        compare_row<kSloped>(window, to, y, rows);
+    const auto step_x = hn::Set(d, float(to.x)), step_y = hn::Set(d, float(to.y));
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
+            if (!wants_any(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
+                continue;
+            const size_t texel = size_t(y) * kTileSize + size_t(x), at = size_t(number) * Window::kTexels + texel;
+            const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
+            const auto nearness = load(window.fit.nearness, at);
+            if (hn::AllTrue(d, hn::Eq(nearness, zero))) { // most, where islands are small
+                hn::StoreU(zero, d, window.weights.data() + at);
+                continue;
+            }
+            const auto even = load(window.fit.evenness, texel);
+            const auto between = [&](float scattered, float is_even) {
+                return hn::Add(hn::Set(d, scattered), hn::Mul(even, hn::Set(d, is_even - scattered)));
+            };
+            const auto expected = patch_sum(rows.sums[kExpected], texel);
+            auto difference = patch_sum(rows.sums[kSquares], texel), alone = zero;
+            for (size_t c = 0; c < 4; ++c) {
+                auto value = hn::Sub(load(window.values[c], j), load(window.values[c], i));
+                if (kSloped) { // less what the slope explains
+                    const auto slope = hn::Add(hn::Mul(step_x, load(window.fit.slopes[0][c], texel)),
+                                               hn::Mul(step_y, load(window.fit.slopes[1][c], texel)));
+                    const auto twice = hn::Add(patch_sum(rows.sums[kDifferences + c], texel),
+                                               patch_sum(rows.sums[kDifferences + c], texel));
+                    const auto all = hn::Mul(slope, patch_sum(rows.sums[kCount], texel));
+                    difference = hn::Add(difference, hn::Mul(slope, hn::Sub(all, twice)));
+                    value = hn::Sub(value, slope);
+                }
+                alone = hn::Add(alone, square(value));
+            }
+            const auto beyond = hn::Max(zero, hn::Sub(difference, expected));
+            // (1 - x / 4)^4: exp(-x) to within .06, and exactly 0 from x = 4 on.
+            const auto tolerance = between(4 * kWhereScattered.patch, 4 * kWhereEven.patch);
+            const auto quarter = hn::Div(beyond, hn::Max(hn::Mul(expected, tolerance), least));
+            // Of a few rays that agree by chance the scatter is 0: that of the patches tells more.
+            const auto is_alike = hn::Le(hn::Mul(alone, hn::Set(d, kPatchTexels)),
+                                         hn::Mul(expected, between(kWhereScattered.alone, kWhereEven.alone)));
+            const auto alike = hn::IfThenElseZero(is_alike, square(square(hn::Max(zero, hn::Sub(one, quarter)))));
+            const auto weight = hn::Mul(alike, nearness);
+            hn::StoreU(weight, d, window.weights.data() + at);
+            add(weight, window.own_weight, texel);
+            if (kSloped) {
+                add(hn::Mul(weight, step_x), steps[0], texel);
+                add(hn::Mul(weight, step_y), steps[1], texel);
+            }
+        }
+}
+
+// Make the weights those of a mean: their sum 1, and what they take along the slope taken back.
+HWY_INLINE void normalise(Window& window, std::array<std::vector<float>, 2>& steps)
+{
+    const TexelTag d;
+    const auto one = hn::Set(d, 1.0f);
+    for (size_t texel = 0; texel < Window::kTexels; texel += hn::Lanes(d)) {
+        if (!wants_any(window.wanted[texel / kTileSize], int(texel % kTileSize),
+                       int(texel % kTileSize + hn::Lanes(d)) - 1))
+            continue;
+        const auto scale = hn::Div(one, load(window.own_weight, texel));
+        auto own = one;
+        const auto x = hn::Mul(load(steps[0], texel), scale), y = hn::Mul(load(steps[1], texel), scale);
+        const auto by_x = hn::Add(hn::Mul(load(window.fit.xx, texel), x), hn::Mul(load(window.fit.xy, texel), y));
+        const auto by_y = hn::Add(hn::Mul(load(window.fit.xy, texel), x), hn::Mul(load(window.fit.yy, texel), y));
+        const auto from
+            = hn::Add(hn::Mul(by_x, load(window.fit.middle_x, texel)), hn::Mul(by_y, load(window.fit.middle_y, texel)));
+        for (int number = 0; number < Window::kNeighbours; ++number) {
+            const Window::Offset to = Window::neighbour(number);
+            const size_t at = size_t(number) * Window::kTexels + texel;
+            auto weight = hn::Mul(load(window.weights, at), scale);
+            if (window.fit.is_sloped) {
+                const auto along
+                    = hn::Add(hn::Mul(by_x, hn::Set(d, float(to.x))), hn::Mul(by_y, hn::Set(d, float(to.y))));
+                weight = hn::Sub(weight, hn::Mul(load(window.fit.nearness, at), hn::Sub(along, from)));
+            }
+            hn::StoreU(weight, d, window.weights.data() + at);
+            own = hn::Sub(own, weight);
+        }
+        hn::StoreU(own, d, window.own_weight.data() + texel);
+    }
 }
 
 void weigh_neighbours_target(Window& window)
 {
-    const WeightTag d;
-    const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least = hn::Set(d, 1e-30f);
-    find_evenness(window, window.scratch_evenness);
-    std::fill(window.scale.begin(), window.scale.end(), 1.0f);
-    for (int number = 0; number < Window::kNeighbours; ++number) {
-        const Window::Offset to = Window::neighbour(number);
-        compare(window, to);
-        const auto nearby = hn::Set(d, 1 - float(to.x * to.x + to.y * to.y) / (16 * kSpread * kSpread));
-        const auto near = square(square(square(nearby)));
-        float* weights = window.weights.data() + size_t(number) * kTileSize * kTileSize;
-        for (int y = 0; y < kTileSize; ++y)
-            for (int x = 0; x < kTileSize; x += int(hn::Lanes(d)), weights += hn::Lanes(d)) {
-                if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
-                    continue;
-                const size_t i = Window::index(x, y);
-                const auto even = hn::LoadU(d, window.scratch_evenness.data() + size_t(y) * kTileSize + size_t(x));
-                const auto between = [&](float scattered, float is_even) {
-                    return hn::Add(hn::Set(d, scattered), hn::Mul(even, hn::Set(d, is_even - scattered)));
-                };
-                const auto expected = patch_sum(window.scratch_expected, i);
-                const auto beyond = hn::Max(zero, hn::Sub(patch_sum(window.scratch_difference, i), expected));
-                // (1 - x / 8)^8: exp(-x) to within .03, and exactly 0 from x = 8 on.
-                const auto tolerance = between(8 * kWhereScattered.patch, 8 * kWhereEven.patch);
-                const auto tolerated = hn::Max(hn::Mul(expected, tolerance), least);
-                const auto x8 = hn::Div(beyond, tolerated);
-                // Of a few rays that agree by chance the scatter is 0: that of the patches tells more.
-                const auto alone = hn::Mul(load(window.scratch_difference, i), hn::Set(d, kPatchTexels));
-                const auto is_alike
-                    = hn::Le(alone, hn::Mul(expected, between(kWhereScattered.alone, kWhereEven.alone)));
-                const auto alike
-                    = hn::IfThenElseZero(is_alike, square(square(square(hn::Max(zero, hn::Sub(one, x8))))));
-                const auto gives = load(window.gives, Window::index(x + to.x, y + to.y));
-                const auto weight = hn::Mul(hn::Mul(hn::Mul(alike, near), load(window.scratch_surface, i)), gives);
-                hn::StoreU(weight, d, weights);
-                float* sum = window.scale.data() + size_t(y) * kTileSize + size_t(x);
-                hn::StoreU(hn::Add(hn::LoadU(d, sum), weight), d, sum);
+    PatchRows rows;
+    std::array<std::vector<float>, 2> steps;
+    steps.fill(std::vector<float>(Window::kTexels));
+    std::fill(window.own_weight.begin(), window.own_weight.end(), 1.0f);
+    for (int number = 0; number < Window::kNeighbours; ++number)
+        if (window.fit.is_sloped)
+            weigh_neighbour<true>(window, number, rows, steps);
+        else
+            weigh_neighbour<false>(window, number, rows, steps);
+    normalise(window, steps);
+}
+
+// Set `dst` to start(texel) and the sum over neighbours of term(weight, what plane has there, and in the texel).
+template <class Start, class Term>
+HWY_INLINE void sum_weighted(const Window& window, const float* plane, float* dst, const Start& start, const Term& term)
+{
+    const TexelTag d;
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
+            if (!wants_any(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
+                continue;
+            const size_t texel = size_t(y) * kTileSize + size_t(x);
+            const auto own = hn::LoadU(d, plane + Window::index(x, y));
+            auto sum = start(load(window.own_weight, texel), own);
+            for (int number = 0; number < Window::kNeighbours; ++number) {
+                const Window::Offset to = Window::neighbour(number);
+                const auto weight = load(window.weights, size_t(number) * Window::kTexels + texel);
+                sum = hn::Add(sum, term(weight, hn::LoadU(d, plane + Window::index(x + to.x, y + to.y)), own));
             }
-    }
-    for (size_t i = 0; i < window.scale.size(); i += hn::Lanes(d))
-        hn::StoreU(hn::Div(one, hn::LoadU(d, window.scale.data() + i)), d, window.scale.data() + i);
+            hn::StoreU(sum, d, dst + texel);
+        }
 }
 
 void mean_change_target(const Window& window, const float* plane, float* change)
 {
-    const WeightTag d;
-    for (int y = 0; y < kTileSize; ++y)
-        for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
-            if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
-                continue;
-            const size_t i = Window::index(x, y), texel = size_t(y) * kTileSize + size_t(x);
-            const auto own = hn::LoadU(d, plane + i);
-            auto sum = hn::Zero(d);
-            for (int number = 0; number < Window::kNeighbours; ++number) {
-                const Window::Offset to = Window::neighbour(number);
-                const auto weight
-                    = hn::LoadU(d, window.weights.data() + size_t(number) * kTileSize * kTileSize + texel);
-                const auto other = hn::LoadU(d, plane + Window::index(x + to.x, y + to.y));
-                sum = hn::Add(sum, hn::Mul(weight, hn::Sub(other, own)));
-            }
-            hn::StoreU(hn::Mul(sum, hn::LoadU(d, window.scale.data() + texel)), d, change + texel);
-        }
+    sum_weighted(
+        window, plane, change, [](TexelVec, TexelVec) { return hn::Zero(TexelTag()); },
+        [](TexelVec weight, TexelVec other, TexelVec own) { return hn::Mul(weight, hn::Sub(other, own)); });
 }
 
 void mean_variance_target(const Window& window, float* variance)
 {
-    const WeightTag d;
-    for (int y = 0; y < kTileSize; ++y)
-        for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
-            if (!wants(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
-                continue;
-            const size_t i = Window::index(x, y), texel = size_t(y) * kTileSize + size_t(x);
-            auto sum = load(window.variance, i);
-            for (int number = 0; number < Window::kNeighbours; ++number) {
-                const Window::Offset to = Window::neighbour(number);
-                const auto weight
-                    = hn::LoadU(d, window.weights.data() + size_t(number) * kTileSize * kTileSize + texel);
-                sum = hn::Add(sum, hn::Mul(square(weight), load(window.variance, Window::index(x + to.x, y + to.y))));
-            }
-            const auto scale = hn::LoadU(d, window.scale.data() + texel);
-            hn::StoreU(hn::Mul(sum, square(scale)), d, variance + texel);
-        }
+    sum_weighted(
+        window, window.variance.data(), variance,
+        [](TexelVec weight, TexelVec own) { return hn::Mul(square(weight), own); },
+        [](TexelVec weight, TexelVec other, TexelVec) { return hn::Mul(square(weight), other); });
 }
 
 } // namespace HWY_NAMESPACE
@@ -208,30 +267,9 @@ HWY_EXPORT(mean_change_target);
 HWY_EXPORT(mean_variance_target);
 } // namespace kernel
 
-NeighbourWindow::NeighbourWindow()
-    : weights(size_t(kNeighbours) * kTileSize * kTileSize)
-    , scale(size_t(kTileSize) * kTileSize)
-{
-    clear();
-    scratch_difference.assign(spacing.size(), 0);
-    scratch_expected = scratch_surface = scratch_difference;
-}
-
-void NeighbourWindow::clear()
-{
-    wanted.fill(~uint64_t(0));
-    constexpr size_t kTexels = size_t(kSide) * kStride + 8;
-    for (Plane* plane : { &visibility, &x, &y, &z, &variance, &spacing })
-        plane->assign(kTexels, 0);
-    gives.assign(kTexels, 1);
-    for (size_t c = 0; c < 3; ++c) {
-        normal[c].assign(kTexels, 0);
-        position[c].assign(kTexels, 0);
-    }
-}
-
 void weigh_neighbours(NeighbourWindow& window)
 {
+    fit_neighbours(window);
     HWY_DYNAMIC_DISPATCH(kernel::weigh_neighbours_target)(window);
 }
 

@@ -32,7 +32,7 @@ PartBaker::PartBaker(const VismapBaker& baker, int nthreads)
         worker.scratch = baker.scratch();
         worker.texels.resize(kTileSize * m_pitch);
         if (reconstructs)
-            worker.reconstruction = std::make_unique<Reconstruction>(baker.params(), baker.error().scatter_scale,
+            worker.reconstruction = std::make_unique<Reconstruction>(baker.params(), baker.error().pattern_error,
                                                                      baker.error().error_scale);
     }
     if (reconstructs) {

@@ -17,16 +17,33 @@ namespace {
 
 // Rays between two progress checks: few enough to stop in well under a second.
 constexpr int64_t kRaysPerItem = 1 << 14;
-// Of scatter_scale() at one ray, in the scenes that were measured: it falls with the fourth root of their number, as
-// the samplers' error falls with rays^-0.75. It counts as much as so many texels.
-constexpr double kUsualScale = 1.05, kUsualTexels = 16;
+// Of pattern_error(), in rays, in the scenes that were measured. It counts as much as so many texels.
+constexpr double kUsualRays = 1.1, kUsualTexels = 16;
+
+using Seen = std::array<Visibility, 2>;
+
+// The pattern error that makes the mean of pattern_variance() over the texels `mean`, by bisection.
+double pattern_error_of(const std::vector<Seen>& seen, double mean)
+{
+    if (!(mean > 0))
+        return 0;
+    double least = 1e-9, most = 1; // with 1, rays are as good as independent
+    for (int step = 0; step < 48; ++step) {
+        const double middle = std::sqrt(least * most);
+        double sum = 0;
+        for (const Seen& texel : seen)
+            for (const Visibility& one : texel)
+                sum += pattern_variance(one.error * one.error, middle) / 2;
+        (sum < mean * double(seen.size()) ? least : most) = middle;
+    }
+    return most;
+}
 
 } // namespace
 
-double scatter_scale(const PilotError& measured, int64_t texels)
+double pattern_error(const PilotError& measured, int64_t texels)
 {
-    const double usual = kUsualScale * std::pow(std::max(1, measured.samples), -0.25);
-    const double found = measured.scatter_rms > 0 ? measured.rms / measured.scatter_rms : usual;
+    const double usual = kUsualRays / std::max(1, measured.samples), found = measured.pattern;
     return std::sqrt((double(texels) * found * found + kUsualTexels * usual * usual) / (double(texels) + kUsualTexels));
 }
 
@@ -158,7 +175,8 @@ bool VismapPilot::measure(int samples, PilotError& dst, bool with_basis) const
         scatter_variance += (std::pow(one.error, 2) + std::pow(other.error, 2)) / 2;
     }
     const double count = double(std::max<int64_t>(1, texels()));
-    dst = { samples, std::sqrt(variance / count), std::sqrt(scatter_variance / count), timer() };
+    dst = { samples, std::sqrt(variance / count), std::sqrt(scatter_variance / count),
+            pattern_error_of(seen, variance / count), timer() };
     return true;
 }
 

@@ -26,13 +26,15 @@ struct PilotError
     double rms = 0;
     /// Root mean square of Visibility::error; 0 unless the channel is asked for.
     double scatter_rms = 0;
+    /// What makes the mean of pattern_variance() over the texels that of V's squared error; 0 if all agree.
+    double pattern = 0;
     /// Time of the measurement.
     double seconds = 0;
 };
 
-/// What Visibility::error is to be multiplied by to be the error of V, as reconstruction needs it: measured, and where
-/// few texels were, near what is usual. A larger factor would average what differs.
-double scatter_scale(const PilotError& measured, int64_t texels);
+/// The largest standard error of V that patterns of `measured.samples` rays leave, as pattern_variance() takes it:
+/// measured, and where few texels were, near what is usual. A larger one would average what differs.
+double pattern_error(const PilotError& measured, int64_t texels);
 
 class VismapPilot
 {

@@ -8,6 +8,7 @@
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/basis.h>
 #include <vmlight/vismap/sun_visibility.h>
+#include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,12 +78,12 @@ std::string map_memory_shortage(const OIIO::ImageSpec& spec, const VismapParams&
         : shortage + "; with --reconstruct off it fits";
 }
 
-Reconstruction::Reconstruction(const VismapParams& params, double scatter_scale, double error_scale)
+Reconstruction::Reconstruction(const VismapParams& params, double pattern_error, double error_scale)
     : m_layout { size_t(describe_vismap("", params).nchannels), kVismapChannels.size() + (params.has("normal") ? 3 : 0),
                  kVismapChannels.size() + (params.has("normal") ? 3 : 0) + (params.has("error") ? 1 : 0)
                      + sun_channels(params.sun_directions).size(),
                  params.basis == "sh" ? params.order : 0, params.has("error") }
-    , m_scatter_scale(float(scatter_scale))
+    , m_pattern_error(pattern_error)
     , m_error_scale(float(error_scale))
 {
     if (m_layout.order > 0)
@@ -90,7 +91,9 @@ Reconstruction::Reconstruction(const VismapParams& params, double scatter_scale,
     m_bands.assign(m_layout.order > 0 ? size_t(m_layout.order * m_layout.order) - 4 : 0,
                    NeighbourWindow::Plane(m_window.spacing.size()));
     m_open = m_bands;
-    m_planes = { &m_window.visibility, &m_window.x, &m_window.y, &m_window.z, &m_window.variance, &m_window.spacing };
+    m_planes = { &m_window.variance, &m_window.spacing };
+    for (NeighbourWindow::Plane& plane : m_window.values)
+        m_planes.push_back(&plane);
     for (size_t c = 0; c < 3; ++c)
         m_planes.insert(m_planes.end(), { &m_window.normal[c], &m_window.position[c] });
     for (size_t k = 0; k < m_bands.size(); ++k)
@@ -107,12 +110,10 @@ void Reconstruction::add(int x, int y, const float* texel, const TexelContext& c
 {
     const size_t i = NeighbourWindow::index(x, y);
     const float open = 2.0f / 3 * texel[0];
-    m_window.visibility[i] = texel[0];
-    m_window.x[i] = texel[1] - open * context.normal.x;
-    m_window.y[i] = texel[2] - open * context.normal.y;
-    m_window.z[i] = texel[3] - open * context.normal.z;
-    m_window.variance[i] = context.variance * m_scatter_scale * m_scatter_scale;
+    m_window.values[0][i] = texel[0];
+    m_window.variance[i] = float(pattern_variance(double(context.variance), m_pattern_error));
     for (int c = 0; c < 3; ++c) {
+        m_window.values[size_t(c) + 1][i] = texel[c + 1] - open * context.normal[c];
         m_window.normal[size_t(c)][i] = context.normal[c];
         m_window.position[size_t(c)][i] = context.position[c];
     }
@@ -196,10 +197,8 @@ void Reconstruction::apply_layer(const float* raw, float* texels, size_t pitch, 
                                  const TexelContexts& contexts)
 {
     weigh_neighbours(m_window);
-    const std::array<const float*, 4> planes { m_window.visibility.data(), m_window.x.data(), m_window.y.data(),
-                                               m_window.z.data() };
     for (size_t c = 0; c < 4; ++c)
-        mean_change(m_window, planes[c], m_change[c].data());
+        mean_change(m_window, m_window.values[c].data(), m_change[c].data());
     std::vector<float> variance(m_layout.has_error ? m_change[0].size() : 0);
     if (m_layout.has_error)
         mean_variance(m_window, variance.data());

@@ -40,7 +40,7 @@ struct TexelContext
 {
     Imath::V3f position { 0 }, normal { 0 }; ///< in the scene's space; of unit length
     float spacing = 0; ///< the longest distance to the next texel, in the scene's space; 0: not covered
-    float variance = 0; ///< of V, up to SampleCount::scatter_scale squared
+    float variance = 0; ///< of V, if its rays were independent
     uint32_t island = 0; ///< SeamLinks::island()
 };
 
@@ -73,8 +73,8 @@ class Reconstruction
 {
 public:
     /// @param params   is_reconstructed()
-    /// @param scatter_scale, error_scale  as in SampleCount
-    Reconstruction(const VismapParams& params, double scatter_scale, double error_scale = 1);
+    /// @param pattern_error, error_scale  as in SampleCount
+    Reconstruction(const VismapParams& params, double pattern_error, double error_scale = 1);
     ~Reconstruction();
 
     /// Forget all texels.
@@ -105,7 +105,8 @@ private:
         bool has_error;
     };
     const Layout m_layout;
-    const float m_scatter_scale, m_error_scale;
+    const double m_pattern_error;
+    const float m_error_scale;
     NeighbourWindow m_window;
     std::vector<NeighbourWindow::Plane*> m_planes; // all that add() sets
     std::unique_ptr<Harmonics> m_harmonics;

@@ -80,7 +80,7 @@ bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContext
     std::vector<Worker> workers(static_cast<size_t>(worker_count(nthreads)));
     for (Worker& worker : workers)
         worker.reconstruction
-            = std::make_unique<Reconstruction>(baker.params(), baker.error().scatter_scale, baker.error().error_scale);
+            = std::make_unique<Reconstruction>(baker.params(), baker.error().pattern_error, baker.error().error_scale);
     const int width = baker.width(), height = baker.height();
     const auto channels = size_t(baker.channels());
     const size_t pitch = size_t(width) * channels;

@@ -16,7 +16,7 @@ namespace vmlight {
 namespace {
 
 // Rays of a probe, in those of a texel.
-constexpr int kProbeRays = 4;
+constexpr int kProbeRays = 8;
 constexpr int kMostProbeRays = 1 << 20;
 // Between two progress checks, of the windows.
 constexpr int kRaysPerGroup = 1 << 18;
@@ -36,7 +36,7 @@ ReconstructPilot::ReconstructPilot(const BakeScene& scene, const VismapPilot& pi
     m_params.sun_directions.clear();
 }
 
-bool ReconstructPilot::measure(const PilotError& plain, double scale, ReconstructError& dst) const
+bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, ReconstructError& dst) const
 {
     const int samples = plain.samples;
     constexpr int kAcross = NeighbourWindow::kSide / kSide;
@@ -59,12 +59,11 @@ bool ReconstructPilot::measure(const PilotError& plain, double scale, Reconstruc
         for (size_t k = 0; k < 3; ++k)
             worker.integrators[k] = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), k ? probe : pattern,
                                                                            params[k], units, ground);
-        worker.reconstruction = std::make_unique<Reconstruction>(m_params, scale);
+        worker.reconstruction = std::make_unique<Reconstruction>(m_params, pattern_error);
     }
     struct Sums
     {
-        double squares = 0, plain = 0, fourth = 0, expected = 0;
-        int64_t texels = 0;
+        double squares = 0, plain = 0, fourth = 0, expected = 0, texels = 0;
     };
     std::vector<Sums> sums((m_windows.size() + most - 1) / most);
     // As many windows as fit are reconstructed as if they were one tile: no texel reaches into the next window.
@@ -82,7 +81,7 @@ bool ReconstructPilot::measure(const PilotError& plain, double scale, Reconstruc
         };
         for (size_t k = first; k < last; ++k)
             for (int i = 0; i < kSide * kSide; ++i) {
-                const Texel& texel = m_windows[k][size_t(i)];
+                const Texel& texel = m_windows[k].texels[size_t(i)];
                 if (texel.spacing == 0)
                     continue;
                 const Visibility seen = integrators[0]->integrate(
@@ -102,27 +101,26 @@ bool ReconstructPilot::measure(const PilotError& plain, double scale, Reconstruc
         std::vector<float> texels = raw;
         reconstruction->apply(raw.data(), texels.data(), kPitch, 0, 0, contexts);
         Sums& sum = sums[size_t(group)];
-        for (size_t k = first; k < last; ++k)
-            for (int i = 0; i < kMiddle * kMiddle; ++i) {
-                const int inside = (i / kMiddle + kHalo) * kSide + i % kMiddle + kHalo;
-                const Texel& texel = m_windows[k][size_t(inside)];
-                if (texel.spacing == 0 || texel.continues)
-                    continue;
-                const Imath::V2i at = slot(k, inside);
-                const size_t channel = size_t(at.y) * kPitch + size_t(at.x) * kChannels;
-                double square = 1, plain_square = 1;
-                for (size_t p = 1; p < 3; ++p) {
-                    const Point32 hash = texel_hash(uint32_t(texel.x), uint32_t(texel.y), uint32_t(params[p].seed));
-                    const double truth = integrators[p]->integrate(texel.point, hash, texel.open).visibility;
-                    square *= double(texels[channel]) - truth;
-                    plain_square *= double(raw[channel]) - truth;
-                }
-                sum.plain += plain_square;
-                sum.squares += square;
-                sum.fourth += square * square;
-                sum.expected += double(texels[channel + 4]) * double(texels[channel + 4]);
-                ++sum.texels;
+        for (size_t k = first; k < last; ++k) {
+            const Texel& texel = m_windows[k].texels[kMiddle];
+            if (texel.spacing == 0)
+                continue;
+            const Imath::V2i at = slot(k, kMiddle);
+            const size_t channel = size_t(at.y) * kPitch + size_t(at.x) * kChannels;
+            double square = 1, plain_square = 1;
+            for (size_t p = 1; p < 3; ++p) {
+                const Point32 hash = texel_hash(uint32_t(texel.x), uint32_t(texel.y), uint32_t(params[p].seed));
+                const double truth = integrators[p]->integrate(texel.point, hash, texel.open).visibility;
+                square *= double(texels[channel]) - truth;
+                plain_square *= double(raw[channel]) - truth;
             }
+            const double counts = m_windows[k].counts;
+            sum.plain += counts * plain_square;
+            sum.squares += counts * square;
+            sum.fourth += counts * counts * square * square;
+            sum.expected += counts * double(texels[channel + 4]) * double(texels[channel + 4]);
+            sum.texels += counts;
+        }
     };
     if (!parallel_items(int64_t(sums.size()), m_threads, work, m_progress))
         return false;
@@ -134,7 +132,7 @@ bool ReconstructPilot::measure(const PilotError& plain, double scale, Reconstruc
         all.expected += sum.expected;
         all.texels += sum.texels;
     }
-    const double count = double(std::max<int64_t>(1, all.texels));
+    const double count = all.texels > 0 ? all.texels : 1;
     // Where chance makes the estimate negative, its standard error is all that is known.
     const double square = all.squares > 0 ? all.squares / count : std::sqrt(all.fourth) / count;
     // In proportion to the error without reconstruction, which is known from more texels: windows happen to lie where

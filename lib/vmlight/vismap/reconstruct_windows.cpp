@@ -3,38 +3,102 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/math/sampling.h>
+#include <vmlight/vismap/ground_of.h>
 #include <vmlight/vismap/texel_spacing.h>
+#include <vmlight/vismap/visibility_integrator.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 
 namespace vmlight {
 namespace {
 
-// One window for so many covered texels, within limits.
-constexpr int64_t kTexelsPerWindow = 128, kLeastWindows = 64, kMostWindows = 256;
+// One window for so many covered texels, within limits; each is one of so many that are looked at.
+constexpr int64_t kTexelsPerWindow = 64, kLeastWindows = 256, kMostWindows = 512, kLooks = 4;
+// Rays of a texel that is looked at. Their V is off by about one ray.
+constexpr int kLookRays = 16;
+constexpr double kLookVariance = 1.0 / (kLookRays * kLookRays);
+// Where neighbours scatter by far more than chance, reconstruction hardly helps: the error is some three times that of
+// where they do not, and so many times the windows tell it best.
+constexpr double kEven = 1.5, kUneven = 8, kMoreWindows = 3;
 
 } // namespace
 
 bool ReconstructPilot::pick(const UvRaster& raster, const OpenTriangles& open, const SeamLinks& seams)
 {
-    const int64_t wanted = std::clamp(m_pilot.covered() / kTexelsPerWindow, kLeastWindows, kMostWindows);
-    m_windows.resize(size_t(std::min(wanted, m_pilot.texels())));
-    const double run = double(m_pilot.texels()) / double(std::max<size_t>(1, m_windows.size()));
+    if (!choose(raster, open, seams))
+        return false;
     std::vector<Texel*> texels;
-    for (size_t k = 0; k < m_windows.size(); ++k) {
-        // A random one of each run: equal steps might all fall into one column of a tile.
-        const double chance = texel_hash(uint32_t(k), 1, 0).u * 0x1p-32;
-        const auto [left, top] = m_pilot.place(std::min(m_pilot.texels() - 1, int64_t((double(k) + chance) * run)));
+    for (Window& window : m_windows) {
+        const int left = window.texels[kMiddle].x - kSide / 2, top = window.texels[kMiddle].y - kSide / 2;
         for (int i = 0; i < kSide * kSide; ++i) {
-            Texel& texel = m_windows[k][size_t(i)];
-            texel.x = left + i % kSide - kSide / 2;
-            texel.y = top + i / kSide - kSide / 2;
+            Texel& texel = window.texels[size_t(i)];
+            texel.x = left + i % kSide;
+            texel.y = top + i / kSide;
             texels.push_back(&texel);
         }
     }
     return fill(texels, raster, open, seams) && continue_windows(raster, open, seams);
+}
+
+// Set the middles of the windows, and for how many each counts.
+bool ReconstructPilot::choose(const UvRaster& raster, const OpenTriangles& open, const SeamLinks& seams)
+{
+    const int64_t most = std::clamp(m_pilot.covered() / kTexelsPerWindow, kLeastWindows, kMostWindows);
+    const int64_t looks = std::min(most * kLooks, m_pilot.texels());
+    // The middle of each, and its farthest neighbours to eight sides.
+    constexpr size_t kLookTexels = 9;
+    std::vector<std::array<Texel, kLookTexels>> looked(static_cast<size_t>(looks));
+    std::vector<Texel*> texels;
+    for (size_t k = 0; k < looked.size(); ++k) {
+        // A random one of each run: equal steps might all fall into one column of a tile.
+        const double chance = texel_hash(uint32_t(k), 1, 0).u * 0x1p-32;
+        const double run = double(m_pilot.texels()) / double(looks);
+        const auto [x, y] = m_pilot.place(std::min(m_pilot.texels() - 1, int64_t((double(k) + chance) * run)));
+        for (size_t i = 0; i < kLookTexels; ++i) {
+            looked[k][i].x = x + (int(i) % 3 - 1) * NeighbourWindow::kReach;
+            looked[k][i].y = y + (int(i) / 3 - 1) * NeighbourWindow::kReach;
+            texels.push_back(&looked[k][i]);
+        }
+    }
+    if (!fill(texels, raster, open, seams))
+        return false;
+    const SamplePattern pattern(m_params.sampler, kLookRays, false);
+    std::vector<std::unique_ptr<VisibilityIntegrator>> integrators(static_cast<size_t>(worker_count(m_threads)));
+    for (auto& integrator : integrators)
+        integrator = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), pattern, m_params,
+                                                            m_scene.frame().scale, ground_of(m_scene, m_params));
+    std::vector<double> windows(looked.size()); // how many windows to have there, in those of even texels
+    const auto look = [&](int64_t k, int worker) {
+        const Texel& middle = looked[size_t(k)][kLookTexels / 2];
+        double count = 0, sum = 0, squares = 0;
+        for (const Texel& texel : looked[size_t(k)]) {
+            if (texel.spacing == 0 || texel.island != middle.island)
+                continue;
+            const Point32 shift = pattern.texel(texel.x, texel.y, uint32_t(m_params.seed));
+            const double seen = integrators[size_t(worker)]->integrate(texel.point, shift, texel.open).visibility;
+            ++count, sum += seen, squares += seen * seen;
+        }
+        const double scatter = count > 1 ? (squares - sum * sum / count) / (count - 1) / kLookVariance : kUneven;
+        const double uneven = std::clamp((scatter - kEven) / (kUneven - kEven), 0.0, 1.0);
+        windows[size_t(k)] = 1 + (kMoreWindows - 1) * uneven;
+    };
+    if (!parallel_items(looks, m_threads, look, m_progress))
+        return false;
+    const double all = std::accumulate(windows.begin(), windows.end(), 0.0);
+    m_windows.resize(size_t(std::min(most, looks)));
+    double passed = 0;
+    for (size_t k = 0, at = 0; k < m_windows.size(); ++k) {
+        const double chance = texel_hash(uint32_t(k), 2, 0).u * 0x1p-32;
+        const double wanted = (double(k) + chance) * all / double(m_windows.size());
+        while (at + 1 < looked.size() && passed + windows[at] <= wanted)
+            passed += windows[at++];
+        m_windows[k].texels[kMiddle] = looked[at][kLookTexels / 2];
+        m_windows[k].counts = 1 / windows[at];
+    }
+    return true;
 }
 
 bool ReconstructPilot::fill(const std::vector<Texel*>& texels, const UvRaster& raster, const OpenTriangles& open,
@@ -86,14 +150,12 @@ bool ReconstructPilot::continue_windows(const UvRaster& raster, const OpenTriang
     std::vector<Candidate> candidates;
     std::vector<SeamCell> cells;
     for (Window& window : m_windows) {
-        const Texel &first = window.front(), &middle = window[window.size() / 2];
+        const Texel &first = window.texels.front(), &middle = window.texels[kMiddle];
         if (middle.spacing == 0)
             continue;
-        seams.find(
-            { middle.x - kMiddle / 2, middle.x + kMiddle / 2 + 1, middle.y - kMiddle / 2, middle.y + kMiddle / 2 + 1 },
-            cells);
+        seams.find({ middle.x, middle.x + 1, middle.y, middle.y + 1 }, cells);
         for (const SeamCell& cell : cells) {
-            Texel& there = window[size_t(cell.y - first.y) * kSide + size_t(cell.x - first.x)];
+            Texel& there = window.texels[size_t(cell.y - first.y) * kSide + size_t(cell.x - first.x)];
             if (cell.island != middle.island || (there.spacing > 0 && there.island == cell.island))
                 continue;
             Candidate candidate { &there, there };

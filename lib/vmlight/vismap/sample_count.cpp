@@ -139,12 +139,12 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         || (reconstructs && !scatter.pick(raster, open, kScaleTexels, kScaleStep))
         || (wants_error && reconstructs && !windows.pick(raster, open, seams)))
         return stopped();
-    double reconstruct_scale = 1, error_scale = 1; // of the last measurement
+    double pattern = 0, error_scale = 1; // of the last measurement
     const Measure measure = [&](int samples, PilotError& error_there) {
         if (reconstructs) {
             if (!scatter.measure(samples, error_there))
                 return false;
-            reconstruct_scale = scatter_scale(error_there, scatter.texels());
+            pattern = pattern_error(error_there, scatter.texels());
         }
         if (!wants_error)
             return true;
@@ -153,7 +153,7 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
         ReconstructError reconstructed;
         if (!reconstructs)
             return true;
-        if (!windows.measure(error_there, reconstruct_scale, reconstructed))
+        if (!windows.measure(error_there, pattern, reconstructed))
             return false;
         error_there.rms = reconstructed.rms;
         error_scale = reconstructed.scale;
@@ -186,9 +186,9 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
     if (reconstructs && target > 0 && !measure(dst.samples, measured)) // the last try may have been another count
         return stopped();
     dst.pilot_seconds = timer();
-    dst.scatter_scale = reconstructs ? reconstruct_scale
-        : measured.scatter_rms > 0   ? measured.rms / measured.scatter_rms
-                                     : 1;
+    if (!reconstructs && measured.scatter_rms > 0)
+        dst.scatter_scale = measured.rms / measured.scatter_rms;
+    dst.pattern_error = pattern;
     dst.error_scale = error_scale;
     if (!wants_error)
         return true;

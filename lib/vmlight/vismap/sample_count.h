@@ -25,8 +25,10 @@ struct SampleCount
     /// Texels that were baked twice to measure it; 0 if it was not measured.
     int64_t texels = 0;
     /// Factor for Visibility::error that makes its root mean square that of the rays' error; measured for the channel
-    /// `error`, and where the map is reconstructed.
+    /// `error` of a map that is not reconstructed.
     double scatter_scale = 1;
+    /// Of a map that is reconstructed, as in the function of this name.
+    double pattern_error = 0;
     /// Of a map that is reconstructed, the factor for the standard error that is expected of its texels that makes its
     /// root mean square `rms`.
     double error_scale = 1;

@@ -127,7 +127,7 @@ MapTilePointer VismapTiles::reconstructed(int tile)
         result->covered = raw->covered;
         if (raw->texels.empty())
             return result;
-        Reconstruction reconstruction(m_baker.params(), m_baker.error().scatter_scale, m_baker.error().error_scale);
+        Reconstruction reconstruction(m_baker.params(), m_baker.error().pattern_error, m_baker.error().error_scale);
         BakedTiles tiles(m_baker, [&](int other) { return baked(other); });
         reconstruct_tile(
             reconstruction, m_baker, tile, [&](int x, int y) { return tiles.at(x, y); }, raw->texels.data(),
