@@ -77,3 +77,11 @@ TEST_F(InstanceMaps, WhatItCannotStandForIsRefused)
     refused(2, "<INSTANCE> is for visibility maps: only makevismap knows the instances of a mesh",
             "makelightmap vm.exr sky.exr -o 'lit_<INSTANCE>.exr'");
 }
+
+TEST_F(InstanceMaps, NoFrameIsDrawnOfThem)
+{
+    make_sky({ 1, 1, 1 });
+    refused(1, "\"village.toml\": a scene list, whose instances are not drawn; bake it with makevismap",
+            "vmframes village.toml sky.exr --resolution 16 --size 16 -o lit.png");
+    EXPECT_TRUE(names("lit").empty());
+}
