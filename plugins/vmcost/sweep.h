@@ -2,6 +2,8 @@
 /// The settings to measure.
 #pragma once
 
+#include <vmlight/vismap/vismap.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,7 +15,7 @@ struct Setting
     /// One of model_variants(), or kTraced.
     std::string model;
     /// Rays per texel.
-    int samples = 128;
+    int samples = VismapParams().samples;
     /// Width of the filtered environment in pixels; 0 if there is none.
     int cfem_width = 128;
     /// Pixel format of the visibility map: float or half; "" if there is none.

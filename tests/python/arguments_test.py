@@ -257,7 +257,7 @@ class Documents(Case):
 
     def test_words_are_explained(self):
         self.assertIn("'fibonacci': Fibonacci lattice", vmlight.make_vismap.__doc__)
-        self.assertIn("1..1048576, default 128", vmlight.make_vismap.__doc__)
+        self.assertIn("1..1048576, default 64", vmlight.make_vismap.__doc__)
         self.assertIn("0..32768 or 'infinite', default 16", vmlight.make_vismap.__doc__)
 
     def test_texts_name_arguments_and_no_flags(self):

@@ -36,7 +36,7 @@ class VmlightScene(bpy.types.PropertyGroup):
         items=(("KEEP", "Keep", "Bake in the UV map that renders use: it must not overlap"),
                ("UNWRAPPED", "Unwrapped", 'Bake in the UV map "vmlight", which Unwrap makes')))
     resolution: IntProperty(name="Resolution", default=1024, min=16, max=32768, description="Width and height in texels")
-    samples: IntProperty(name="Samples", default=128, min=1, max=1 << 20, description="Rays per texel")
+    samples: IntProperty(name="Samples", default=64, min=1, max=1 << 20, description="Rays per texel")
     margin: IntProperty(name="Margin", default=16, min=0, max=1024, description="Dilation around UV islands, in texels")
     basis: EnumProperty(
         name="Basis", default="vector", description="What to store: more is more accurate behind occluders",

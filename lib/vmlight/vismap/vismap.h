@@ -29,9 +29,10 @@ struct VismapParams
     /// The UDIM tile of uv space to bake: 1001 + u + 10 v for the square with its lower left corner at (u, v).
     int udim = kFirstUdim;
     Size size() const { return { width ? width : resolution.width, height ? height : resolution.height }; }
-    /// Rays per texel. Measured on six scenes: with 64 rays the paper's model is within 2.2 % of the shading error it
-    /// has with 4096, a model that also uses |B| is within 2 % with 128.
-    int samples = 128;
+    /// Rays per texel. Measured on six scenes, with reconstruction: with 64 rays the paper's model is within .5 % of
+    /// the shading error that it has with 4096, and a model that also uses |B| within 1 %; `sh` of five bands is within
+    /// 2 % with 128, and models that are not reconstructed need 1024.
+    int samples = 64;
     /// The largest VismapReport::error, 0 to 1: the bake then chooses the rays per texel from some texels that it bakes
     /// twice, and ignores `samples`. 0 is off; as text, only the word "none" is.
     double target_error = 0;
