@@ -17,7 +17,7 @@ using namespace vmlight::cost;
 
 namespace {
 
-Point point(double seconds, double rmse, int samples = 128, const char* model = "paper")
+Point point(double seconds, double rmse, int samples = 64, const char* model = "paper")
 {
     Point made;
     made.setting = default_setting(model);
@@ -113,11 +113,11 @@ TEST(CostSummary, AGoalIsSaidWithItsSettingAndItsCommand)
     const CommandInputs inputs = inputs_of("hero.obj", "sky.hdr");
     const std::vector<std::string> lines = choice_lines({ point(3, 0.08), point(1, 0.09), point(0.5, 0.12) }, inputs);
     ASSERT_EQ(lines.size(), 6u);
-    EXPECT_EQ(lines[0], "10.0 %: paper, 128 rays, 9.0 % in 1.0 s");
+    EXPECT_EQ(lines[0], "10.0 %: paper, 64 rays, 9.0 % in 1.0 s");
     EXPECT_EQ(lines[1], "  " + command_text(default_setting("paper"), inputs));
-    EXPECT_EQ(lines[2], "15.0 %: paper, 128 rays, 12.0 % in 500 ms");
-    EXPECT_EQ(choice_lines({ point(3, 1.2) }, inputs)[0], "nearest: paper, 128 rays, 120 % in 3.0 s");
-    EXPECT_TRUE(choice_lines({ point(3, 0.1, 128, kTraced) }, inputs).empty());
+    EXPECT_EQ(lines[2], "15.0 %: paper, 64 rays, 12.0 % in 500 ms");
+    EXPECT_EQ(choice_lines({ point(3, 1.2) }, inputs)[0], "nearest: paper, 64 rays, 120 % in 3.0 s");
+    EXPECT_TRUE(choice_lines({ point(3, 0.1, 64, kTraced) }, inputs).empty());
 }
 
 TEST(CostSummary, TimingsThatVaryAreSaidToBeUncertain)
@@ -215,7 +215,7 @@ TEST(CostTables, TextsThatHoldCommasOrQuotesAreQuoted)
     EXPECT_EQ(csv.substr(0, csv.find('\n')),
               "environment,model,samples,cfem_width,storage,divisor,bytes,bake_seconds,light_seconds,shade_seconds,"
               "shade_spread,rmse,rmse_low,rmse_high,rmse_by_visibility,bias,bias_low,bias_high,p95");
-    EXPECT_NE(csv.find("\n\"a, \"\"b\"\"\",paper,128,128,float,1,0,2,0.25,0.25,0,0.25,0.24,0.28,0,0,-0.1,0.1,0\n"),
+    EXPECT_NE(csv.find("\n\"a, \"\"b\"\"\",paper,64,128,float,1,0,2,0.25,0.25,0,0.25,0.24,0.28,0,0,-0.1,0.1,0\n"),
               std::string::npos)
         << csv;
 }

@@ -163,7 +163,7 @@ TEST(NeighbourWeights, TheyAreThoseOfAMean)
         for (size_t i = 0; i < NeighbourWindow::kTexels; ++i) {
             double sum = double(window.own_weight[i]);
             for (int number = 0; number < NeighbourWindow::kNeighbours; ++number)
-                sum += double(window.weights[size_t(number) * NeighbourWindow::kTexels + i]);
+                sum += double(window.weights[NeighbourWindow::weight(number, i)]);
             ASSERT_NEAR(sum, 1, 1e-5) << slope;
         }
     }

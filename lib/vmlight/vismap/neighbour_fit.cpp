@@ -85,7 +85,7 @@ HWY_INLINE void sum_neighbours(Window& window, size_t at, size_t texel, FitSums&
         const Window::Offset to = Window::neighbour(number);
         const size_t there = size_t(int64_t(at) + to.y * Window::kStride + to.x);
         const auto near = hn::Mul(nearness_of(window, at, there, to), load(window.gives, there));
-        hn::StoreU(near, d, window.fit.nearness.data() + size_t(number) * Window::kTexels + texel);
+        hn::StoreU(near, d, window.fit.nearness.data() + Window::weight(number, texel));
         const auto step_x = hn::Set(d, float(to.x)), step_y = hn::Set(d, float(to.y));
         const auto x = hn::Mul(near, step_x), y = hn::Mul(near, step_y);
         sums.add(kAll, near);

@@ -114,6 +114,12 @@ HWY_INLINE TexelVec patch_sum(const std::vector<float>& rows, size_t texel)
     return hn::Add(hn::Add(hn::LoadU(d, row), hn::LoadU(d, row + kTileSize)), hn::LoadU(d, row + 2 * kTileSize));
 }
 
+// Whether any of the texels has a slope.
+HWY_INLINE bool are_sloped(const Window& window, size_t texel)
+{
+    return !hn::AllTrue(TexelTag(), hn::Eq(load(window.fit.xx, texel), hn::Zero(TexelTag())));
+}
+
 // Set the weights of neighbour `number` by how alike it is, and add them to their sum, and with its steps.
 template <bool kSloped>
 HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std::array<std::vector<float>, 2>& steps)
@@ -128,13 +134,14 @@ HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std
         for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
             if (!wants_any(window.wanted[size_t(y)], x, x + int(hn::Lanes(d)) - 1))
                 continue;
-            const size_t texel = size_t(y) * kTileSize + size_t(x), at = size_t(number) * Window::kTexels + texel;
+            const size_t texel = size_t(y) * kTileSize + size_t(x), at = Window::weight(number, texel);
             const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
             const auto nearness = load(window.fit.nearness, at);
             if (hn::AllTrue(d, hn::Eq(nearness, zero))) { // most, where islands are small
                 hn::StoreU(zero, d, window.weights.data() + at);
                 continue;
             }
+            const bool is_sloped = kSloped && are_sloped(window, texel);
             const auto even = load(window.fit.evenness, texel);
             const auto between = [&](float scattered, float is_even) {
                 return hn::Add(hn::Set(d, scattered), hn::Mul(even, hn::Set(d, is_even - scattered)));
@@ -143,7 +150,7 @@ HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std
             auto difference = patch_sum(rows.sums[kSquares], texel), alone = zero;
             for (size_t c = 0; c < 4; ++c) {
                 auto value = hn::Sub(load(window.values[c], j), load(window.values[c], i));
-                if (kSloped) { // less what the slope explains
+                if (is_sloped) { // less what the slope explains
                     const auto slope = hn::Add(hn::Mul(step_x, load(window.fit.slopes[0][c], texel)),
                                                hn::Mul(step_y, load(window.fit.slopes[1][c], texel)));
                     const auto twice = hn::Add(patch_sum(rows.sums[kDifferences + c], texel),
@@ -165,7 +172,7 @@ HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std
             const auto weight = hn::Mul(alike, nearness);
             hn::StoreU(weight, d, window.weights.data() + at);
             add(weight, window.own_weight, texel);
-            if (kSloped) {
+            if (is_sloped) {
                 add(hn::Mul(weight, step_x), steps[0], texel);
                 add(hn::Mul(weight, step_y), steps[1], texel);
             }
@@ -183,6 +190,7 @@ HWY_INLINE void normalise(Window& window, std::array<std::vector<float>, 2>& ste
             continue;
         const auto scale = hn::Div(one, load(window.own_weight, texel));
         auto own = one;
+        const bool is_sloped = window.fit.is_sloped && are_sloped(window, texel);
         const auto x = hn::Mul(load(steps[0], texel), scale), y = hn::Mul(load(steps[1], texel), scale);
         const auto by_x = hn::Add(hn::Mul(load(window.fit.xx, texel), x), hn::Mul(load(window.fit.xy, texel), y));
         const auto by_y = hn::Add(hn::Mul(load(window.fit.xy, texel), x), hn::Mul(load(window.fit.yy, texel), y));
@@ -190,9 +198,9 @@ HWY_INLINE void normalise(Window& window, std::array<std::vector<float>, 2>& ste
             = hn::Add(hn::Mul(by_x, load(window.fit.middle_x, texel)), hn::Mul(by_y, load(window.fit.middle_y, texel)));
         for (int number = 0; number < Window::kNeighbours; ++number) {
             const Window::Offset to = Window::neighbour(number);
-            const size_t at = size_t(number) * Window::kTexels + texel;
+            const size_t at = Window::weight(number, texel);
             auto weight = hn::Mul(load(window.weights, at), scale);
-            if (window.fit.is_sloped) {
+            if (is_sloped) {
                 const auto along
                     = hn::Add(hn::Mul(by_x, hn::Set(d, float(to.x))), hn::Mul(by_y, hn::Set(d, float(to.y))));
                 weight = hn::Sub(weight, hn::Mul(load(window.fit.nearness, at), hn::Sub(along, from)));
@@ -232,7 +240,7 @@ HWY_INLINE void sum_weighted(const Window& window, const float* plane, float* ds
             auto sum = start(load(window.own_weight, texel), own);
             for (int number = 0; number < Window::kNeighbours; ++number) {
                 const Window::Offset to = Window::neighbour(number);
-                const auto weight = load(window.weights, size_t(number) * Window::kTexels + texel);
+                const auto weight = load(window.weights, Window::weight(number, texel));
                 sum = hn::Add(sum, term(weight, hn::LoadU(d, plane + Window::index(x + to.x, y + to.y)), own));
             }
             hn::StoreU(sum, d, dst + texel);

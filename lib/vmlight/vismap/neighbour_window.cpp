@@ -4,7 +4,7 @@
 namespace vmlight {
 
 NeighbourWindow::NeighbourWindow()
-    : weights(kNeighbours * kTexels)
+    : weights(weight(kNeighbours, 0))
     , own_weight(kTexels)
 {
     fit.nearness = weights;

@@ -64,10 +64,14 @@ struct NeighbourWindow
         return { cell % kAcross - kReach, cell / kAcross - kReach };
     }
 
+    /// Where neighbour `number` of texel `texel` of the tile is in `weights` and `nearness`. Neighbours are not a power
+    /// of two apart: the cache would have few places for all of a texel.
+    static constexpr size_t weight(int number, size_t texel) { return size_t(number) * (kTexels + 16) + texel; }
+
     /// What fit_neighbours() sets, of the tile, row by row.
     struct Fit
     {
-        /// For each neighbour how near it is on the surface, from 0 to 1; 0 where it gives nothing.
+        /// At weight(), how near the neighbour is on the surface, from 0 to 1; 0 where it gives nothing.
         std::vector<float> nearness;
         /// By how much V and B' rise with each texel to the right, and down; 0 where no plane tells more than chance,
         /// or where much is left that it does not explain.
