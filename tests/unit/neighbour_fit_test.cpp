@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <random>
+#include <utility>
 
 using namespace vmlight;
 
@@ -171,13 +173,14 @@ TEST(NeighbourWeights, TheyAreThoseOfAMean)
 
 TEST(NeighbourWeights, ASlopeIsFollowedToTheBorderOfAnIsland)
 {
-    // The mean of what is on one side alone would be off by the slope times more than a texel, .05.
+    // The mean of neighbours on one side alone is off by the slope times more than a texel, .05; a fifth of that may
+    // remain, since what noise could explain of the slope is not kept.
     const auto ramp = [](int x, int) { return 0.2 + 0.04 * x; };
     NeighbourWindow window = without_columns_from(40, noisy(ramp));
     weigh_neighbours(window);
     EXPECT_NEAR(mean_error(window, 39, 39, ramp), 0, 0.01);
     EXPECT_NEAR(mean_error(window, 3, 35, ramp), 0, 0.001);
-    // And so is the error that remains: less than a third of the noise.
+    // A mean along a slope is still one of many texels: less than a third of the noise remains.
     std::vector<float> variance(NeighbourWindow::kTexels);
     mean_variance(window, variance.data());
     EXPECT_LT(variance[texel(20, 30)], kDeviation * kDeviation / 9);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/neighbour_fit.h>
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vmlight/vismap/neighbour_fit.cpp"
 #include <hwy/foreach_target.h>
@@ -15,9 +13,10 @@
 namespace vmlight::kernel {
 
 // Of the nearness by distance, in texels.
-constexpr float kFitSpread = 2;
+constexpr float kSpread = 2;
 // How many times the expected variance is even, and is not. Measured on ten meshes at 256x256 texels and three at
-// 1024x1024: up to 8 the RMS error is the same, and single texels are worse.
+// 1024x1024: up to 8, the RMS error of large smooth maps of 16 rays is 8 % less, elsewhere the same, and single texels
+// beside edges are worse.
 constexpr float kEven = 1.5f, kUneven = 4;
 // Up to how many times the expected variance a plane may leave to be used whole, and at all: a step is not a slope.
 // Measured on the same: farther up, the error of foliage grows, of 1024x1024 texels of leaves by 6 % at 4.
@@ -41,7 +40,7 @@ HWY_INLINE TexelVec nearness_of(const Window& window, size_t at, size_t there, W
     const auto near = are_near(window, at, there, to, facing);
     // (1 - x / 8)^8: exp(-x) to within .03. So is the weight by distance in the map.
     const float texels = float(to.x * to.x + to.y * to.y);
-    const auto nearby = hn::Set(TexelTag(), 1 - texels / (16 * kFitSpread * kFitSpread));
+    const auto nearby = hn::Set(TexelTag(), 1 - texels / (16 * kSpread * kSpread));
     return hn::IfThenElseZero(near, square(square(square(hn::Mul(facing, nearby)))));
 }
 
