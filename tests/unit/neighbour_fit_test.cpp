@@ -185,3 +185,55 @@ TEST(NeighbourWeights, ASlopeIsFollowedToTheBorderOfAnIsland)
     mean_variance(window, variance.data());
     EXPECT_LT(variance[texel(20, 30)], kDeviation * kDeviation / 9);
 }
+
+// Each neighbour and the opposite one are compared together.
+TEST(NeighbourWeights, ATurnedWindowHasTheTurnedWeights)
+{
+    // A flat half, a ramp, a step and an island's end.
+    NeighbourWindow window = without_columns_from(
+        55, noisy([](int x, int y) { return x < 20 ? 0.4 : 0.4 + 0.03 * (x - 20) + (y < 30 ? 0.2 : 0.0); }));
+    NeighbourWindow turned;
+    const auto there = [](int x, int y) { return NeighbourWindow::index(kTileSize - 1 - x, kTileSize - 1 - y); };
+    each_texel([&](int x, int y) {
+        const size_t i = NeighbourWindow::index(x, y), j = there(x, y);
+        for (size_t c = 0; c < 4; ++c)
+            turned.values[c][j] = window.values[c][i];
+        for (size_t c = 0; c < 3; ++c) {
+            turned.normal[c][j] = window.normal[c][i];
+            turned.position[c][j] = window.position[c][i];
+        }
+        turned.variance[j] = window.variance[i];
+        turned.spacing[j] = window.spacing[i];
+    });
+    weigh_neighbours(window);
+    weigh_neighbours(turned);
+    for (size_t i = 0; i < NeighbourWindow::kTexels; ++i)
+        for (int number = 0; number < NeighbourWindow::kNeighbours; ++number)
+            ASSERT_NEAR(window.weights[NeighbourWindow::weight(number, i)],
+                        turned.weights[NeighbourWindow::weight(NeighbourWindow::kNeighbours - 1 - number,
+                                                               NeighbourWindow::kTexels - 1 - i)],
+                        2e-4)
+                << number << " of " << i;
+}
+
+TEST(NeighbourWeights, TexelsThatAreNotWantedChangeNoOther)
+{
+    const NeighbourWindow empty = noisy([](int x, int y) { return 0.3 + 0.01 * x + (y > 40 ? 0.1 : 0.0); });
+    NeighbourWindow all = empty, some = empty;
+    for (int y = 0; y < kTileSize; ++y) // single texels, and runs that begin and end anywhere
+        some.wanted[size_t(y)] = y % 7 == 3 ? uint64_t(1) << (y * 5 % 64)
+            : y % 3 == 0                    ? uint64_t(0x00ffe00000000038)
+                                            : 0;
+    weigh_neighbours(all);
+    weigh_neighbours(some);
+    for (int y = 0; y < kTileSize; ++y)
+        for (int x = 0; x < kTileSize; ++x) {
+            if (!(some.wanted[size_t(y)] >> x & 1))
+                continue;
+            ASSERT_EQ(all.own_weight[texel(x, y)], some.own_weight[texel(x, y)]) << x << " " << y;
+            for (int number = 0; number < NeighbourWindow::kNeighbours; ++number)
+                ASSERT_EQ(all.weights[NeighbourWindow::weight(number, texel(x, y))],
+                          some.weights[NeighbourWindow::weight(number, texel(x, y))])
+                    << number << " of " << x << " " << y;
+        }
+}

@@ -38,15 +38,13 @@ enum Sum
     kDifferences,
     kSums = kDifferences + 4
 };
-// Of the rows that the patches of a tile reach: of one of them texel by texel, and of all over three columns.
+// Of the texels that patches reach, at index(): of one row texel by texel, and of all rows over three columns.
 struct PatchRows
 {
-    static constexpr size_t kRows = kTileSize + 2 * NeighbourWindow::kPatch;
-
     PatchRows()
     {
         line.fill(std::vector<float>(NeighbourWindow::kStride));
-        sums.fill(std::vector<float>(kRows * kTileSize));
+        sums.fill(std::vector<float>(size_t(NeighbourWindow::kSide) * NeighbourWindow::kStride));
     }
     std::array<std::vector<float>, kSums> line, sums;
 };
@@ -63,55 +61,64 @@ HWY_INLINE void add(TexelVec value, std::vector<float>& plane, size_t at)
     hn::StoreU(hn::Add(load(plane, at), value), TexelTag(), plane.data() + at);
 }
 
-// One row of each sum: of each texel that a patch of the tile's row reaches and its neighbour, then over columns.
+// One row of each sum: of each texel and its neighbour, then over columns; for the patches of texels with this
+// neighbour, and for those of the neighbour's, of which each texel is the opposite one.
 template <bool kSloped> HWY_INLINE void compare_row(const Window& window, Window::Offset to, int y, PatchRows& rows)
 {
     const TexelTag d;
     const int lanes = int(hn::Lanes(d));
-    constexpr int kPatch = Window::kPatch;
+    constexpr int kPatch = Window::kPatch, kHalo = Window::kHalo;
     const auto both = hn::Set(d, kVarianceOfBoth), zero = hn::Zero(d);
-    uint64_t wanted = 0; // whose patches have a texel of this row
-    for (int row = std::max(0, y - kPatch); row <= std::min(kTileSize - 1, y + kPatch); ++row)
-        wanted |= window.wanted[size_t(row)];
-    if (wanted == 0)
+    // Whose patches have a texel of this row.
+    const auto wanted_around = [&](int middle) {
+        uint64_t wanted = 0;
+        for (int row = std::max(0, middle - kPatch); row <= std::min(kTileSize - 1, middle + kPatch); ++row)
+            wanted |= window.wanted[size_t(row)];
+        return wanted;
+    };
+    const uint64_t wanted = wanted_around(y), wanted_there = wanted_around(y + to.y);
+    if (wanted == 0 && wanted_there == 0)
         return;
     constexpr size_t kRead = kSloped ? kSums : kCount; // of the sums
-    for (int x = -kPatch; x < kTileSize + kPatch; x += lanes) {
-        if (!wants_any(wanted, x - kPatch, x + lanes - 1 + kPatch))
+    const int first = std::min(0, -to.x), last = std::max(kTileSize, kTileSize - to.x);
+    for (int x = first - kPatch; x < last + kPatch; x += lanes) {
+        if (!wants_any(wanted, x - kPatch, x + lanes - 1 + kPatch)
+            && !wants_any(wanted_there, x + to.x - kPatch, x + to.x + lanes - 1 + kPatch))
             continue;
         const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
         auto facing = zero, difference = zero;
         const auto kept = are_near(window, i, j, to, facing);
         if (hn::AllFalse(d, kept)) {
             for (size_t sum = 0; sum < kRead; ++sum)
-                hn::StoreU(zero, d, rows.line[sum].data() + x + kPatch);
+                hn::StoreU(zero, d, rows.line[sum].data() + x + kHalo);
             continue;
         }
         for (size_t c = 0; c < 4; ++c) {
             const auto value = hn::IfThenElseZero(kept, hn::Sub(load(window.values[c], j), load(window.values[c], i)));
             difference = hn::Add(difference, square(value));
             if (kSloped)
-                hn::StoreU(value, d, rows.line[kDifferences + c].data() + x + kPatch);
+                hn::StoreU(value, d, rows.line[kDifferences + c].data() + x + kHalo);
         }
         const auto expected = hn::Mul(both, hn::Add(load(window.variance, i), load(window.variance, j)));
-        hn::StoreU(difference, d, rows.line[kSquares].data() + x + kPatch);
-        hn::StoreU(hn::IfThenElseZero(kept, expected), d, rows.line[kExpected].data() + x + kPatch);
+        hn::StoreU(difference, d, rows.line[kSquares].data() + x + kHalo);
+        hn::StoreU(hn::IfThenElseZero(kept, expected), d, rows.line[kExpected].data() + x + kHalo);
         if (kSloped)
-            hn::StoreU(hn::IfThenElseZero(kept, hn::Set(d, 1.0f)), d, rows.line[kCount].data() + x + kPatch);
+            hn::StoreU(hn::IfThenElseZero(kept, hn::Set(d, 1.0f)), d, rows.line[kCount].data() + x + kHalo);
     }
     for (size_t sum = 0; sum < kRead; ++sum)
-        for (int x = 0; x < kTileSize; x += lanes) {
-            const float* from = rows.line[sum].data() + x;
-            const auto across = hn::Add(hn::Add(hn::LoadU(d, from), hn::LoadU(d, from + 1)), hn::LoadU(d, from + 2));
-            hn::StoreU(across, d, rows.sums[sum].data() + size_t(y + kPatch) * kTileSize + size_t(x));
+        for (int x = first; x < last; x += lanes) {
+            const float* from = rows.line[sum].data() + x + kHalo;
+            const auto across = hn::Add(hn::Add(hn::LoadU(d, from - 1), hn::LoadU(d, from)), hn::LoadU(d, from + 1));
+            hn::StoreU(across, d, rows.sums[sum].data() + Window::index(x, y));
         }
 }
 
-HWY_INLINE TexelVec patch_sum(const std::vector<float>& rows, size_t texel)
+HWY_INLINE TexelVec patch_sum(const std::vector<float>& sums, size_t at)
 {
     const TexelTag d;
-    const float* row = rows.data() + texel;
-    return hn::Add(hn::Add(hn::LoadU(d, row), hn::LoadU(d, row + kTileSize)), hn::LoadU(d, row + 2 * kTileSize));
+    const float* row = sums.data() + at;
+    return hn::Add(hn::Add(hn::LoadU(d, row - Window::kStride), hn::LoadU(d, row)),
+                   hn::LoadU(d, row + Window::kStride));
 }
 
 // Whether any of the texels has a slope.
@@ -120,15 +127,16 @@ HWY_INLINE bool are_sloped(const Window& window, size_t texel)
     return !hn::AllTrue(TexelTag(), hn::Eq(load(window.fit.xx, texel), hn::Zero(TexelTag())));
 }
 
-// Set the weights of neighbour `number` by how alike it is, and add them to their sum, and with its steps.
+// Set the weights of neighbour `number` by how alike it is, and add them to their sum, and with its steps. The rows are
+// those of this neighbour, or of the opposite one: its patches are the same pairs, of which each is the other one's.
 template <bool kSloped>
-HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std::array<std::vector<float>, 2>& steps)
+HWY_INLINE void weigh_neighbour(Window& window, int number, bool is_opposite, const PatchRows& rows,
+                                std::array<std::vector<float>, 2>& steps)
 {
     const TexelTag d;
     const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least = hn::Set(d, 1e-30f);
+    const auto twice_signed = hn::Set(d, is_opposite ? -2.0f : 2.0f);
     const Window::Offset to = Window::neighbour(number);
-    for (int y = -Window::kPatch; y < kTileSize + Window::kPatch; ++y)
-        compare_row<kSloped>(window, to, y, rows);
     const auto step_x = hn::Set(d, float(to.x)), step_y = hn::Set(d, float(to.y));
     for (int y = 0; y < kTileSize; ++y)
         for (int x = 0; x < kTileSize; x += int(hn::Lanes(d))) {
@@ -136,6 +144,7 @@ HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std
                 continue;
             const size_t texel = size_t(y) * kTileSize + size_t(x), at = Window::weight(number, texel);
             const size_t i = Window::index(x, y), j = Window::index(x + to.x, y + to.y);
+            const size_t patch = is_opposite ? j : i;
             const auto nearness = load(window.fit.nearness, at);
             if (hn::AllTrue(d, hn::Eq(nearness, zero))) { // most, where islands are small
                 hn::StoreU(zero, d, window.weights.data() + at);
@@ -146,16 +155,15 @@ HWY_INLINE void weigh_neighbour(Window& window, int number, PatchRows& rows, std
             const auto between = [&](float scattered, float is_even) {
                 return hn::Add(hn::Set(d, scattered), hn::Mul(even, hn::Set(d, is_even - scattered)));
             };
-            const auto expected = patch_sum(rows.sums[kExpected], texel);
-            auto difference = patch_sum(rows.sums[kSquares], texel), alone = zero;
+            const auto expected = patch_sum(rows.sums[kExpected], patch);
+            auto difference = patch_sum(rows.sums[kSquares], patch), alone = zero;
             for (size_t c = 0; c < 4; ++c) {
                 auto value = hn::Sub(load(window.values[c], j), load(window.values[c], i));
                 if (is_sloped) { // less what the slope explains
                     const auto slope = hn::Add(hn::Mul(step_x, load(window.fit.slopes[0][c], texel)),
                                                hn::Mul(step_y, load(window.fit.slopes[1][c], texel)));
-                    const auto twice = hn::Add(patch_sum(rows.sums[kDifferences + c], texel),
-                                               patch_sum(rows.sums[kDifferences + c], texel));
-                    const auto all = hn::Mul(slope, patch_sum(rows.sums[kCount], texel));
+                    const auto twice = hn::Mul(twice_signed, patch_sum(rows.sums[kDifferences + c], patch));
+                    const auto all = hn::Mul(slope, patch_sum(rows.sums[kCount], patch));
                     difference = hn::Add(difference, hn::Mul(slope, hn::Sub(all, twice)));
                     value = hn::Sub(value, slope);
                 }
@@ -212,17 +220,27 @@ HWY_INLINE void normalise(Window& window, std::array<std::vector<float>, 2>& ste
     }
 }
 
-void weigh_neighbours_target(Window& window)
+template <bool kSloped> HWY_INLINE void weigh_all(Window& window, std::array<std::vector<float>, 2>& steps)
 {
     PatchRows rows;
+    for (int number = Window::kNeighbours / 2; number < Window::kNeighbours; ++number) { // those below and to the right
+        const Window::Offset to = Window::neighbour(number);
+        for (int y = -Window::kPatch - to.y; y < kTileSize + Window::kPatch; ++y)
+            compare_row<kSloped>(window, to, y, rows);
+        weigh_neighbour<kSloped>(window, number, false, rows, steps);
+        weigh_neighbour<kSloped>(window, Window::kNeighbours - 1 - number, true, rows, steps);
+    }
+}
+
+void weigh_neighbours_target(Window& window)
+{
     std::array<std::vector<float>, 2> steps;
     steps.fill(std::vector<float>(Window::kTexels));
     std::fill(window.own_weight.begin(), window.own_weight.end(), 1.0f);
-    for (int number = 0; number < Window::kNeighbours; ++number)
-        if (window.fit.is_sloped)
-            weigh_neighbour<true>(window, number, rows, steps);
-        else
-            weigh_neighbour<false>(window, number, rows, steps);
+    if (window.fit.is_sloped)
+        weigh_all<true>(window, steps);
+    else
+        weigh_all<false>(window, steps);
     normalise(window, steps);
 }
 

@@ -22,7 +22,7 @@ constexpr int kLookRays = 16;
 constexpr double kLookVariance = 1.0 / (kLookRays * kLookRays);
 // Where neighbours scatter by far more than chance, reconstruction hardly helps: the error is some three times that of
 // where they do not, and so many times the windows tell it best.
-constexpr double kEven = 1.5, kUneven = 8, kMoreWindows = 3;
+constexpr double kAlike = 1.5, kApart = 8, kMoreWindows = 3;
 
 } // namespace
 
@@ -81,8 +81,8 @@ bool ReconstructPilot::choose(const UvRaster& raster, const OpenTriangles& open,
             const double seen = integrators[size_t(worker)]->integrate(texel.point, shift, texel.open).visibility;
             ++count, sum += seen, squares += seen * seen;
         }
-        const double scatter = count > 1 ? (squares - sum * sum / count) / (count - 1) / kLookVariance : kUneven;
-        const double uneven = std::clamp((scatter - kEven) / (kUneven - kEven), 0.0, 1.0);
+        const double scatter = count > 1 ? (squares - sum * sum / count) / (count - 1) / kLookVariance : kApart;
+        const double uneven = std::clamp((scatter - kAlike) / (kApart - kAlike), 0.0, 1.0);
         windows[size_t(k)] = 1 + (kMoreWindows - 1) * uneven;
     };
     if (!parallel_items(looks, m_threads, look, m_progress))
