@@ -66,7 +66,7 @@ class Signals(Case):
         self.assertEqual(self.contents(), before)
 
     def test_progress_shows_share_rate_and_time_left(self):
-        words = [os.path.join(BIN, "makevismap"), SPOT, "-o", "x.exr", "--resolution", "256", "--samples", "2048",
+        words = [os.path.join(BIN, "makevismap"), SPOT, "-o", "x.exr", "--resolution", "256", "--samples", "512",
                  "--threads", "1"]
         try:
             ours, theirs = pty.openpty()

@@ -72,8 +72,10 @@ class Startup(Case):
         self.assertTrue([name for name in names if name.startswith("libOpenImageIO.so")], names)
 
     def test_answers_are_those_of_what_works(self):
+        """(Those of all but vmview, of whose main front_test.cpp has no copy, are compared there.)"""
         for tool in TOOLS:
-            for words in (["--help"], ["--version"], ["--print-man"], ["--print-completion", "bash"], ["--print-flags"],
+            for words in [["--version"]] if tool != "vmview" else (
+                          ["--help"], ["--version"], ["--print-man"], ["--print-completion", "bash"], ["--print-flags"],
                           ["--print-completion", "zsh"], ["--print-completion", "fish"], ["--help=x"], ["-h"], ["--"],
                           ["--nonsense"], ["--threads"], OPERANDS[tool], [*OPERANDS[tool], *NUMBER[tool], "-o", "x"],
                           [*OPERANDS[tool], "--threads", "many", "-o", "x"], [*OPERANDS[tool], "-o", ""],

@@ -25,13 +25,19 @@ def hand_on(stream, lines):
 
 
 class Watched(Case):
+    made = {}  # files that each test begins with, made once
+
     def setUp(self):
         super().setUp()
         if not sys.platform.startswith("linux"):
             self.skipTest("files can be watched on Linux only")
         self.process = None
-        self.vismap()
-        self.sky(1, 2, 3)
+        if not self.made:
+            self.vismap()
+            self.sky(1, 2, 3)
+            self.made.update({name: self.read(name) for name in os.listdir(self.folder)})
+        for name, content in self.made.items():
+            self.file(name, content)
         os.mkdir(self.path("out"))
         self.recipe()
 

@@ -70,7 +70,7 @@ TEST_F(Machine, KilledAtAnyMoment)
     HardCase row("A run killed (`kill -9`, Ctrl-C) at 100 moments, from start to end");
     const std::string old = "the old picture";
     const Clock::time_point begin = Clock::now();
-    ASSERT_EQ(wait(start("384", "4", "new.exr")), 0);
+    ASSERT_EQ(wait(start("192", "4", "new.exr")), 0);
     const std::chrono::duration<double> whole = Clock::now() - begin;
     const std::string fresh = read("new.exr");
     remove("new.exr");
@@ -79,7 +79,7 @@ TEST_F(Machine, KilledAtAnyMoment)
     int killed = 0;
     for (int i = 0; i < 100; ++i) {
         write("x.exr", old);
-        const pid_t child = start("384", "4", "x.exr");
+        const pid_t child = start("192", "4", "x.exr");
         std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
         ::kill(child, i % 2 ? SIGINT : SIGKILL);
         const int code = wait(child);

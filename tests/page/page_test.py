@@ -19,6 +19,7 @@ SKIES = ["studio_small_03.hdr", "kloppenheim_05.hdr", "forest_slope.hdr"]
 LARGEST_PAGE = 3_000_000
 # The map has 16 bits a channel, and the shader rounds as the library does but in divisions and square roots.
 LINEAR_ERROR = 1e-3
+SHARED = None
 
 
 def run(program, *words):
@@ -49,10 +50,21 @@ def setUpModule():
     run("vmexport", "large.exr", "--mesh", spot, *skies, "--html", "large.html")
 
 
+def shared_browser():
+    """One for all tests that need no flags: to start it takes longer than most of them."""
+    global SHARED
+    if SHARED is None:
+        SHARED = webdriver.Browser()
+        unittest.addModuleCleanup(SHARED.quit)
+    SHARED.messages()
+    return SHARED
+
+
 class Page(unittest.TestCase):
     def browse(self, *flags, **options):
-        browser = webdriver.Browser(*flags, **options)
-        self.addCleanup(browser.quit)
+        browser = webdriver.Browser(*flags, **options) if flags or options else shared_browser()
+        if browser is not SHARED:
+            self.addCleanup(browser.quit)
         browser.open("file://" + os.path.join(FOLDER, "small.html"))
         self.assertEqual(browser.run("return document.getElementById('fault').textContent"), "")
         return browser

@@ -83,7 +83,7 @@ inline double channel_rms(const BakedMap& map)
     return rms(map, [](const float* texel, int, int) { return texel[4]; });
 }
 
-/// Against reference_of(): 64 times the rays, from another seed.
+/// Against reference_of(): 32 times the rays, from another seed, with a tenth of the error at most: that adds half a percent.
 inline double true_rms(const BakedMap& map, const BakedMap& reference)
 {
     return rms(map, [&](const float* texel, int x, int y) { return texel[0] - reference.at(x, y).visibility; });
@@ -91,7 +91,7 @@ inline double true_rms(const BakedMap& map, const BakedMap& reference)
 
 inline BakedMap reference_of(const BakeInput& scene, int side, int samples)
 {
-    VismapParams params = map_params(side, side, 64 * samples);
+    VismapParams params = map_params(side, side, 32 * samples);
     params.seed = 1234;
     return BakedMap(scene.mesh, scene.occluders, params);
 }

@@ -103,7 +103,7 @@ TEST_F(HeightField, AValleySeesTheWedgeBetweenItsSides)
     const Mesh mesh = read(path, spaced("1m/px"));
     VismapParams params;
     params.width = 42; // texels are a quarter of a pixel off the vertices
-    params.height = 801;
+    params.height = 9; // of which the middle one is as far from both ends as it gets
     params.samples = 1024;
     params.margin = 0;
     const BakedMap map(mesh, {}, params);
@@ -113,7 +113,7 @@ TEST_F(HeightField, AValleySeesTheWedgeBetweenItsSides)
         const double up = rise * (10 - std::abs(x)), across = 10 + std::abs(x);
         const double blocked = std::atan(rise) + std::atan2(up, across);
         const double truth = (1 + std::cos(blocked)) / 2;
-        const Texel found = map.at(texel, 400);
+        const Texel found = map.at(texel, 4);
         EXPECT_NEAR(found.visibility, truth, 0.01) << x;
         EXPECT_LT(found.direction.x * side, 0) << "the open sky is over the middle of the valley: " << x;
         EXPECT_NEAR(found.direction.z, 0, 0.01);

@@ -197,7 +197,7 @@ TEST(ShadeCells, EveryInstructionSetGivesTheBitsOfTheScalarForm)
 
 TEST(ShadeCells, LightIsThatOfTheSumOverSingleCells)
 {
-    constexpr int count = 2000;
+    constexpr int count = 800;
     for (const Kernel& kernel : kKernels)
         for (const ImageBuf& environment : { random_cfem(64, 32), sunny() }) {
             const CellLight light = light_of(kernel, environment);

@@ -35,9 +35,9 @@ double gathered(const Map& sky, const V3d& tangent)
     double sum = 0;
     const int width = sky.width * kParts, height = sky.height * kParts;
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const float light = sky.at(x / kParts, y / kParts)[0];
-            if (light != 0)
+        for (int pixel = 0; pixel < sky.width; ++pixel) {
+            const float light = sky.at(pixel, y / kParts)[0];
+            for (int x = pixel * kParts; light != 0 && x < (pixel + 1) * kParts; ++x)
                 sum += light * center(x, y, width, height).cross(tangent).length()
                     * brute::solid_angle(y, width, height);
         }
