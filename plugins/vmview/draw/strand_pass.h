@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Strands in a picture: ribbons that face the eye, as wide as the strand, as rays from a camera meet them in frames.
+#pragma once
+
+#include "../gl/program.h"
+#include "../relight/lit_texture.h"
+#include "strand_buffers.h"
+#include "view.h"
+
+#include <Imath/ImathColor.h>
+
+#include <array>
+#include <map>
+#include <string>
+
+namespace vmlight::view {
+
+/// How ribbons are drawn.
+enum class RibbonMode
+{
+    /// At least a pixel wide, with as many of their pixels as they cover: nothing that is thin is lost in one sample.
+    quick,
+    /// Each sample decided to float's precision, at the ribbon's own width; depth as mesh.vert has it.
+    exact,
+    /// The same; depth as exact_point.glsl has it.
+    exact_beside_exact_mesh
+};
+
+class StrandPass
+{
+public:
+    /// Compile what a window needs. False, with the reason in `error`, if the driver refuses it.
+    bool build(std::string& error);
+
+    /// Draw strands into the bound framebuffer, which has a depth buffer, in columns [`first`, `end`) only.
+    ///
+    /// @param subject  all that is drawn: its depths are those of the depth buffer
+    void draw(const StrandBuffers& strands, const LitTexture& lit, const Imath::C3f& color, const Subject& subject,
+              Show show, RibbonMode mode, const View& view, int first, int end) const;
+
+private:
+    const Program& program(Show show, RibbonMode mode) const;
+    mutable std::map<std::array<int, 2>, Program> m_programs; // made when they are first needed
+};
+
+/// Straight pieces of a span, from one knot of a curve to the next, that are drawn where quick is good enough: each is
+/// about `kPiece` pixels long.
+int quick_pieces(const StrandBuffers& strands, const View& view);
+
+} // namespace vmlight::view
