@@ -13,7 +13,7 @@ namespace {
 
 // As many as Embree draws a span of a flat curve with.
 constexpr int kPieces = 4;
-constexpr double kPieceLength = 2; // pixels, of quick ones
+constexpr double kPieceLength = 8; // of quick ones, in footprints of a texture lookup: pixels, if there is one sample
 
 bool build_ribbons(Program& program, Show show, RibbonMode mode, std::string& error)
 {
@@ -44,7 +44,7 @@ int quick_pieces(const StrandBuffers& strands, const View& view)
     const double depth
         = camera.is_orthographic ? 1 : std::max((strands.centre() - camera.position).dot(camera.forward), 1e-30);
     const double pixels = strands.span_length() / (2 * depth * camera.half_height) * view.height;
-    return int(std::clamp(std::ceil(pixels / kPieceLength), 1.0, double(kPieces)));
+    return int(std::clamp(std::ceil(pixels / (kPieceLength * view.footprint)), 1.0, double(kPieces)));
 }
 
 void StrandPass::draw(const StrandBuffers& strands, const LitTexture& lit, const Imath::C3f& color,

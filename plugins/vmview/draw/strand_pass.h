@@ -43,8 +43,8 @@ private:
     mutable std::map<std::array<int, 2>, Program> m_programs; // made when they are first needed
 };
 
-/// Straight pieces of a span, from one knot of a curve to the next, that are drawn where quick is good enough: each is
-/// about `kPiece` pixels long.
+/// How many straight pieces quick draws each span with, from one knot of a curve to the next: the more, the more pixels
+/// and samples there are.
 int quick_pieces(const StrandBuffers& strands, const View& view);
 
 } // namespace vmlight::view

@@ -80,24 +80,21 @@ void main()
     vec4 a = texelFetch(controls, first), b = texelFetch(controls, first + 1), c = texelFetch(controls, first + 2),
          d = texelFetch(controls, first + 3);
     vec2 knots = uintBitsToFloat(span.yz);
-    End near_root = end_of(a, b, c, d, knots, float(step) / float(pieces));
-    End near_tip = end_of(a, b, c, d, knots, float(step + 1) / float(pieces));
     int strand = int(span.w);
     first_texel = ivec2(texels * (strand / rows), strand % rows);
-    // What is partly behind the eye is left out: pieces are short.
-    bool is_seen = min(near_root.seen.z, near_tip.seen.z) >= depth_range.x;
     // Of the first triangle the right edge, then the left of the first end; the second has the other three corners.
     bool is_second = k > 2;
     int corner = is_second ? k - 3 : k;
 #if MODE == 0
-    End end = near_root;
-    if ((corner == 1) != is_second)
-        end = near_tip;
+    int at_tip = (corner == 1) != is_second ? 1 : 0;
+    End end = end_of(a, b, c, d, knots, float(step + at_tip) / float(pieces));
     share = end.share;
     coverage = end.coverage;
     piece = uint(number);
     gl_Position = placed((corner == 2) == is_second ? end.seen + end.side : end.seen - end.side);
 #else
+    End near_root = end_of(a, b, c, d, knots, float(step) / float(pieces));
+    End near_tip = end_of(a, b, c, d, knots, float(step + 1) / float(pieces));
     End first_end = near_root, second_end = near_tip;
     float side = 1.0;
     if (is_second) {
@@ -122,7 +119,8 @@ void main()
     vec2 out_of = (n1 + n2) * (kBeyond / max(1.0 + dot(n1, n2), 1e-6));
     here += out_of * min(1.0, kLongest / max(length(out_of), 1e-20)) - offset;
     gl_Position = vec4(here.x / size.x * 2.0 - 1.0, 1.0 - here.y / size.y * 2.0, 0, 1);
-#endif
-    if (!is_seen)
+    // What is partly behind the eye is left out: pieces are short.
+    if (min(near_root.seen.z, near_tip.seen.z) < depth_range.x)
         gl_Position = vec4(2, 2, 2, 1);
+#endif
 }
