@@ -99,10 +99,12 @@ std::string unused_light(const Request& request, const std::string& name)
     if (OIIO::Strutil::starts_with(name, filter))
         return unused_reason(request.filter, name.substr(filter.size()));
     const bool is_traced = is_any(param_names(TraceParams()), name);
-    if ((is_traced || is_any({ "model", "env_rotate", "turn_environment", "colorspace", "layer", "layout" }, name))
+    const bool is_mirrored = is_any(param_names(SpecularParams()), name);
+    if ((is_traced || is_mirrored
+         || is_any({ "model", "env_rotate", "turn_environment", "colorspace", "layer", "layout" }, name))
         && request.environment.empty())
         return "there is no environment";
-    if ((is_traced || name == "model") && is_shown_alone)
+    if ((is_traced || is_mirrored || name == "model") && is_shown_alone)
         return "the texture is shown as it is";
     const std::vector<std::string> models = request.models();
     if (name == "suns" && size_t(std::count(models.begin(), models.end(), kReferenceModel)) == models.size())
@@ -127,7 +129,7 @@ std::vector<std::string> paths_of(const Request& request)
 std::string unused_map(const Request& request, const std::string& name)
 {
     if (is_strand_flag(name))
-        return unused_strand_flag(name, has_strands(request), request.stage.white);
+        return unused_strand_flag(name, has_strands(request), request.stage.white, request.specular);
     const bool is_only_one = request.stage.object.empty() && request.stage.ground == "none";
     if (is_any(param_names(VismapParams()), name) && is_only_one && !request.object.vismap.empty())
         return "the visibility map is made already";

@@ -4,6 +4,7 @@
 
 #include <vmlight/frame/camera.h>
 #include <vmlight/frame/render.h>
+#include <vmlight/frame/strand_specular.h>
 #include <vmlight/frame/traced_light.h>
 #include <vmlight/image/display.h>
 #include <vmlight/lightmap/lightmap.h>
@@ -63,6 +64,7 @@ struct Request
     CfemRecipe filter;
     LightmapParams light;
     TraceParams trace;
+    SpecularParams specular;
     CameraParams camera;
     RenderParams render;
     ViewParams view;

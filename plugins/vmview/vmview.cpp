@@ -75,6 +75,7 @@ int main(int argc, const char** argv)
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.mesh.unwrap = true; });
     stage.params("Strands:", request.mesh.strand_params);
+    stage.params("Strands:", request.specular);
     const auto complete = [&] {
         const std::vector<std::string>& operands = stage.operands();
         request.mesh.mesh = operands.empty() ? "" : operands[0];

@@ -95,14 +95,16 @@ TEST(CopiedCommand, HasTheStrands)
     request.view.strand_color = { 0.5, 0.25, 0 };
     request.mesh.strand_params.radius = "0.004:0.001";
     request.mesh.strand_params.strand_texels = 8;
+    request.specular = { 0.1, 60 };
     ViewState state = state_of(request);
     EXPECT_EQ(vmframes_command(request, state, ""),
               "vmframes body.obj sky.hdr --object 'the hair.tfx' --radius 0.004:0.001 --strand-texels 8 --strand-color "
-              "0.5,0.25,0 -o body.png");
+              "0.5,0.25,0 --strand-specular 0.1 --strand-exponent 60 -o body.png");
     state.is_white = true; // which vmframes refuses a colour with
-    EXPECT_EQ(vmframes_command(request, state, ""),
-              "vmframes body.obj sky.hdr --object 'the hair.tfx' --radius 0.004:0.001 --strand-texels 8 --white -o "
-              "body.png");
+    EXPECT_EQ(
+        vmframes_command(request, state, ""),
+        "vmframes body.obj sky.hdr --object 'the hair.tfx' --radius 0.004:0.001 --strand-texels 8 --strand-specular "
+        "0.1 --strand-exponent 60 --white -o body.png");
 }
 
 // The copied rotation is the one that the view lights with.

@@ -8,7 +8,7 @@
 namespace vmlight {
 namespace {
 
-constexpr const char* kColorFlag = "strand_color";
+constexpr const char *kColorFlag = "strand_color", *kExponentFlag = "strand_exponent";
 
 } // namespace
 
@@ -32,15 +32,20 @@ VismapRecipe shown_recipe(const VismapRecipe& recipe, const std::vector<std::str
 
 bool is_strand_flag(const std::string& name)
 {
-    const std::vector<std::string> names = param_names(StrandParams());
-    return name == kColorFlag || std::find(names.begin(), names.end(), name) != names.end();
+    for (const std::vector<std::string>& names : { param_names(StrandParams()), param_names(SpecularParams()) })
+        if (std::find(names.begin(), names.end(), name) != names.end())
+            return true;
+    return name == kColorFlag;
 }
 
-std::string unused_strand_flag(const std::string& name, bool shows_strands, bool is_white)
+std::string unused_strand_flag(const std::string& name, bool shows_strands, bool is_white,
+                               const SpecularParams& specular)
 {
     if (name == kColorFlag && is_white)
         return "--white shows all white";
-    return shows_strands ? "" : "no object is strands";
+    if (!shows_strands)
+        return "no object is strands";
+    return name == kExponentFlag && specular.strand_specular == 0 ? "only --strand-specular uses it" : "";
 }
 
 } // namespace vmlight

@@ -7,6 +7,8 @@
 #include "strand_buffers.h"
 #include "view.h"
 
+#include <vmlight/math/rotation.h>
+
 #include <Imath/ImathColor.h>
 
 #include <array>
@@ -26,6 +28,15 @@ enum class RibbonMode
     exact_beside_exact_mesh
 };
 
+/// The highlights of strands at one rotation: frame/strand_specular.h.
+struct Highlights
+{
+    const Texture* cones = nullptr; ///< ConeLevels, a layer each; nullptr: none
+    const Texture* map = nullptr; ///< MapTextures::layers
+    double strength = 0;
+    Rotation to_environment;
+};
+
 class StrandPass
 {
 public:
@@ -35,12 +46,13 @@ public:
     /// Draw strands into the bound framebuffer, which has a depth buffer, in columns [`first`, `end`) only.
     ///
     /// @param subject  all that is drawn: its depths are those of the depth buffer
-    void draw(const StrandBuffers& strands, const LitTexture& lit, const Imath::C3f& color, const Subject& subject,
-              Show show, RibbonMode mode, const View& view, int first, int end) const;
+    void draw(const StrandBuffers& strands, const LitTexture& lit, const Imath::C3f& color,
+              const Highlights& highlights, const Subject& subject, Show show, RibbonMode mode, const View& view,
+              int first, int end) const;
 
 private:
-    const Program& program(Show show, RibbonMode mode) const;
-    mutable std::map<std::array<int, 2>, Program> m_programs; // made when they are first needed
+    const Program& program(Show show, RibbonMode mode, bool has_highlights) const;
+    mutable std::map<std::array<int, 3>, Program> m_programs; // made when they are first needed
 };
 
 /// How many straight pieces quick draws each span with, from one knot of a curve to the next: the more, the more pixels

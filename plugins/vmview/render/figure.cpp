@@ -82,13 +82,17 @@ void Figure::prepare_exact(const View& view, const Subject& all)
 }
 
 void Figure::draw(const DrawPass& meshes, const StrandPass& strands, int slot, const Subject& all, Show show,
-                  RibbonMode ribbons, const View& view, int first, int end) const
+                  RibbonMode ribbons, const Highlights& highlights, const View& view, int first, int end) const
 {
     const Imath::C3f white(1, 1, 1);
-    if (m_strands)
-        strands.draw(*m_strands, lit(slot), m_has_materials ? m_mesh->strand_color : white, all, show, ribbons, view,
-                     first, end);
-    else
+    if (m_strands) {
+        Highlights own = highlights;
+        own.map = &m_map_textures.layers;
+        if (!m_map)
+            own.cones = nullptr;
+        strands.draw(*m_strands, lit(slot), m_has_materials ? m_mesh->strand_color : white, own, all, show, ribbons,
+                     view, first, end);
+    } else
         meshes.draw(*m_buffers, &m_exact, m_materials, all, lit(slot), show, view, first, end);
 }
 

@@ -45,8 +45,9 @@ public:
     ///
     /// @param all      what is drawn besides it, too
     /// @param ribbons  how strands are drawn
+    /// @param highlights   theirs, without the map
     void draw(const DrawPass& meshes, const StrandPass& strands, int slot, const Subject& all, Show show,
-              RibbonMode ribbons, const View& view, int first, int end) const;
+              RibbonMode ribbons, const Highlights& highlights, const View& view, int first, int end) const;
 
 private:
     const std::vector<SurfaceMaterial>& materials() const;

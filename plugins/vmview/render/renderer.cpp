@@ -8,6 +8,20 @@
 #include <utility>
 
 namespace vmlight::view {
+namespace {
+
+Texture load_cones(const ConeLevels& levels)
+{
+    Texture texture = Texture::layers(levels.width, levels.height, levels.count, GL_RGB32F);
+    const size_t floats = 3 * size_t(levels.width) * size_t(levels.height);
+    for (int i = 0; i < levels.count; ++i)
+        texture.fill_layer(i, GL_RGB, &levels.texels[size_t(i) * floats]);
+    texture.filter(GL_LINEAR, GL_LINEAR);
+    glTexParameteri(texture.target(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+    return texture;
+}
+
+} // namespace
 
 bool Renderer::build(std::string& error)
 {
@@ -52,8 +66,11 @@ bool Renderer::set_light(LightPointer light, std::string& error)
     m_light_textures = LightTextures();
     m_strand_light = LightTextures();
     m_panorama = LitTexture();
+    m_cones = Texture();
     if (!m_light)
         return true;
+    if (m_light->cones)
+        m_cones = load_cones(*m_light->cones);
     if (!m_light_textures.load(m_light->filtered(), error))
         return false;
     if (m_light->panorama) {
@@ -125,9 +142,11 @@ void Renderer::draw_figures(int slot, const PictureParams& params, int first, in
     const RibbonMode ribbons = !m_is_exact ? RibbonMode::quick
         : at(0).has_exact_mesh()           ? RibbonMode::exact_beside_exact_mesh
                                            : RibbonMode::exact;
+    const Highlights highlights { &m_cones, nullptr, m_light ? m_light->specular : 0, params.to_environment };
     bind_no_vertices();
     for (size_t i = figures(); i-- > 0;)
-        at(i).draw(m_draw, m_strands, slot, at(0).mesh()->subject, params.show, ribbons, params.view, first, end);
+        at(i).draw(m_draw, m_strands, slot, at(0).mesh()->subject, params.show, ribbons, highlights, params.view, first,
+                   end);
 }
 
 void Renderer::draw(const PictureParams& params, const Framebuffer& target) const

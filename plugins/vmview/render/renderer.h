@@ -87,6 +87,7 @@ private:
     bool m_is_exact = false;
     LightTextures m_light_textures, m_strand_light; // the latter made when it is first needed
     LitTexture m_panorama;
+    Texture m_cones;
 };
 
 } // namespace vmlight::view

@@ -84,8 +84,8 @@ MapPointer make_map_asset(OIIO::ImageBuf image, int samples, const MeshAsset& me
     return asset;
 }
 
-LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const MakeOptions& options,
-                              std::string& error)
+LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const SpecularParams& specular,
+                              const MakeOptions& options, std::string& error)
 {
     auto asset = std::make_shared<LightAsset>();
     asset->path = path;
@@ -94,6 +94,9 @@ LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double
         return nullptr;
     for (OIIO::ImageBuf& image : asset->light.filtered)
         image.specmod().erase_attribute(kSunsAttribute);
+    asset->specular = specular.strand_specular;
+    if (asset->specular > 0 && !filter_for_specular(asset->cones, asset->light, specular, options.threads, error))
+        return nullptr;
     const OIIO::ImageBuf* seen
         = asset->light.environment.initialized() ? &asset->light.environment : find_radiance(asset->filtered());
     return !seen || make_background(asset->panorama, *seen, blur, options.threads, error) ? asset : nullptr;

@@ -6,6 +6,7 @@
 #include "mesh_asset.h"
 
 #include <vmlight/frame/scene_light.h>
+#include <vmlight/frame/strand_specular.h>
 #include <vmlight/frame/texture_pyramid.h>
 #include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
@@ -34,6 +35,8 @@ struct LightAsset
     /// With the environment, unless `path` is a CFEM. Its filtered images may be lit without its suns, which are added
     /// once they are traced (scene/added_light.h).
     SceneLight light;
+    std::shared_ptr<const ConeLevels> cones; ///< for the highlights of strands, or nullptr
+    double specular = 0; ///< their strength
     std::shared_ptr<const TexturePyramid> panorama; ///< of the environment, or of what a stack keeps of it; or nullptr
 
     const std::vector<OIIO::ImageBuf>& filtered() const { return light.filtered; }
@@ -55,9 +58,10 @@ MapPointer make_map_asset(OIIO::ImageBuf image, int samples, const MeshAsset& me
 ///
 /// @param recipe   colour space, layer, layout and filter, as for SceneLight::open()
 /// @param blur     of the panorama, in degrees
+/// @param specular of strands: highlights, if they have a strength
 /// @returns nullptr, with the reason in `error`, if it cannot be read.
-LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const MakeOptions& options,
-                              std::string& error);
+LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const SpecularParams& specular,
+                              const MakeOptions& options, std::string& error);
 
 /// What kind of file a name is, to tell what a user opens or drops.
 enum class AssetKind

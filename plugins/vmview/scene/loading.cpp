@@ -114,7 +114,8 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
     if (!request.environment.empty()) {
         CfemRecipe filter = request.filter;
         filter.suns = dst.trace.suns == "off" ? "off" : "auto";
-        dst.light = read_light_asset(request.environment, filter, request.view.background_blur, options, error);
+        dst.light = read_light_asset(request.environment, filter, request.view.background_blur, request.specular,
+                                     options, error);
         if (!dst.light)
             return false;
         space = dst.light->light.space;

@@ -18,6 +18,19 @@ flat in vec2 corner2;
 flat in vec3 depths, shares;
 #endif
 
+#if HIGHLIGHTS
+uniform sampler2DArray cones; // cfem/cone_levels.h
+uniform sampler2DArray map; // layer 0: V
+uniform float rotation[9]; // object space to environment space, row major
+uniform float strength;
+#if MODE == 0
+in vec3 tangent;
+#else
+flat in vec3 first_tangent, middle_tangent, second_tangent;
+vec3 tangent;
+#endif
+#endif
+
 out vec4 color;
 
 #if MODE == 0
@@ -57,6 +70,12 @@ bool find_share(out float found)
     vec3 weights = e / sum / (is_orthographic ? vec3(1) : depths);
     float total = weights.x + weights.y + weights.z;
     found = dot(weights, shares) / total;
+#if HIGHLIGHTS
+    // That of a cubic is a square of the parameter.
+    float x = weights.y / total;
+    tangent = first_tangent * ((1.0 - x) * (1.0 - 2.0 * x)) + middle_tangent * (4.0 * x * (1.0 - x))
+        + second_tangent * (x * (2.0 * x - 1.0));
+#endif
     float depth = is_orthographic ? dot(e / sum, depths) : 1.0 / total;
     float nearest = depth_range.x, farthest = depth_range.y;
     float linear = (depth - nearest) / (farthest - nearest);
@@ -66,6 +85,29 @@ bool find_share(out float found)
     gl_FragDepth = is_orthographic ? linear : linear * farthest / depth; // as mesh.vert has it
 #endif
     return true;
+}
+#endif
+
+#if HIGHLIGHTS
+// What an open strand mirrors: ConeLevels::look().
+vec3 mirrored()
+{
+    const float kPi = 3.14159265;
+    vec2 at = (gl_FragCoord.xy + vec2(offset.x, -offset.y)) / size * 2.0 - 1.0;
+    vec3 ray = is_orthographic ? forward : forward + right * (at.x * half_size.x) + up * (at.y * half_size.y);
+    vec3 t = normalize(tangent);
+    float angle = atan(length(cross(t, ray)), abs(dot(t, ray))); // acos() is coarse
+    t *= dot(t, ray) < 0.0 ? -1.0 : 1.0;
+    float x = rotation[0] * t.x + rotation[1] * t.y + rotation[2] * t.z;
+    float y = rotation[3] * t.x + rotation[4] * t.y + rotation[5] * t.z;
+    float z = rotation[6] * t.x + rotation[7] * t.y + rotation[8] * t.z;
+    vec2 st = vec2(atan(-x, z) / (2.0 * kPi) + 0.5, 0.5 - atan(y, length(vec2(x, z))) / kPi);
+    int last = textureSize(cones, 0).z - 1;
+    float level = angle / (0.5 * kPi) * float(last);
+    float below = min(floor(level), float(last - 1));
+    return strength
+        * mix(textureLod(cones, vec3(st, below), 0.0).rgb, textureLod(cones, vec3(st, below + 1.0), 0.0).rgb,
+              level - below);
 }
 #endif
 
@@ -85,6 +127,11 @@ void main()
     rgb = vec3(0.5); // texels of strands have no area
 #elif SHOW == 0
     rgb *= strand_color;
+#if HIGHLIGHTS
+    float near_root = texelFetch(map, ivec3(first_texel + ivec2(k, 0), 0), 0).x;
+    float near_tip = texelFetch(map, ivec3(first_texel + ivec2(min(k + 1, texels - 1), 0), 0), 0).x;
+    rgb += mix(near_root, near_tip, place - float(k)) * mirrored();
+#endif
 #endif
     color = vec4(rgb, 1);
 }

@@ -8,6 +8,11 @@ uniform int texels, rows; // of a strand in its map, and of the map
 uniform vec2 depth_range;
 
 flat out ivec2 first_texel; // of the strand
+#if HIGHLIGHTS && MODE == 0
+out vec3 tangent; // in object space
+#elif HIGHLIGHTS
+flat out vec3 first_tangent, middle_tangent, second_tangent; // from the triangle's first corner to its second
+#endif
 #if MODE == 0
 out float share; // of the strand's length
 flat out uint piece;
@@ -24,6 +29,7 @@ struct End
     vec3 seen; // to the right, up, and depth
     vec3 side; // to the ribbon's right edge
     float share, coverage;
+    vec3 tangent; // in object space
 };
 
 vec3 turned(vec3 v)
@@ -45,7 +51,8 @@ End end_of(vec4 a, vec4 b, vec4 c, vec4 d, vec2 knots, float u)
     vec4 place = a * weights.x + b * weights.y + c * weights.z + d * weights.w;
     End end;
     end.seen = turned(place.xyz - eye);
-    vec3 along = turned(a.xyz * slopes.x + b.xyz * slopes.y + c.xyz * slopes.z + d.xyz * slopes.w);
+    end.tangent = a.xyz * slopes.x + b.xyz * slopes.y + c.xyz * slopes.z + d.xyz * slopes.w;
+    vec3 along = turned(end.tangent);
     vec3 across = cross(along, is_orthographic ? vec3(0, 0, 1) : end.seen);
     float radius = place.w;
     end.coverage = 1.0;
@@ -91,6 +98,9 @@ void main()
     share = end.share;
     coverage = end.coverage;
     piece = uint(number);
+#if HIGHLIGHTS
+    tangent = end.tangent;
+#endif
     gl_Position = placed((corner == 2) == is_second ? end.seen + end.side : end.seen - end.side);
 #else
     End near_root = end_of(a, b, c, d, knots, float(step) / float(pieces));
@@ -109,6 +119,11 @@ void main()
     corner2 = p2;
     depths = vec3(first_end.seen.z, second_end.seen.z, first_end.seen.z);
     shares = vec3(first_end.share, second_end.share, first_end.share);
+#if HIGHLIGHTS
+    first_tangent = first_end.tangent;
+    middle_tangent = end_of(a, b, c, d, knots, (float(step) + 0.5) / float(pieces)).tangent;
+    second_tangent = second_end.tangent;
+#endif
     // As in exact.vert: larger by kBeyond of a pixel on all sides.
     vec2 here = corner == 0 ? p0 : corner == 1 ? p1 : p2;
     vec2 along = here - (corner == 0 ? p2 : corner == 1 ? p0 : p1);

@@ -83,6 +83,11 @@ void add_strands(std::string& line, const Request& request, bool is_white)
         add_flag(line, "--strand-texels", format("{}", strands.strand_texels));
     if (!request.view.strand_color.empty() && !is_white)
         add_flag(line, "--strand-color", numbers(request.view.strand_color));
+    const SpecularParams &specular = request.specular, none;
+    if (specular.strand_specular != none.strand_specular)
+        add_flag(line, "--strand-specular", format("{:.6g}", specular.strand_specular));
+    if (specular.strand_exponent != none.strand_exponent)
+        add_flag(line, "--strand-exponent", format("{:.6g}", specular.strand_exponent));
 }
 
 std::string stem_of(const std::string& path)

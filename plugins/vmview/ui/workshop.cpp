@@ -112,12 +112,12 @@ void Workshop::read_mesh(const std::string& path)
 void Workshop::read_light(const std::string& path)
 {
     m_request.environment = path;
-    m_light_job.start(
-        [path, filter = m_request.filter, blur = m_request.view.background_blur](const auto& post, const auto& go_on) {
-            std::string error;
-            LightPointer light = read_light_asset(path, filter, blur, options_for(0, go_on), error);
-            post(last_result(std::move(light), error));
-        });
+    m_light_job.start([path, filter = m_request.filter, blur = m_request.view.background_blur,
+                       specular = m_request.specular](const auto& post, const auto& go_on) {
+        std::string error;
+        LightPointer light = read_light_asset(path, filter, blur, specular, options_for(0, go_on), error);
+        post(last_result(std::move(light), error));
+    });
 }
 
 void Workshop::read_map(const std::string& path)
