@@ -18,7 +18,7 @@ namespace {
 
 using Radiance = std::function<double(const V3d&)>;
 
-OIIO::ImageBuf sky_of(const Radiance& light, int height = 128)
+OIIO::ImageBuf sky_of(const Radiance& light, int height = 64)
 {
     OIIO::ImageBuf sky(OIIO::ImageSpec(2 * height, height, 3, OIIO::TypeFloat));
     for (OIIO::ImageBuf::Iterator<float> pixel(sky); !pixel.done(); ++pixel) {
@@ -67,7 +67,7 @@ double mean_of_cone(const Radiance& light, const V3d& tangent, double angle)
 // The definition, by a sum over the sphere.
 double integrated(const Radiance& light, const V3d& tangent, double angle, double exponent)
 {
-    constexpr int kRings = 400;
+    constexpr int kRings = 250;
     double sum = 0, all = 0;
     for (int i = 0; i < kRings; ++i) {
         const double theta = latlong::pi * (i + 0.5) / kRings;
@@ -87,7 +87,7 @@ const std::vector<V3d> kTangents { V3d(0, 1, 0), V3d(0.6, 0.48, -0.64), V3d(1, 0
 
 TEST(ConeLevels, ConstantLightIsConstant)
 {
-    for (const double exponent : { 1.0, 12.5, 500.0 }) {
+    for (const double exponent : { 1.0, 12.5, 120.0 }) {
         const ConeLevels levels = levels_of([](const V3d&) { return 0.25; }, exponent);
         for (const V3d& tangent : kTangents)
             for (const double cos_angle : { -1.0, -0.3, 0.0, 0.7, 1.0 }) {
@@ -116,27 +116,27 @@ TEST(ConeLevels, TurnWithTheLight)
         for (const double cos_angle : { -0.9, 0.0, 0.7 }) {
             const V3d seen = looked(levels, tangent, cos_angle),
                       same = looked(turned, rotate(turn, tangent), cos_angle);
-            EXPECT_LT((seen - same).length(), 0.03 * seen.length()) << cos_angle;
+            EXPECT_LT((seen - same).length(), 0.04 * seen.length()) << cos_angle;
         }
 }
 
 // Relative to the brightest that any strand mirrors of the lamp.
 TEST(ConeLevels, EqualTheIntegral)
 {
-    for (const double exponent : { 1.0, 8.0, 40.0, 200.0 })
-        for (const double sharpness : { 5.0, 60.0 }) {
-            const Radiance light = [&](const V3d& w) { return with_lamp(w, sharpness); };
-            const ConeLevels levels = levels_of(light, exponent);
-            const double peak = *std::max_element(levels.texels.begin(), levels.texels.end()) / 3; // of B
-            double worst = 0;
-            for (const V3d& tangent : kTangents)
-                for (const double angle : { 0.0, 0.4, 1.0, 1.5707, 2.2, 3.0 }) {
-                    const V3d seen = looked(levels, tangent, std::cos(angle));
-                    worst = std::max(worst, std::abs(seen.x - integrated(light, tangent, angle, exponent)) / peak);
-                    EXPECT_NEAR(seen.z, 3 * seen.x, 1e-4 * seen.z);
-                }
-            EXPECT_LT(worst, 0.015) << exponent << " " << sharpness;
-        }
+    for (const auto& [exponent, sharpness] : { std::pair(1.0, 5.0), std::pair(40.0, 60.0), std::pair(200.0, 20.0) }) {
+        const double sharp = sharpness;
+        const Radiance light = [&](const V3d& w) { return with_lamp(w, sharp); };
+        const ConeLevels levels = levels_of(light, exponent);
+        const double peak = *std::max_element(levels.texels.begin(), levels.texels.end()) / 3; // of B
+        double worst = 0;
+        for (const V3d& tangent : kTangents)
+            for (const double angle : { 0.0, 0.4, 1.0, 1.5707, 2.2, 3.0 }) {
+                const V3d seen = looked(levels, tangent, std::cos(angle));
+                worst = std::max(worst, std::abs(seen.x - integrated(light, tangent, angle, exponent)) / peak);
+                EXPECT_NEAR(seen.z, 3 * seen.x, 1e-4 * seen.z);
+            }
+        EXPECT_LT(worst, 0.015) << exponent << " " << sharpness;
+    }
 }
 
 // The narrower the lobe, the nearer to the mean over the cone itself.
@@ -144,17 +144,17 @@ TEST(ConeLevels, TendToTheMeanOfTheCone)
 {
     const Radiance light = [](const V3d& w) { return with_lamp(w, 4); };
     double last = 1e9;
-    for (const double exponent : { 20.0, 100.0, 500.0 }) {
+    for (const double exponent : { 15.0, 60.0, 240.0 }) {
         const ConeLevels levels = levels_of(light, exponent);
         double worst = 0;
         for (const V3d& tangent : kTangents)
             for (const double angle : { 0.3, 0.9, 1.4 })
                 worst = std::max(
                     worst, std::abs(looked(levels, tangent, std::cos(angle)).x - mean_of_cone(light, tangent, angle)));
-        EXPECT_LT(worst, 0.3 * last) << exponent; // as 1 / exponent
+        EXPECT_LT(worst, 0.35 * last) << exponent; // as 1 / exponent
         last = worst;
     }
-    EXPECT_LT(last, 0.06);
+    EXPECT_LT(last, 0.12);
 }
 
 // Strands across the line of sight mirror the plane across them; those along it what is behind the eye's far side.
