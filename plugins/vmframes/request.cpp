@@ -7,9 +7,9 @@
 #include <vmlight/base/frames.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/cli/animation.h>
+#include <vmlight/frame/strand_flags.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/image/picture_file.h>
-#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/stage/recipe/unused_flags.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -99,10 +99,12 @@ std::string unused_light(const Request& request, const std::string& name)
     if (OIIO::Strutil::starts_with(name, filter))
         return unused_reason(request.filter, name.substr(filter.size()));
     const bool is_traced = is_any(param_names(TraceParams()), name);
-    if ((is_traced || is_any({ "model", "env_rotate", "turn_environment", "colorspace", "layer", "layout" }, name))
+    const bool is_mirrored = is_any(param_names(SpecularParams()), name);
+    if ((is_traced || is_mirrored
+         || is_any({ "model", "env_rotate", "turn_environment", "colorspace", "layer", "layout" }, name))
         && request.environment.empty())
         return "there is no environment";
-    if ((is_traced || name == "model") && is_shown_alone)
+    if ((is_traced || is_mirrored || name == "model") && is_shown_alone)
         return "the texture is shown as it is";
     const std::vector<std::string> models = request.models();
     if (name == "suns" && size_t(std::count(models.begin(), models.end(), kReferenceModel)) == models.size())
@@ -124,31 +126,16 @@ std::vector<std::string> paths_of(const Request& request)
     return paths;
 }
 
-// The bake of the first mesh; of the first strands if there is no mesh.
-VismapRecipe baked_recipe(const Request& request)
-{
-    VismapRecipe recipe = request.object.map;
-    for (const std::string& path : paths_of(request))
-        if (!is_strand_occluder(request.object.map, path)) {
-            recipe.mesh = path;
-            recipe.strand_params = {};
-            break;
-        }
-    return recipe;
-}
-
 std::string unused_map(const Request& request, const std::string& name)
 {
-    if (name == "strand_color" && request.stage.white)
-        return "--white shows all white";
-    if (name == "strand_color" || is_any(param_names(StrandParams()), name))
-        return has_strands(request) ? "" : "no object is strands";
+    if (is_strand_flag(name))
+        return unused_strand_flag(name, has_strands(request), request.stage.white, request.specular);
     const bool is_only_one = request.stage.object.empty() && request.stage.ground == "none";
     if (is_any(param_names(VismapParams()), name) && is_only_one && !request.object.vismap.empty())
         return "the visibility map is made already";
     if (is_any(param_names(VismapParams()), name) && is_only_one && !request.object.texture.empty())
         return "the texture is shown as it is: no visibility map is baked";
-    return name == "fps" ? "" : unused_reason(baked_recipe(request), name);
+    return name == "fps" ? "" : unused_reason(shown_recipe(request.object.map, paths_of(request)), name);
 }
 
 std::string unused_picture(const Request& request, const std::string& name)
@@ -189,9 +176,7 @@ Request Request::at(size_t index) const
 
 bool has_strands(const Request& request)
 {
-    const std::vector<std::string> paths = paths_of(request);
-    return std::any_of(paths.begin(), paths.end(),
-                       [&](const std::string& path) { return is_strand_occluder(request.object.map, path); });
+    return shows_strands(request.object.map, paths_of(request));
 }
 
 bool is_exr_name(const std::string& path)

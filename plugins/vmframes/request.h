@@ -6,6 +6,7 @@
 #include <vmlight/frame/camera.h>
 #include <vmlight/frame/lit_object.h>
 #include <vmlight/frame/render.h>
+#include <vmlight/frame/strand_specular.h>
 #include <vmlight/image/display.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/reference/reference.h>
@@ -81,6 +82,7 @@ struct Request
     CfemRecipe filter;
     LightmapParams light;
     ReferenceParams reference;
+    SpecularParams specular;
     CameraParams camera;
     RenderParams render;
     StageParams stage;

@@ -53,14 +53,15 @@ bool Shot::open_light(const MakeOptions& options, std::string& error)
     filter.suns = m_trace.suns == "off" ? "off" : "auto";
     const bool is_traced = std::find(models.begin(), models.end(), kReferenceModel) != models.end();
     const bool is_seen = m_request.stage.background == "environment";
-    if (!m_light.open(m_request.environment, filter, is_traced || is_seen, options, error))
+    const bool is_mirrored = m_request.specular.strand_specular > 0;
+    if (!m_light.open(m_request.environment, filter, is_traced || is_seen || is_mirrored, options, error))
         return false;
     if ((is_traced || is_seen) && !m_light.environment.initialized()) {
         error = format("\"{}\": {} needs the environment itself, and this is only its filtered map",
                        m_request.environment, is_traced ? "the model reference" : "--background environment");
         return false;
     }
-    return true;
+    return !is_mirrored || filter_for_specular(m_cones, m_light, m_request.specular, options.threads, error);
 }
 
 bool Shot::open_objects(size_t index, const MakeOptions& options, std::string& error)
@@ -241,8 +242,12 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
         if (!object->light(m_light, params, m_request.reference, options, error, &m_used_model))
             return false;
         FrameSurface& surface = m_scene.surfaces[i++];
-        if (shows_visibility && !object->surface().visibility)
+        const bool is_mirror = m_cones && object->surface().strands;
+        if ((shows_visibility || is_mirror) && !object->surface().visibility)
             object->show_visibility(options.threads);
+        if (is_mirror)
+            object->surface().specular = std::make_shared<StrandSpecular>(
+                StrandSpecular { m_cones, m_scene.background.rotation, m_request.specular.strand_specular });
         if (object->surface().catches_shadows
             && !find_unshadowed(object->surface().unshadowed, object->mesh(), m_light, params, error))
             return false;

@@ -66,6 +66,7 @@ private:
     const Request& m_request;
     TraceParams m_trace; // the request's, or what of it can be
     SceneLight m_light;
+    std::shared_ptr<const ConeLevels> m_cones; // of strands with highlights
     std::vector<std::unique_ptr<FrameObject>> m_objects;
     std::unique_ptr<LitObject> m_ground;
     // The objects' own rotation in the world, where the camera stands and the ground is level. All else is in the

@@ -105,6 +105,7 @@ int main(int argc, const char** argv)
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.object.map.unwrap = true; });
     stage.params("Strands:", request.object.map.strand_params);
+    stage.params("Strands:", request.specular);
     const auto complete = [&] {
         request.object.map.mesh = stage.operands()[0];
         request.environment = stage.operands().size() > 1 ? stage.operands()[1] : "";

@@ -53,7 +53,7 @@ bool bench_frames(const Assets& assets, const Request& request, StageMain& stage
         const Stopwatch timer;
         const double turn = 360.0 * i / request.view.bench;
         LightmapParams light;
-        std::vector<float> rgb;
+        AddedTexels rgb;
         if (!light_params(light, request.light, turn, error) || (added && !added->trace(rgb, light, {}, error)))
             return false;
         renderer.add_light(0, std::move(rgb));

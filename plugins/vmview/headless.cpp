@@ -34,8 +34,7 @@ bool frame_object(PictureParams& dst, const MeshAsset& mesh, const Request& requ
         return false;
     const Size size = request.render.size;
     const double aspect = double(size.width) / size.height;
-    Subject subject;
-    subject.add(*mesh.mesh, pose);
+    const Subject subject = subject_of(mesh, pose);
     Camera camera;
     if (request.camera.camera.empty())
         camera = place_camera(request.camera, subject, aspect, false);
@@ -50,7 +49,7 @@ bool add_traced_light(Renderer& renderer, const Assets& assets, const Request& r
 {
     if (!assets.light || !assets.trace.has_any() || !is_light(request.view.show))
         return true;
-    std::vector<float> rgb;
+    AddedTexels rgb;
     AddedLight added(assets.trace, assets.mesh, request.view.white, assets.map, assets.light);
     if (!added.trace(rgb, light, {}, error))
         return false;

@@ -2,6 +2,7 @@
 #include "request.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/frame/strand_flags.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/image/picture_file.h>
 #include <vmlight/stage/recipe/unused_flags.h>
@@ -11,6 +12,16 @@
 #include <algorithm>
 
 namespace vmlight::view {
+namespace {
+
+std::vector<std::string> paths_of(const Request& request)
+{
+    std::vector<std::string> paths { request.mesh.mesh };
+    paths.insert(paths.end(), request.view.object.begin(), request.view.object.end());
+    return paths;
+}
+
+} // namespace
 
 std::string request_fault(const Request& request)
 {
@@ -44,7 +55,10 @@ std::string unused_reason(const Request& request, const std::string& name)
         lit.bounce_params = request.trace.bounce;
         return request.environment.empty() ? "there is no environment" : unused_reason(lit, name);
     }
-    if (is_one_of(param_names(VismapParams())) && !request.vismap.empty())
+    if (is_strand_flag(name))
+        return unused_strand_flag(name, shows_strands(request.mesh, paths_of(request)), request.view.white,
+                                  request.specular);
+    if (is_one_of(param_names(VismapParams())) && !request.vismap.empty() && request.view.object.empty())
         return "the visibility map is made already";
     if (name == "background_blur" && request.view.background != "environment")
         return "only --background environment is blurred";
@@ -53,7 +67,7 @@ std::string unused_reason(const Request& request, const std::string& name)
     if (is_one_of(param_names(FileParams())) && !OIIO::Strutil::iends_with(request.output, ".exr"))
         return "only an EXR is stored so";
     const std::string reason = unused_reason(request.camera, name);
-    return reason.empty() ? unused_reason(request.mesh, name) : reason;
+    return reason.empty() ? unused_reason(shown_recipe(request.mesh, paths_of(request)), name) : reason;
 }
 
 } // namespace vmlight::view

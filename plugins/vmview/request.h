@@ -4,12 +4,14 @@
 
 #include <vmlight/frame/camera.h>
 #include <vmlight/frame/render.h>
+#include <vmlight/frame/strand_specular.h>
 #include <vmlight/frame/traced_light.h>
 #include <vmlight/image/display.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/stage/recipe/recipe.h>
 
 #include <string>
+#include <vector>
 
 namespace vmlight::view {
 
@@ -18,6 +20,10 @@ struct ViewParams
     std::string background = "none";
     double background_blur = 0;
     bool white = false, headless = false;
+    /// Strands beside the mesh.
+    std::vector<std::string> object;
+    /// Of strands, whose files have no materials: linear R, G, B; empty for white.
+    std::vector<double> strand_color;
     std::string show = "lit";
     int bench = 0;
     bool gl_debug = false;
@@ -30,6 +36,10 @@ struct ViewParams
               "What is behind; the environment lights in any case");
         field("background_blur", background_blur, Range { 0, 60 }, "Blur of the environment behind, in degrees");
         field("white", white, Flag {}, "Show all surfaces white: ignore the materials of the mesh");
+        field("object", object, Paths {},
+              "Strands beside the mesh, such as its hair; each in the way of the other's light");
+        field("strand_color", strand_color, Numbers { 3 },
+              "Colour of strands, linear, such as 0.3,0.15,0.05; default: white");
         field("show", show,
               Choices { { { "lit", "the mesh as the light falls on it" },
                           { "visibility", "V" },
@@ -54,6 +64,7 @@ struct Request
     CfemRecipe filter;
     LightmapParams light;
     TraceParams trace;
+    SpecularParams specular;
     CameraParams camera;
     RenderParams render;
     ViewParams view;

@@ -15,6 +15,8 @@ namespace {
 
 constexpr const char* kExamples = "  vmview shoe.glb studio.hdr\n"
                                   "  vmview hero.obj studio.hdr --vismap hero_vismap.exr --model paper\n"
+                                  "  vmview hair.tfx studio.hdr --radius 0.0004:0.0001 --strand-color 0.3,0.12,0.05\n"
+                                  "  vmview body.obj studio.hdr --object hair.tfx --radius 0.0004:0.0001\n"
                                   "  vmview hero.obj studio.hdr --headless --rotate 0,90,0 -o hero.exr\n"
                                   "  vmview hero.obj studio.hdr --bench 200 --size 1920x1080";
 
@@ -24,7 +26,7 @@ int main(int argc, const char** argv)
 {
     Request request;
     request.render.size = { 1280, 720 };
-    StageMain stage("vmview", "look at a mesh, lit by its visibility map, while it turns",
+    StageMain stage("vmview", "look at a mesh or strands, lit by their visibility map, while they turn",
                     { "[MESH]", "[ENVIRONMENT]" }, kExamples, OutputKind::OptionalPicture);
     stage.params("Picture:", request.view);
     stage.group("Picture:");
@@ -48,7 +50,7 @@ int main(int argc, const char** argv)
         });
     stage.params("Camera:", request.camera);
     stage.group("Light:");
-    stage.option("vismap", "FILE", "Visibility map of the mesh, instead of baking one", request.vismap);
+    stage.option("vismap", "FILE", "Visibility map of MESH, instead of baking one", request.vismap);
     stage.option("model", "NAME", "Shading model, as makelightmap has it [auto]", [&](auto text, auto& error) {
         request.model_given = true;
         return set_param(request.light, "model", text, error);
@@ -72,6 +74,8 @@ int main(int argc, const char** argv)
     stage.params("Mesh:", request.mesh.cutout_params);
     stage.option("unwrap", "", "Replace the mesh's UVs, if any, by an atlas",
                  [&](auto, auto&) { return request.mesh.unwrap = true; });
+    stage.params("Strands:", request.mesh.strand_params);
+    stage.params("Strands:", request.specular);
     const auto complete = [&] {
         const std::vector<std::string>& operands = stage.operands();
         request.mesh.mesh = operands.empty() ? "" : operands[0];

@@ -116,6 +116,7 @@ TEST_F(Vmframes, FlagsThatCannotChangeThePictureAreRefused)
     refused(2, "--samples 4: the texture is shown as it is", texture + "--samples 4");
     refused(2, "--model paper: there is no environment", texture + "--model paper");
     refused(2, "--suns auto: there is no environment", texture + "--suns auto");
+    refused(2, "--strand-specular 1: there is no environment", texture + "--strand-specular 1");
     refused(2, "--bounce-albedo 0.1: no bounced light is asked for", line + "--bounce-albedo 0.1");
     refused(2, "--suns on: the model reference traces the whole environment", line + "--model reference --suns on");
     refused(2, "unknown flag \"--ground-albedo\"", line + "--ground-albedo 0.1");
@@ -330,6 +331,10 @@ TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
     done("vmframes quad.obj sky.exr --object hair.obj --radius .3 --strand-color 0,1,0 -o both.exr --layers albedo"
          + small);
     EXPECT_LT(mean("both.exr"), mean("bare.exr"));
+    const std::string hair = "vmframes quad.obj sky.exr --object hair.obj --radius .3 --strand-color 0,1,0 ";
+    done(hair + "-o plain.exr" + small);
+    done(hair + "--strand-specular .5 -o gloss.exr" + small);
+    EXPECT_GT(mean("gloss.exr"), mean("plain.exr"));
     const Pixels all = pixels("both.exr");
     const float* centre = &all.values[size_t(8 * 16 + 8) * size_t(all.channels)];
     EXPECT_EQ(centre[0], 0); // green hair is in front
@@ -339,6 +344,13 @@ TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
         refused(2, "only an EXR is stored so", "vmframes quad.obj sky.exr -o a.png " + flag + small);
     refused(2, "no object is strands", "vmframes quad.obj sky.exr --radius .1 -o a.png" + small);
     refused(2, "no object is strands", "vmframes quad.obj sky.exr --strand-color 1,0,0 -o a.png" + small);
+    refused(2, "--strand-specular 1: no object is strands",
+            "vmframes quad.obj sky.exr --strand-specular 1 -o a.png" + small);
+    refused(2, "--strand-exponent 9: only --strand-specular uses it",
+            "vmframes quad.obj sky.exr --object hair.obj --radius .1 --strand-exponent 9 -o a.png" + small);
+    refused(2, "strand_exponent: 501 is not in [1, 500]",
+            "vmframes quad.obj sky.exr --object hair.obj --radius .1 --strand-specular 1 --strand-exponent 501 -o a.png"
+                + small);
     refused(2, "--white shows all white",
             "vmframes quad.obj sky.exr --object hair.obj --radius .1 --strand-color 1,0,0 --white -o a.png" + small);
 }

@@ -10,6 +10,7 @@ import unittest
 BIN = os.environ["VMLIGHT_BIN"]
 DATA = os.path.join(os.environ["VMLIGHT_SOURCE"], "tests", "data")
 MESH, SKY = DATA + "/cases/box.obj", DATA + "/studio_small_03.hdr"
+GROOM = ["--radius", "0.05"]
 SMALL = ["--resolution", "32", "--samples", "4", "--size", "48x32", "--spp", "1"]
 
 
@@ -42,6 +43,41 @@ class Command(unittest.TestCase):
         result = self.run_here(MESH, *SMALL, "--show", "visibility", "--headless", "-o", "v.png", "--quiet")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertEqual(sorted(os.listdir(self.folder.name)), ["a.exr", "a.jpg", "a.png", "v.png"])
+
+    def write_lines(self, name):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w") as file:
+            file.write("v 0 0 0\nv 0 .5 .1\nv 0 1 .4\nv .5 0 0\nv .5 .5 .1\nv .6 1 .4\nl 1 2 3\nl 4 5 6\n")
+        return path
+
+    def test_strands(self):
+        hair = self.write_lines("hair.obj")
+        for index, scene in enumerate(([hair, SKY], [MESH, SKY, "--object", hair])):
+            name = f"{index}.exr"
+            flags = SMALL if MESH in scene else SMALL[2:]
+            result = self.run_here(*scene, *GROOM, "--strand-color", "1,.5,.2", "--strand-texels", "4", *flags, "-o", name,
+                                   "--quiet")
+            self.assertEqual((result.returncode, result.stderr, result.stdout), (0, "", ""), scene)
+        result = self.run_here(hair, SKY, *GROOM, "--samples", "4", "--size", "48x32", "--bench", "2", "--suns", "auto")
+        self.assertRegex(result.stdout, r"bench: 2 frames of 48x32", result)
+
+    def test_strand_flags_without_effect(self):
+        hair = self.write_lines("hair.obj")
+        os.rename(hair, self.folder.name + ".obj")
+        hair = self.folder.name + ".obj"
+        self.addCleanup(os.remove, hair)
+        self.assert_fails(2, "--strand-texels 4: no object is strands", MESH, SKY, "--strand-texels", "4", "-o", "a.exr")
+        self.assert_fails(2, "--strand-color 1,1,1: no object is strands", MESH, SKY, "--strand-color", "1,1,1", "-o", "a.exr")
+        self.assert_fails(2, "--strand-color 1,1,1: --white shows all white", hair, SKY, *GROOM, "--white", "--strand-color",
+                          "1,1,1", "-o", "a.exr")
+        self.assert_fails(2, "--resolution 64: a map of strands does not use it", hair, SKY, *GROOM, "--resolution", "64",
+                          "-o", "a.exr")
+        self.assert_fails(2, "--strand-exponent 9: only --strand-specular uses it", hair, SKY, *GROOM, "--strand-exponent",
+                          "9", "-o", "a.exr")
+        self.assert_fails(2, "--strand-specular 1: no object is strands", MESH, SKY, "--strand-specular", "1", "-o", "a.exr")
+        self.assert_fails(2, "strand_exponent: 501 is not in [1, 500]", hair, SKY, *GROOM, "--strand-specular", "1",
+                          "--strand-exponent", "501", "-o", "a.exr")
+        self.assert_fails(1, "only they can be beside MESH", hair, SKY, *GROOM, "--object", MESH, "-o", "a.exr")
 
     def test_same_picture_twice(self):
         for name in ("a.exr", "b.exr"):

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view_test.h"
+#include "view_pictures.h"
 
-#include "vmview/headless.h"
 #include "vmview/render/lighting.h"
 #include "vmview/render/picture.h"
 
@@ -44,14 +43,6 @@ Request request_for(const std::string& mesh, const std::string& environment)
     request.render.spp = 4;
     request.render.sampling = "all"; // as vmview samples; `edges` mixes inner pixels from their corners
     return request;
-}
-
-Assets loaded(const Request& request)
-{
-    Assets assets;
-    std::string error;
-    EXPECT_TRUE(load_assets(assets, request, {}, error)) << error;
-    return assets;
 }
 
 // The same picture by the renderer of vmframes.
@@ -97,27 +88,6 @@ OIIO::ImageBuf traced(const Assets& assets, const Request& request)
     RenderParams params = request.render;
     params.sampling = "all"; // as the view samples every pixel
     EXPECT_TRUE(render_frame(picture, scene, camera, params, 0, {}, error)) << error;
-    return picture;
-}
-
-double relative_rmse(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
-{
-    double squares = 0, sum = 0;
-    OIIO::ImageBuf::ConstIterator<float> x(a), y(b);
-    for (; !x.done(); ++x, ++y)
-        for (int c = 0; c < 3; ++c) {
-            squares += (x[c] - y[c]) * (x[c] - y[c]);
-            sum += y[c];
-        }
-    const double count = 3.0 * double(a.spec().image_pixels());
-    return std::sqrt(squares / count) / (sum / count);
-}
-
-OIIO::ImageBuf drawn(const Assets& assets, const Request& request)
-{
-    OIIO::ImageBuf picture;
-    std::string error;
-    EXPECT_TRUE(render_headless(picture, assets, request, error)) << error;
     return picture;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view_test.h"
 
+#include "strand_files.h"
 #include "temporary_folder.h"
 #include "vmview/scene/job.h"
 #include "vmview/settings.h"
@@ -17,6 +18,7 @@
 
 using namespace vmlight;
 using namespace vmlight::view;
+using namespace vmlight::strand_files;
 
 namespace {
 
@@ -84,6 +86,27 @@ TEST(CopiedCommand, SaysWhatIsSeen)
     EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
 }
 
+TEST(CopiedCommand, HasTheStrands)
+{
+    Request request;
+    request.mesh.mesh = "body.obj";
+    request.environment = "sky.hdr";
+    request.view.object = { "the hair.tfx" };
+    request.view.strand_color = { 0.5, 0.25, 0 };
+    request.mesh.strand_params.radius = "0.004:0.001";
+    request.mesh.strand_params.strand_texels = 8;
+    request.specular = { 0.1, 60 };
+    ViewState state = state_of(request);
+    EXPECT_EQ(vmframes_command(request, state, ""),
+              "vmframes body.obj sky.hdr --object 'the hair.tfx' --radius 0.004:0.001 --strand-texels 8 --strand-color "
+              "0.5,0.25,0 --strand-specular 0.1 --strand-exponent 60 -o body.png");
+    state.is_white = true; // which vmframes refuses a colour with
+    EXPECT_EQ(
+        vmframes_command(request, state, ""),
+        "vmframes body.obj sky.hdr --object 'the hair.tfx' --radius 0.004:0.001 --strand-texels 8 --strand-specular "
+        "0.1 --strand-exponent 60 --white -o body.png");
+}
+
 // The copied rotation is the one that the view lights with.
 TEST(CopiedCommand, RotationIsThatOfTheLight)
 {
@@ -124,6 +147,44 @@ TEST(Cursor, FindsTheTexel)
     EXPECT_EQ(texel.y, 0);
     EXPECT_EQ(describe_texel(map, texel.x, texel.y), "V 1.0000\nB 0.0000 0.0000 0.6667\n|B| / V 0.6667");
     EXPECT_FALSE(texel_under(*mesh, &map, camera, 100, 5, 80, 80).is_on_mesh);
+}
+
+// The third of four texels of the right one of two upright strands; and of the same beside a mesh, in front of it.
+TEST(Cursor, FindsTheStrand)
+{
+    const TemporaryFolder folder;
+    MeshRequest request;
+    request.recipe.mesh = folder.write(
+        "pair.tfx", tfx_of(straight({ { V3d(-1, -1, 4), V3d(-1, 1, 4) }, { V3d(1, -1, 4), V3d(1, 1, 4) } }, 1, 5)));
+    request.recipe.strand_params = { "0.1", 4 };
+    request.recipe.vismap_params.samples = 4;
+    CameraParams straight_on;
+    straight_on.elevation = 0;
+    straight_on.fov = 0;
+    straight_on.fill = 1;
+    const std::string strands = request.recipe.mesh;
+    for (const bool is_beside : { false, true }) {
+        if (is_beside) {
+            request.beside = { strands };
+            request.recipe.mesh = data_path("cases/box.obj");
+            request.recipe.vismap_params.resolution = { 16, 16 };
+        }
+        std::string error;
+        const MeshPointer mesh = read_mesh_asset(request, false, "", "", {}, error);
+        ASSERT_TRUE(mesh) << error;
+        const MapPointer map = bake_map(*mesh, "auto", 4, {}, error);
+        ASSERT_TRUE(map) << error;
+        // Two units wide and high, from (-1, 1) down.
+        Camera camera = place_camera(straight_on, mesh->subject, 1, false);
+        camera.position = V3d(0, 0, 10);
+        camera.half_width = camera.half_height = 1;
+        const CursorTexel texel = texel_under(*mesh, map.get(), camera, 79, 25, 80, 80);
+        EXPECT_TRUE(texel.is_on_strand && texel.has_texel) << is_beside;
+        EXPECT_EQ(texel.figure, is_beside ? 1u : 0u);
+        EXPECT_EQ(texel.strand, 1);
+        EXPECT_EQ(texel.x, 2);
+        EXPECT_EQ(texel.y, 1);
+    }
 }
 
 // The near side of the object follows the mouse.
@@ -211,6 +272,49 @@ TEST(Workshop, BakesEverFinerMaps)
     workshop.bake_for("sh");
     EXPECT_FALSE(workshop.is_baked());
     workshop.stop();
+}
+
+// A map that is stored, and ever finer ones of what is beside it; what is dropped takes their place.
+TEST(Workshop, HasStrandsBesideTheMesh)
+{
+    const TemporaryFolder folder;
+    Request request;
+    request.mesh.mesh = data_path("cases/box.obj");
+    request.mesh.vismap_params.samples = 5;
+    request.mesh.strand_params.radius = "0.02";
+    request.view.object = { folder.write("curls.tfx", tfx_of(curls(5, 1))) };
+    for (const bool is_stored : { true, false }) {
+        if (is_stored) {
+            request.vismap = folder / "box_vismap.exr";
+            ASSERT_TRUE(full_map(data_mesh("cases/box.obj"), { 16, 16 }, 4).write(request.vismap));
+        } else {
+            request.vismap.clear();
+            request.mesh.vismap_params.resolution = { 16, 16 };
+        }
+        Workshop workshop(request, {});
+        MeshPointer mesh;
+        MapPointer map;
+        std::string problem, error;
+        ASSERT_TRUE(wait_until([&] { return workshop.take_mesh(mesh, problem); })) << problem;
+        EXPECT_EQ(mesh->beside.size(), 1u);
+        workshop.bake_for("paper");
+        int last = 0;
+        ASSERT_TRUE(wait_until([&] {
+            if (workshop.take_map(map, problem) && map->beside.size() == 1) {
+                EXPECT_GT(map->beside[0]->samples, last);
+                last = map->beside[0]->samples;
+            }
+            return last == 5;
+        })) << problem;
+        EXPECT_EQ(map->path, request.vismap);
+        ASSERT_TRUE(workshop.open(request.view.object[0], error)) << error;
+        ASSERT_TRUE(wait_until([&] { return workshop.take_mesh(mesh, problem); })) << problem;
+        EXPECT_TRUE(mesh->is_strands() && mesh->beside.empty());
+        workshop.bake_for("paper");
+        ASSERT_TRUE(wait_until([&] { return workshop.take_map(map, problem); })) << problem;
+        EXPECT_TRUE(map->beside.empty());
+        workshop.stop();
+    }
 }
 
 TEST(Workshop, OpensWhatIsDropped)

@@ -2,6 +2,8 @@
 // The picture in the window, without one: light that is traced in the background while the mouse drags.
 #include "view_test.h"
 
+#include "strand_files.h"
+#include "temporary_folder.h"
 #include "vmview/scene/loading.h"
 #include "vmview/ui/viewport.h"
 
@@ -10,6 +12,7 @@
 
 using namespace vmlight;
 using namespace vmlight::view;
+using namespace vmlight::strand_files;
 
 namespace {
 
@@ -116,6 +119,41 @@ TEST_F(ViewportTest, BothSidesOfAWipeHaveTheirLight)
     ASSERT_TRUE(settle(viewport, state, false));
     EXPECT_EQ(viewport.renderer().read_texture(1), mask);
     EXPECT_EQ(texels(viewport), paper);
+}
+
+// Strands beside a mesh have their suns, whatever the model of the mesh; and beside its traced reference.
+TEST_F(ViewportTest, StrandsBesideAMeshHaveTheirLight)
+{
+    const TemporaryFolder folder;
+    Request request = sunny_request();
+    request.light.model = "mask"; // which is lit on the processor
+    request.trace.bounce.bounce = "off";
+    request.mesh.strand_params.radius = "0.02";
+    request.view.object = { folder.write("curls.tfx", tfx_of(curls(9, 1))) };
+    const Assets assets = loaded(request);
+    std::string error;
+    Viewport viewport(1, "box", 2, [] {});
+    ASSERT_TRUE(viewport.build("", error)) << error;
+    show(viewport, assets);
+    const auto strands = [&] { return viewport.renderer().read_texture(0, 1); };
+    ViewState state = state_of(request);
+    ASSERT_TRUE(settle(viewport, state, false));
+    const std::vector<float> lit = strands();
+    for (const char* model : { "paper", "reference" }) {
+        state.light.model = model;
+        viewport.update(state, 64, 48, false);
+        for (int i = 0; i < 6000 && viewport.is_tracing(); ++i) {
+            viewport.update(state, 64, 48, false);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        viewport.update(state, 64, 48, false);
+        EXPECT_EQ(largest_difference(strands(), lit), 0) << model;
+    }
+    state.trace.suns = "off";
+    viewport.update(state, 64, 48, false);
+    viewport.update(state, 64, 48, false);
+    EXPECT_NE(strands(), lit);
+    viewport.stop();
 }
 
 // What is closed or replaced while light is traced leaves nothing behind.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/frame/background.h>
+#include <vmlight/frame/strand_specular.h>
 #include <vmlight/frame/strand_surface.h>
 #include <vmlight/frame/surface_texture.h>
 #include <vmlight/mesh/mesh.h>
@@ -39,6 +40,8 @@ struct FrameSurface
     /// Where the strands of `mesh` are in their map, and their colour; nullptr: it has triangles.
     std::shared_ptr<const StrandSurface> strands;
     Imath::C3f strand_color { 1, 1, 1 };
+    /// nullptr or the highlights of strands, at the rotation of `light`; times V of `visibility`.
+    std::shared_ptr<const StrandSpecular> specular;
     /// Three channels: the light that a white surface would send out, by the mesh's uvs.
     std::shared_ptr<const SurfaceTexture> light;
     /// nullptr or four channels: V and B.

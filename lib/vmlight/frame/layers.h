@@ -24,6 +24,8 @@ struct SeenPoint
     FramePoint point;
     TextureFootprint uv;
     Imath::C3f albedo { 1, 1, 1 }, light { 0, 0, 0 };
+    /// Of an open strand: what it mirrors.
+    Imath::C3f specular { 0, 0, 0 };
     /// V and B; 0 if the surface has none.
     std::array<float, 4> visibility {};
     double alpha = 1;

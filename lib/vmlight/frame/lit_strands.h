@@ -3,9 +3,9 @@
 #pragma once
 
 #include <vmlight/frame/frame_object.h>
-#include <vmlight/lightmap/sun_light.h>
+#include <vmlight/frame/strand_light.h>
+#include <vmlight/frame/strand_object.h>
 #include <vmlight/trace/strand_scene.h>
-#include <vmlight/vismap/strand_map.h>
 
 #include <memory>
 #include <string>
@@ -33,19 +33,13 @@ public:
 private:
     bool prepare_scene(const MakeOptions& options, std::string& error);
     bool prepare_map(const std::string& model, const MakeOptions& options, std::string& error);
-    bool read_map(OIIO::ImageBuf& dst, const MakeOptions& options, std::string& error);
     bool bake_map(OIIO::ImageBuf& dst, const MakeOptions& options, std::string& error);
-    bool filter_light(const SceneLight& light, const MakeOptions& options, std::string& error);
-    bool trace_suns(SunLight& dst, const SceneLight& light, const LightmapParams& params, const MakeOptions& options,
-                    std::string& error);
     const std::vector<float>& weights(int, const OIIO::ImageBuf&, int) override { return m_all; }
 
-    std::shared_ptr<const Strands> m_strands;
-    StrandLayout m_layout;
+    StrandObject m_object;
     std::unique_ptr<StrandScene> m_scene;
     OIIO::ImageBuf m_sine; // the light filtered for the model `ao`
-    std::string m_suns_key; // what m_suns were traced for
-    SunLight m_suns;
+    StrandSuns m_suns;
     const std::vector<float> m_all {}; // every texel counts
     bool m_has_warned = false;
 };

@@ -71,9 +71,10 @@ bool SampleShader::look_through(FrameSample& dst, const CameraRay& ray, SurfaceH
 
 bool SampleShader::add_surface(FrameSample& dst, SeenPoint& seen, double& open, std::string& error) const
 {
-    if (!look_up_light(seen, m_with_visibility && !dst.first.surface, error))
+    const bool has_specular = seen.surface->specular != nullptr;
+    if (!look_up_light(seen, has_specular || (m_with_visibility && !dst.first.surface), error))
         return false;
-    C3f color = seen.light * seen.albedo;
+    C3f color = seen.light * seen.albedo + seen.specular * seen.visibility[0];
     if (seen.surface->catches_shadows) {
         const float lit = (seen.light.x + seen.light.y + seen.light.z) / 3;
         const float share = seen.surface->unshadowed > 0 ? lit / seen.surface->unshadowed : 1;

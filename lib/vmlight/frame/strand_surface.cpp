@@ -44,4 +44,16 @@ Imath::V3d StrandSurface::tangent(uint32_t span) const
     return (m_strands->points[point + 1] - m_strands->points[point]).normalized();
 }
 
+Imath::V3d StrandSurface::tangent(uint32_t span, double along) const
+{
+    const auto [strand, point] = start_of(span);
+    const Imath::V3d* p = &m_strands->points[point];
+    // The curve is extended beyond its ends as StrandCurve has it.
+    const Imath::V3d before = point > m_strands->begin(strand) ? p[-1] : p[0] * 2.0 - p[1];
+    const Imath::V3d after = point + 2 < m_strands->end(strand) ? p[2] : p[1] * 2.0 - p[0];
+    const double u = along, t = 1 - along;
+    const Imath::V3d slope = before * (-t * t) + p[0] * ((3 * u - 4) * u) + p[1] * ((4 - 3 * t) * t) + after * (u * u);
+    return slope.length() > 0 ? slope.normalized() : tangent(span);
+}
+
 } // namespace vmlight

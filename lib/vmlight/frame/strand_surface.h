@@ -23,6 +23,8 @@ public:
     Imath::V2d uv(uint32_t span, double along) const;
     /// From the start of the span to its end, of unit length.
     Imath::V3d tangent(uint32_t span) const;
+    /// That of the curve at `along`, of unit length.
+    Imath::V3d tangent(uint32_t span, double along) const;
 
 private:
     // The strand of a span, and the point where that starts.

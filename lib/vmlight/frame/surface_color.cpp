@@ -113,6 +113,8 @@ void place_on_strand(SeenPoint& seen, const CameraRay& ray, const SurfaceHit& hi
     seen.uv.st = strands.uv(hit.span, hit.along); // without a reach: no strand is mixed with the next row of the map
     const V3d tangent = strands.tangent(hit.span);
     seen.strand_normal = (tangent * ray.direction.dot(tangent) - ray.direction).normalized();
+    if (seen.surface->specular)
+        seen.specular = seen.surface->specular->look(strands.tangent(hit.span, hit.along), ray.direction);
 }
 
 void look_up_material(SeenPoint& seen)

@@ -7,6 +7,7 @@
 #include "exact_mesh.h"
 #include "material_textures.h"
 #include "mesh_buffers.h"
+#include "view.h"
 
 #include <vmlight/frame/camera.h>
 #include <vmlight/math/rotation.h>
@@ -17,31 +18,11 @@
 
 namespace vmlight::view {
 
-/// What the surface shows; the numbers are mesh.frag's.
-enum class Show
-{
-    lit = 0,
-    checker = 1,
-    density = 2,
-    colors = 3 ///< the texture as it is, without materials
-};
-
 /// An environment to be seen: a lat-long map with its mip levels, and how it is turned.
 struct Backdrop
 {
     const LitTexture* environment = nullptr; ///< nullptr: nothing, alpha 0
     Rotation to_environment;
-};
-
-/// One sample of each pixel of a picture.
-struct View
-{
-    Camera camera;
-    int width = 0, height = 0;
-    /// From pixel centres, in pixels, x to the right, y down.
-    Imath::V2d offset { 0 };
-    /// Of texture lookups, in pixels: 1 over the square root of the samples.
-    double footprint = 1;
 };
 
 class DrawPass
@@ -64,8 +45,5 @@ private:
     Program m_backdrop, m_exact_backdrop, m_accumulate;
     mutable std::map<std::array<int, 3>, Program> m_mesh;
 };
-
-/// The depths between which a subject lies; the nearest is above 0 in perspective.
-Imath::V2d depth_range_of(const Camera& camera, const Subject& subject);
 
 } // namespace vmlight::view

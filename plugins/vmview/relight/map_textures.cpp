@@ -45,16 +45,16 @@ bool MapTextures::load(const OIIO::ImageBuf& vismap, const std::vector<float>& c
         return false;
     width = spec.width;
     height = spec.height;
-    std::array<int, 4> normal { -1, -1, -1, -1 };
-    for (size_t c = 0; c < kNormalChannels.size(); ++c)
-        normal[c] = spec.channelindex(kNormalChannels[c]);
-    has_normal = normal[0] >= 0 && normal[1] >= 0 && normal[2] >= 0;
+    std::array<int, 4> axis { -1, -1, -1, -1 };
+    const auto& axis_channels = kernel_of(spec) == kStrandKernel ? kTangentChannels : kNormalChannels;
+    for (size_t c = 0; c < axis_channels.size(); ++c)
+        axis[c] = spec.channelindex(axis_channels[c]);
     const std::vector<std::string> names = has_sh(spec) ? sh_model_channels(spec) : std::vector<std::string>();
     harmonics = names.empty() ? 4 : int(names.size());
 
     layers = Texture::layers(width, height, 2 + (harmonics - 1) / 4, GL_RGBA32F);
     layers.fill_layer(0, GL_RGBA, pick(vismap, seen).data());
-    std::vector<float> second = pick(vismap, normal);
+    std::vector<float> second = pick(vismap, axis);
     for (size_t i = 0; i < coverage.size(); ++i)
         second[4 * i + 3] = coverage[i];
     layers.fill_layer(1, GL_RGBA, second.data());

@@ -13,12 +13,12 @@ namespace vmlight::view {
 
 struct MapTextures
 {
-    /// Layer 0: V and B; 1: the normal, or 0, and the coverage; from 2 on the harmonics that the model `sh` reads.
+    /// Layer 0: V and B; 1: the normal, of strands the tangent, or 0, and the coverage; from 2 on the harmonics that
+    /// the model `sh` reads.
     Texture layers;
     int width = 0, height = 0;
     /// Harmonics of a texel, V and B among them; 4 without any others.
     int harmonics = 4;
-    bool has_normal = false;
 
     /// Load a map, float and in memory.
     ///

@@ -28,6 +28,7 @@ void PictureSum::add(const Renderer& renderer, PictureParams params)
     const PixelSample& sample = m_samples[m_next];
     params.view.width = m_sample.width();
     params.view.height = m_sample.height();
+    params.view.sample = int(m_next);
     params.view.offset = { sample.x, sample.y };
     params.view.footprint = 1 / std::sqrt(double(m_samples.size()));
     renderer.draw(params, m_sample);

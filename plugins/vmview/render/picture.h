@@ -21,7 +21,7 @@ public:
     void start(int width, int height, int spp, const std::string& filter);
     bool is_complete() const { return m_next == m_samples.size(); }
     int taken() const { return int(m_next); }
-    /// Add the next sample of what `params` describe, whose size, offset and footprint are set here.
+    /// Add the next sample of what `params` describe, whose size, sample, offset and footprint are set here.
     void add(const Renderer& renderer, PictureParams params);
     /// The mean of the samples so far.
     const Texture& mean() const { return m_samples.size() == 1 ? m_sample.color() : m_mean.color(); }

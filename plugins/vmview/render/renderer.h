@@ -3,15 +3,11 @@
 /// when light, rotation, model or map changed; then draw.
 #pragma once
 
-#include "../draw/draw_pass.h"
-#include "../draw/mesh_buffers.h"
-#include "../relight/relight_pass.h"
-#include "../scene/assets.h"
+#include "../scene/added_light.h"
+#include "figure.h"
 
 #include <vmlight/lightmap/lightmap.h>
 
-#include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,46 +24,46 @@ struct PictureParams
     double wipe = 1;
 };
 
+/// The mesh, or strands, that was opened is figure 0; strands beside it follow.
 class Renderer
 {
 public:
     /// Compile the shaders. False, with the reason in `error`, if the driver refuses one.
     bool build(std::string& error);
 
-    // What there is; nullptr takes it away. False, with the reason in `error`, if the driver has no room for it.
+    // What there is, with what is beside it; nullptr takes it away. False, with the reason in `error`, if the driver
+    // has no room for it.
     bool set_mesh(MeshPointer mesh, bool with_materials, std::string& error);
     bool set_map(MapPointer map, std::string& error);
     bool set_light(LightPointer light, std::string& error);
-    const MeshPointer& mesh() const { return m_mesh; }
-    const MapPointer& map() const { return m_map; }
+    const MeshPointer& mesh(size_t figure = 0) const { return figure < figures() ? at(figure).mesh() : m_no_mesh; }
+    const MapPointer& map(size_t figure = 0) const { return figure < figures() ? at(figure).map() : m_no_map; }
     const LightPointer& light() const { return m_light; }
+    size_t figures() const { return m_figures.size(); }
 
-    /// Light the map into texture number `slot`, 0 or 1, on the graphics card. `params` as for RelightPass::run().
-    bool relight(int slot, const LightmapParams& params, std::string& error);
+    /// Light the map of a figure into its texture number `slot`, 0 or 1, on the graphics card. `params` as for
+    /// RelightPass::run().
+    bool relight(int slot, const LightmapParams& params, std::string& error, size_t figure = 0);
     /// Take three floats a texel instead, of the map's size; with `adds`, what add_light() gave is added.
-    void set_texture(int slot, const float* rgb, bool adds = false);
-    /// Add light, three floats a texel of the map's size, to the next relight() of a slot and those after it, until
-    /// there is no map or one of another size; nothing if it is empty.
-    void add_light(int slot, std::vector<float> rgb);
-    bool has_added() const { return !m_added[0].empty() || !m_added[1].empty(); }
-    bool has_texture(int slot) const { return bool(m_lit[size_t(slot)].texture()); }
+    void set_texture(int slot, const float* rgb, bool adds = false, size_t figure = 0);
+    /// Add light, for each figure, to the next relight() of a slot and those after it, until there is no map or one of
+    /// another size; nothing if it is empty.
+    void add_light(int slot, AddedTexels rgb);
+    bool has_added() const;
+    bool has_texture(int slot) const { return figures() > 0 && bool(at(0).lit(slot).texture()); }
     /// R, G, B of a texture, times weight, and the weight.
-    std::vector<float> read_texture(int slot) const { return m_lit[size_t(slot)].read(); }
+    std::vector<float> read_texture(int slot, size_t figure = 0) const { return at(figure).lit(slot).read(); }
 
     /// The same of one texel.
-    void read_texel(int slot, int x, int y, float* rgba) const
+    void read_texel(int slot, int x, int y, float* rgba, size_t figure = 0) const
     {
-        m_lit[size_t(slot)].level(0).read_rect(x, y, 1, 1, rgba);
+        at(figure).lit(slot).level(0).read_rect(x, y, 1, 1, rgba);
     }
 
     /// Prepare pictures of `view`, whatever its offset, that are right at every edge, to float's precision, unless the
     /// mesh is too large for the driver (millions of triangles); draw() then makes such until reset_exact().
     void prepare_exact(const View& view);
-    void reset_exact()
-    {
-        m_exact = ExactMesh();
-        m_is_exact = false;
-    }
+    void reset_exact();
 
     /// Draw one sample of each pixel into `target`, of the view's size with a depth buffer.
     void draw(const PictureParams& params, const Framebuffer& target) const;
@@ -76,24 +72,22 @@ public:
 
 private:
     void bind_no_vertices() const;
-    const std::vector<SurfaceMaterial>& materials() const;
+    const Figure& at(size_t figure) const { return m_figures[figure]; }
+    void draw_figures(int slot, const PictureParams& params, int first, int end) const;
+    bool filter_for_strands(std::string& error);
 
+    const MeshPointer m_no_mesh;
+    const MapPointer m_no_map;
     VertexArray m_no_vertices;
     RelightPass m_relight;
     DrawPass m_draw;
-    MeshPointer m_mesh;
-    MapPointer m_map;
+    StrandPass m_strands;
+    std::vector<Figure> m_figures;
     LightPointer m_light;
-    std::unique_ptr<MeshBuffers> m_buffers;
-    MaterialTextures m_materials;
-    ExactMesh m_exact;
-    bool m_has_materials = true, m_is_exact = false;
-    MapTextures m_map_textures;
-    LightTextures m_light_textures;
+    bool m_is_exact = false;
+    LightTextures m_light_textures, m_strand_light; // the latter made when it is first needed
     LitTexture m_panorama;
-    std::array<LitTexture, 2> m_lit;
-    std::array<std::vector<float>, 2> m_added;
-    std::array<Texture, 2> m_added_textures; // the same
+    Texture m_cones;
 };
 
 } // namespace vmlight::view

@@ -4,10 +4,9 @@
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/frame/background.h>
-#include <vmlight/frame/object_mesh.h>
-#include <vmlight/frame/surface_materials.h>
 #include <vmlight/frame/texel_weights.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/mesh/import/strands/read_strands.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/uv/udim.h>
@@ -23,35 +22,18 @@ namespace {
 
 std::vector<float> weights_of(const OIIO::ImageBuf& map, const MeshAsset& mesh, int threads)
 {
-    return texel_weights(*mesh.mesh, map, mesh.recipe.vismap_params.udim, threads);
+    if (!mesh.is_strands())
+        return texel_weights(*mesh.mesh, map, mesh.recipe.vismap_params.udim, threads);
+    const OIIO::ImageSpec& spec = map.spec();
+    const StrandLayout& layout = mesh.strands.layout;
+    std::vector<float> weights;
+    for (int y = 0; y < spec.height; ++y)
+        for (int x = 0; x < spec.width; ++x)
+            weights.push_back(layout.strand_at(x, y) < layout.strands ? 1.0f : 0.0f);
+    return weights;
 }
 
 } // namespace
-
-MeshPointer read_mesh_asset(VismapRecipe recipe, bool has_map, const std::string& light_space,
-                            const std::string& colorconfig, const MakeOptions& options, std::string& error)
-{
-    auto asset = std::make_shared<MeshAsset>();
-    ObjectMesh object;
-    if (!read_object_mesh(object, recipe, !has_map, options, error))
-        return nullptr;
-    const std::shared_ptr<Mesh> mesh = object.mesh;
-    asset->is_unwrapped = object.is_unwrapped;
-    asset->material_uvs = std::move(object.material_uvs);
-    const std::vector<int> tiles = mesh_udims(*mesh);
-    if (!recipe.udim_given && !tiles.empty())
-        recipe.vismap_params.udim = tiles[0];
-    auto scene = std::make_shared<BakeScene>();
-    if (!read_materials(asset->materials, *mesh, light_space, colorconfig, options, error)
-        || !scene->build(mesh, {}, options.threads, error)
-        || !asset->surface.build({ mesh.get() }, scene->frame(), options.threads, error))
-        return nullptr;
-    asset->recipe = std::move(recipe);
-    asset->subject.add(*mesh);
-    asset->mesh = mesh;
-    asset->scene = std::move(scene);
-    return asset;
-}
 
 bool read_map_image(OIIO::ImageBuf& dst, const std::string& path, const MakeOptions& options, std::string& error)
 {
@@ -78,7 +60,8 @@ MapPointer read_map_asset(const std::string& path, const MeshAsset& mesh, const 
                           std::string& error)
 {
     OIIO::ImageBuf image;
-    if (!read_map_image(image, udim_path(path, mesh.recipe.vismap_params.udim), options, error))
+    if (mesh.is_strands() ? !read_strand_map(image, mesh.strands, path, options, error)
+                          : !read_map_image(image, udim_path(path, mesh.recipe.vismap_params.udim), options, error))
         return nullptr;
     return make_map_asset(std::move(image), path, mesh, options.threads);
 }
@@ -101,8 +84,8 @@ MapPointer make_map_asset(OIIO::ImageBuf image, int samples, const MeshAsset& me
     return asset;
 }
 
-LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const MakeOptions& options,
-                              std::string& error)
+LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double blur, const SpecularParams& specular,
+                              const MakeOptions& options, std::string& error)
 {
     auto asset = std::make_shared<LightAsset>();
     asset->path = path;
@@ -111,6 +94,9 @@ LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double
         return nullptr;
     for (OIIO::ImageBuf& image : asset->light.filtered)
         image.specmod().erase_attribute(kSunsAttribute);
+    asset->specular = specular.strand_specular;
+    if (asset->specular > 0 && !filter_for_specular(asset->cones, asset->light, specular, options.threads, error))
+        return nullptr;
     const OIIO::ImageBuf* seen
         = asset->light.environment.initialized() ? &asset->light.environment : find_radiance(asset->filtered());
     return !seen || make_background(asset->panorama, *seen, blur, options.threads, error) ? asset : nullptr;
@@ -121,6 +107,8 @@ AssetKind kind_of_file(const std::string& path, std::string& error)
     static constexpr const char* kMeshes[] = { ".obj", ".ply", ".gltf", ".glb", ".dae", ".fbx" };
     const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(recipe_path(path)));
     if (std::find(std::begin(kMeshes), std::end(kMeshes), extension) != std::end(kMeshes))
+        return AssetKind::mesh;
+    if (is_strand_file(path))
         return AssetKind::mesh;
     const std::string stage = image_stage(path);
     if (stage == kVismapStage)

@@ -4,9 +4,12 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/frame/frame_object.h>
 #include <vmlight/frame/scene_light.h>
+#include <vmlight/frame/strand_light.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/recipe/chain.h>
+#include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/baker.h>
 
@@ -17,6 +20,15 @@
 #include <vector>
 
 namespace vmlight::view {
+
+MeshRequest mesh_request(const Request& request)
+{
+    MeshRequest dst { request.mesh, request.view.object, { 1, 1, 1 } };
+    const std::vector<double>& color = request.view.strand_color;
+    for (size_t c = 0; c < color.size(); ++c)
+        dst.strand_color[int(c)] = float(color[c]);
+    return dst;
+}
 
 VismapParams bake_params(const VismapParams& asked, const std::string& model)
 {
@@ -32,17 +44,50 @@ VismapParams bake_params(const VismapParams& asked, const std::string& model)
     return params;
 }
 
-MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, int threads, const Progress& progress,
+VismapParams strand_bake_params(const VismapParams& asked, const std::string& model)
+{
+    VismapParams params = asked;
+    params.basis = basis_for(strand_model(model), asked.basis);
+    return params;
+}
+
+MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, const MakeOptions& options,
                     std::string& error)
 {
-    VismapParams params = bake_params(mesh.recipe.vismap_params, model);
-    params.samples = samples;
     OIIO::ImageBuf image;
-    if (!make_vismap(image, mesh.scene, params, nullptr, threads, progress)) {
-        error = oiio::error_line(image);
-        return nullptr;
+    if (mesh.is_strands()) {
+        VismapRecipe recipe = mesh.recipe;
+        recipe.vismap_params = strand_bake_params(recipe.vismap_params, model);
+        recipe.vismap_params.samples = samples;
+        if (!bake_strand_map(image, mesh.strands, *mesh.strand_scene, recipe, options, error))
+            return nullptr;
+    } else {
+        VismapParams params = bake_params(mesh.recipe.vismap_params, model);
+        params.samples = samples;
+        const Size size = params.size();
+        if (!make_vismap(image, mesh.scene, params, nullptr, options.threads,
+                         options.step("bake", size.width, size.height))) {
+            error = oiio::error_line(image);
+            return nullptr;
+        }
     }
-    return make_map_asset(std::move(image), samples, mesh, threads);
+    return with_maps_beside(make_map_asset(std::move(image), samples, mesh, options.threads), mesh, model, samples,
+                            options, error);
+}
+
+MapPointer with_maps_beside(MapPointer map, const MeshAsset& mesh, const std::string& model, int samples,
+                            const MakeOptions& options, std::string& error)
+{
+    if (!map || mesh.beside.empty())
+        return map;
+    auto all = std::make_shared<MapAsset>(*map);
+    all->beside.clear();
+    for (const MeshPointer& other : mesh.beside) {
+        all->beside.push_back(bake_map(*other, model, samples, options, error));
+        if (!all->beside.back())
+            return nullptr;
+    }
+    return all;
 }
 
 bool load_assets(Assets& dst, const Request& request, const MakeOptions& options, std::string& error)
@@ -51,7 +96,9 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
     OIIO::ImageBuf map;
     std::vector<std::string> said, warnings;
     std::future<std::string> map_fault;
-    if (!request.vismap.empty() && !has_udim_pattern(request.vismap) && recipe_stage(request.vismap).empty())
+    const bool is_of_mesh = !is_strand_occluder(request.mesh, request.mesh.mesh);
+    if (is_of_mesh && !request.vismap.empty() && !has_udim_pattern(request.vismap)
+        && recipe_stage(request.vismap).empty())
         map_fault = std::async(std::launch::async, [&] {
             MakeOptions aside;
             aside.threads = options.threads;
@@ -67,15 +114,17 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
     if (!request.environment.empty()) {
         CfemRecipe filter = request.filter;
         filter.suns = dst.trace.suns == "off" ? "off" : "auto";
-        dst.light = read_light_asset(request.environment, filter, request.view.background_blur, options, error);
+        dst.light = read_light_asset(request.environment, filter, request.view.background_blur, request.specular,
+                                     options, error);
         if (!dst.light)
             return false;
         space = dst.light->light.space;
     }
-    dst.mesh
-        = read_mesh_asset(request.mesh, !request.vismap.empty(), space, request.filter.colorconfig, options, error);
+    dst.mesh = read_mesh_asset(mesh_request(request), !request.vismap.empty(), space, request.filter.colorconfig,
+                               options, error);
     if (!dst.mesh)
         return false;
+    const int samples = request.mesh.vismap_params.samples;
     if (map_fault.valid()) {
         error = map_fault.get();
         for (const std::string& line : said)
@@ -87,11 +136,10 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
     } else if (!request.vismap.empty()) {
         dst.map = read_map_asset(request.vismap, *dst.mesh, options, error);
     } else {
-        const VismapParams& params = dst.mesh->recipe.vismap_params;
-        const Size size = params.size();
-        dst.map = bake_map(*dst.mesh, request.light.model, params.samples, options.threads,
-                           options.step("bake", size.width, size.height), error);
+        dst.map = bake_map(*dst.mesh, request.light.model, samples, options, error);
+        return dst.map != nullptr;
     }
+    dst.map = with_maps_beside(dst.map, *dst.mesh, request.light.model, samples, options, error);
     return dst.map != nullptr;
 }
 
@@ -100,6 +148,12 @@ bool model_for(ShadingModel& dst, const std::string& model, const MapAsset& map,
 {
     LightmapParams params;
     params.model = model;
+    if (kernel_of(map.image.spec()) == kStrandKernel) {
+        params.model = strand_model(model);
+        error = strand_light_fault(light.light, map.path.empty() ? "the environment" : map.path);
+        if (!error.empty())
+            return false;
+    }
     return choose_model(dst, params, map.image.spec(), has_all_light(light.filtered()), error);
 }
 

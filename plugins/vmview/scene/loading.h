@@ -12,13 +12,23 @@
 
 namespace vmlight::view {
 
+/// What the request opens.
+MeshRequest mesh_request(const Request& request);
+
 /// The bake that a model needs, for a mesh without a map: its basis, and what `ao` and false colours look at.
 VismapParams bake_params(const VismapParams& asked, const std::string& model);
+/// The same for strands: the best of their models replaces one of surfaces.
+VismapParams strand_bake_params(const VismapParams& asked, const std::string& model);
 
-/// Bake the whole map of `mesh` with `samples` rays per texel. nullptr, with the reason in `error`: "interrupted" if
-/// `progress` stopped it.
-MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, int threads, const Progress& progress,
+/// Bake the whole map of `mesh`, and the maps of what is beside it, with `samples` rays per texel. nullptr, with the
+/// reason in `error`: "interrupted" if it was stopped.
+MapPointer bake_map(const MeshAsset& mesh, const std::string& model, int samples, const MakeOptions& options,
                     std::string& error);
+
+/// `map`, which is of `mesh`, with the maps of what is beside that, baked as for bake_map(). nullptr, too, if it is
+/// nullptr.
+MapPointer with_maps_beside(MapPointer map, const MeshAsset& mesh, const std::string& model, int samples,
+                            const MakeOptions& options, std::string& error);
 
 /// All that a picture needs, read or baked one after the other.
 struct Assets
@@ -30,7 +40,8 @@ struct Assets
 };
 bool load_assets(Assets& dst, const Request& request, const MakeOptions& options, std::string& error);
 
-/// The model to shade with, and what it reads: choose_model() for these two. False, with the reason in `error`.
+/// The model to shade with, and what it reads: choose_model() for these two, of strand_model() if the map is one of
+/// strands. False, with the reason in `error`.
 bool model_for(ShadingModel& dst, const std::string& model, const MapAsset& map, const LightAsset& light,
                std::string& error);
 

@@ -3,7 +3,7 @@
 // compiler from merging or reordering operations, so that only division and square root may round differently.
 // Lat-long maps come with their frame (lightmap/cfem_lookup.h): four fetches need no test for seam or poles.
 
-uniform sampler2DArray map; // layer 0: V, B; 1: normal, coverage; from 2 on: harmonics
+uniform sampler2DArray map; // layer 0: V, B; 1: normal or tangent, coverage; from 2 on: harmonics
 uniform float rotation[9]; // object space to environment space, row major
 uniform float gain;
 uniform ivec2 light_size; // without the frame

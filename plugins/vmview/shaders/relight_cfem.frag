@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The models paper and ao: lightmap/model_paper.cpp.
 uniform sampler2D cfem;
-uniform bool uses_normal; // ao
+uniform bool uses_normal; // ao; of strands it is the tangent
 
 void main()
 {

@@ -72,6 +72,24 @@ void add_trace(std::string& line, const TraceParams& trace)
         add_flag(line, "--bounce-albedo", format("{:.6g}", trace.bounce.bounce_albedo));
 }
 
+void add_strands(std::string& line, const Request& request, bool is_white)
+{
+    const StrandParams &strands = request.mesh.strand_params, plain;
+    for (const std::string& path : request.view.object)
+        add_flag(line, "--object", path);
+    if (!strands.radius.empty())
+        add_flag(line, "--radius", strands.radius);
+    if (strands.strand_texels != plain.strand_texels)
+        add_flag(line, "--strand-texels", format("{}", strands.strand_texels));
+    if (!request.view.strand_color.empty() && !is_white)
+        add_flag(line, "--strand-color", numbers(request.view.strand_color));
+    const SpecularParams &specular = request.specular, none;
+    if (specular.strand_specular != none.strand_specular)
+        add_flag(line, "--strand-specular", format("{:.6g}", specular.strand_specular));
+    if (specular.strand_exponent != none.strand_exponent)
+        add_flag(line, "--strand-exponent", format("{:.6g}", specular.strand_exponent));
+}
+
 std::string stem_of(const std::string& path)
 {
     const std::string file = OIIO::Filesystem::filename(path);
@@ -110,6 +128,7 @@ std::string vmframes_command(const Request& request, const ViewState& state, con
     std::string line = format("vmframes {} {}", shell_word(request.mesh.mesh), shell_word(request.environment));
     if (!request.vismap.empty())
         add_flag(line, "--vismap", request.vismap);
+    add_strands(line, request, state.is_white);
     const bool is_compared = !state.second.empty();
     add_light(line, request, state, is_compared ? "" : model);
     add_trace(line, state.trace);

@@ -11,6 +11,18 @@
 
 namespace vmlight::view {
 
+namespace {
+
+void find_texel(CursorTexel& dst, const Imath::V2d& in_tile, const MapAsset& map)
+{
+    const OIIO::ImageSpec& spec = map.image.spec();
+    dst.x = int(std::floor(in_tile.x * spec.width));
+    dst.y = int(std::floor((1 - in_tile.y) * spec.height));
+    dst.has_texel = dst.x >= 0 && dst.x < spec.width && dst.y >= 0 && dst.y < spec.height;
+}
+
+} // namespace
+
 CursorTexel texel_under(const MeshAsset& mesh, const MapAsset* map, const Camera& camera, double x, double y, int width,
                         int height)
 {
@@ -20,7 +32,23 @@ CursorTexel texel_under(const MeshAsset& mesh, const MapAsset* map, const Camera
     SurfaceHit hit;
     mesh.surface.find(&one, 1, &hit);
     FramePoint point;
-    if (!hit.exists() || !intersect_plane(point, ray, *mesh.mesh, hit.triangle))
+    if (!hit.exists())
+        return found;
+    if (hit.is_strand()) {
+        found.figure = hit.mesh;
+        const StrandObject& strands = (hit.mesh == 0 ? mesh : *mesh.beside[hit.mesh - 1]).strands;
+        const MapAsset* own = hit.mesh == 0 || !map ? map
+            : hit.mesh <= map->beside.size()        ? map->beside[hit.mesh - 1].get()
+                                                    : nullptr;
+        found.is_on_strand = true;
+        found.uv = strands.surface->uv(hit.span, hit.along);
+        const Size size = strands.layout.size();
+        found.strand = strands.layout.strand_at(int(found.uv.x * size.width), int((1 - found.uv.y) * size.height));
+        if (own)
+            find_texel(found, found.uv, *own);
+        return found;
+    }
+    if (!intersect_plane(point, ray, *mesh.mesh, hit.triangle))
         return found;
     found.is_on_mesh = true;
     found.triangle = hit.triangle;
@@ -29,13 +57,8 @@ CursorTexel texel_under(const MeshAsset& mesh, const MapAsset* map, const Camera
     const auto& corners = mesh.mesh->triangles[hit.triangle];
     for (size_t k = 0; k < 3; ++k)
         found.uv += Imath::V2d(mesh.mesh->uvs[corners[k]]) * point.weight[k];
-    if (!map || !std::isfinite(found.uv.x + found.uv.y))
-        return found;
-    const OIIO::ImageSpec& spec = map->image.spec();
-    const Imath::V2d in_tile = found.uv - Imath::V2d(udim_corner(mesh.recipe.vismap_params.udim));
-    found.x = int(std::floor(in_tile.x * spec.width));
-    found.y = int(std::floor((1 - in_tile.y) * spec.height));
-    found.has_texel = found.x >= 0 && found.x < spec.width && found.y >= 0 && found.y < spec.height;
+    if (map && std::isfinite(found.uv.x + found.uv.y))
+        find_texel(found, found.uv - Imath::V2d(udim_corner(mesh.recipe.vismap_params.udim)), *map);
     return found;
 }
 

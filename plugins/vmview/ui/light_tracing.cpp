@@ -22,8 +22,11 @@ bool wanted_models(Models& dst, const ViewState& state, const Renderer& renderer
     for (size_t i = 0; i < asked.size(); ++i) {
         ShadingModel model;
         std::string ignored; // whoever lights the texture reports it
-        const bool is_lit = !asked[i].empty() && asked[i] != kReferenceModel
-            && model_for(model, asked[i], *renderer.map(), *renderer.light(), ignored);
+        // Beside a traced reference strands have the best of their own.
+        const bool has_strands = renderer.figures() > 1 || renderer.mesh()->is_strands();
+        const std::string own = has_strands && asked[i] == kReferenceModel ? "auto" : asked[i];
+        const bool is_lit = !own.empty() && own != kReferenceModel
+            && model_for(model, own, *renderer.map(), *renderer.light(), ignored);
         dst[i] = is_lit ? model.name : "";
     }
     return !dst[0].empty() || !dst[1].empty();

@@ -38,7 +38,7 @@ public:
 
 private:
     // Light that is added to both textures.
-    using Pair = std::array<std::vector<float>, 2>;
+    using Pair = std::array<AddedTexels, 2>;
     void take(Renderer& renderer);
     void drop(Renderer& renderer);
 

@@ -53,15 +53,16 @@ void draw_sliders(App& app)
 void draw_cursor(App& app)
 {
     const CursorTexel& cursor = app.cursor();
-    if (!cursor.is_on_mesh)
+    if (!cursor.is_on_mesh && !cursor.is_on_strand)
         return;
-    std::string text = format("triangle {}", cursor.triangle);
-    const MapPointer& map = app.viewport().renderer().map();
+    std::string text
+        = cursor.is_on_strand ? format("strand {}", cursor.strand) : format("triangle {}", cursor.triangle);
+    const MapPointer& map = app.viewport().renderer().map(cursor.figure);
     if (cursor.has_texel && map) {
         text = format("texel {}, {}\nuv {:.4f} {:.4f}\n", cursor.x, cursor.y, cursor.uv.x, cursor.uv.y)
             + describe_texel(*map, cursor.x, cursor.y);
         float rgb[3];
-        if (app.viewport().texel(cursor.x, cursor.y, rgb))
+        if (app.viewport().texel(cursor.figure, cursor.x, cursor.y, rgb))
             text += format("\n{} {:.4g} {:.4g} {:.4g}", app.state().show == "lit" ? "light" : "colour", rgb[0], rgb[1],
                            rgb[2]);
     }

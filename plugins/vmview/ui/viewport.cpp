@@ -7,7 +7,8 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
-#include <vmlight/frame/lit_object.h>
+#include <vmlight/frame/frame_object.h>
+#include <vmlight/frame/strand_light.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -87,6 +88,7 @@ void Viewport::stop(Slot& slot)
 {
     slot.job.stop();
     slot.key.clear();
+    slot.beside.clear();
     slot.activity.clear();
     slot.rest.clear();
 }
@@ -107,12 +109,13 @@ std::string Viewport::activity() const
 }
 
 // Whether the texture has changed.
-bool Viewport::refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model)
+bool Viewport::refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& asked)
 {
     Slot& slot = m_slots[size_t(index)];
     const bool needs_light = is_light(word);
     if (!m_renderer.mesh() || !m_renderer.map() || (needs_light && !m_renderer.light()))
         return false;
+    const std::string model = m_renderer.mesh()->is_strands() ? strand_model(asked) : asked;
     LightmapParams params;
     if (!light_params(params, state.light, state.turn, m_problem))
         return false;
@@ -145,7 +148,7 @@ bool Viewport::refresh_texture(int index, const ViewState& state, const std::str
         } else {
             if (needs_light)
                 slot.used = params.model = chosen.name;
-            changed = show_surface(m_renderer, index, word, params, m_problem);
+            changed = show_figure(m_renderer, 0, index, word, params, m_problem);
         }
     }
     if (const auto result = slot.job.take()) {
@@ -156,6 +159,13 @@ bool Viewport::refresh_texture(int index, const ViewState& state, const std::str
             m_renderer.set_texture(index, slot.rest.data(), model != kReferenceModel);
             changed = true;
         }
+    }
+    // What is beside it is lit at once, whatever its model does.
+    const std::string beside = format("{}|{}", key, m_tracing.count());
+    if (beside != slot.beside) {
+        slot.beside = beside;
+        for (size_t figure = 1; figure < m_renderer.figures(); ++figure)
+            changed |= show_figure(m_renderer, figure, index, word, params, m_problem);
     }
     return changed;
 }
@@ -259,12 +269,12 @@ OIIO::ImageBuf Viewport::screenshot() const
     return OIIO::ImageBufAlgo::channels(read_image_of(m_shown), 3, {});
 }
 
-bool Viewport::texel(int x, int y, float* rgb) const
+bool Viewport::texel(size_t figure, int x, int y, float* rgb) const
 {
     if (!m_renderer.has_texture(0))
         return false;
     float rgba[4];
-    m_renderer.read_texel(0, x, y, rgba);
+    m_renderer.read_texel(0, x, y, rgba, figure);
     for (int c = 0; c < 3; ++c)
         rgb[c] = rgba[3] > 0 ? rgba[c] / rgba[3] : 0;
     return true;

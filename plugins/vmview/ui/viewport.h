@@ -44,7 +44,7 @@ public:
     /// The picture as it is shown: R, G, B, rows from the top.
     OIIO::ImageBuf screenshot() const;
     /// The light or colour of a texel of the left texture, and whether there is one.
-    bool texel(int x, int y, float* rgb) const;
+    bool texel(size_t figure, int x, int y, float* rgb) const;
     const Camera& camera() const { return m_camera; }
     /// The model that lights the left half; "" for none.
     const std::string& model() const { return m_slots[0].used; }
@@ -66,7 +66,7 @@ private:
             : job(std::move(wake))
         {
         }
-        std::string key, used, activity;
+        std::string key, used, activity, beside; ///< the last of what is beside it
         ImageJob job;
         std::vector<float> rest; ///< what the job made, before light is added to it; empty: the graphics card lights
         int added = 0; ///< m_tracing.count() when the texture was made

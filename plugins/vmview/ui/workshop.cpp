@@ -40,6 +40,19 @@ MakeOptions options_for(int threads, const Progress& go_on)
     return options;
 }
 
+// Maps of 1, 4, 16, ... rays per texel, up to `most`, until one fails.
+template <class Bake>
+void post_finer(const Job<MapPointer>::Post& post, int most, const Bake& bake, const std::string& error)
+{
+    for (int samples = 1;; samples = std::min(4 * samples, most)) {
+        MapPointer map = bake(samples);
+        const bool is_last = !map || samples >= most;
+        post({ std::move(map), error, is_last });
+        if (is_last)
+            return;
+    }
+}
+
 } // namespace
 
 Workshop::Workshop(Request request, std::function<void()> wake)
@@ -62,8 +75,10 @@ bool Workshop::open(const std::string& path, std::string& error)
     case AssetKind::none:
         return false;
     case AssetKind::mesh:
-        if (!m_request.mesh.mesh.empty()) // the map is that of another mesh
+        if (!m_request.mesh.mesh.empty()) { // the map, and what is beside it, are of another mesh
             m_request.vismap.clear();
+            m_request.view.object.clear();
+        }
         read_mesh(path);
         return true;
     case AssetKind::light:
@@ -86,10 +101,10 @@ void Workshop::read_mesh(const std::string& path)
     m_mesh.reset();
     m_request.mesh.mesh = path;
     const std::string space = m_light ? m_light->light.space : "";
-    m_mesh_job.start([recipe = m_request.mesh, has_map = !m_request.vismap.empty(), space,
+    m_mesh_job.start([asked = mesh_request(m_request), has_map = !m_request.vismap.empty(), space,
                       config = m_request.filter.colorconfig](const auto& post, const auto& go_on) {
         std::string error;
-        MeshPointer mesh = read_mesh_asset(recipe, has_map, space, config, options_for(0, go_on), error);
+        MeshPointer mesh = read_mesh_asset(asked, has_map, space, config, options_for(0, go_on), error);
         post(last_result(std::move(mesh), error));
     });
 }
@@ -97,22 +112,32 @@ void Workshop::read_mesh(const std::string& path)
 void Workshop::read_light(const std::string& path)
 {
     m_request.environment = path;
-    m_light_job.start(
-        [path, filter = m_request.filter, blur = m_request.view.background_blur](const auto& post, const auto& go_on) {
-            std::string error;
-            LightPointer light = read_light_asset(path, filter, blur, options_for(0, go_on), error);
-            post(last_result(std::move(light), error));
-        });
+    m_light_job.start([path, filter = m_request.filter, blur = m_request.view.background_blur,
+                       specular = m_request.specular](const auto& post, const auto& go_on) {
+        std::string error;
+        LightPointer light = read_light_asset(path, filter, blur, specular, options_for(0, go_on), error);
+        post(last_result(std::move(light), error));
+    });
 }
 
 void Workshop::read_map(const std::string& path)
 {
     m_basis.clear();
     m_map_activity = format("read: {}", OIIO::Filesystem::filename(path));
-    m_map_job.start([mesh = m_mesh, path](const auto& post, const auto& go_on) {
+    m_map_job.start([mesh = m_mesh, path, most = m_request.mesh.vismap_params.samples,
+                     threads = m_threads](const auto& post, const auto& go_on) {
         std::string error;
-        MapPointer map = read_map_asset(path, *mesh, options_for(0, go_on), error);
-        post(last_result(std::move(map), error));
+        const MapPointer map = read_map_asset(path, *mesh, options_for(0, go_on), error);
+        if (!map || mesh->beside.empty()) {
+            post(last_result(map, error));
+            return;
+        }
+        post_finer(
+            post, most,
+            [&](int samples) {
+                return with_maps_beside(map, *mesh, "auto", samples, options_for(threads, go_on), error);
+            },
+            error);
     });
 }
 
@@ -120,23 +145,20 @@ void Workshop::bake_for(const std::string& model)
 {
     if (!m_mesh || !m_request.vismap.empty())
         return;
-    const VismapParams params = bake_params(m_mesh->recipe.vismap_params, model);
+    const VismapParams& asked = m_mesh->recipe.vismap_params;
+    const VismapParams params = m_mesh->is_strands() ? strand_bake_params(asked, model) : bake_params(asked, model);
     const bool needs_none = params.basis == "vector" && !m_basis.empty();
     if (params.basis == m_basis || needs_none)
         return;
     m_basis = params.basis;
     m_map_activity = "bake";
-    m_map_job.start(
-        [mesh = m_mesh, model, most = params.samples, threads = m_threads](const auto& post, const auto& go_on) {
-            for (int samples = 1;; samples = std::min(4 * samples, most)) {
-                std::string error;
-                MapPointer map = bake_map(*mesh, model, samples, threads, go_on, error);
-                const bool is_last = !map || samples >= most;
-                post({ std::move(map), error, is_last });
-                if (is_last)
-                    return;
-            }
-        });
+    m_map_job.start([mesh = m_mesh, model, most = params.samples, threads = m_threads](const auto& post,
+                                                                                       const auto& go_on) {
+        std::string error;
+        post_finer(
+            post, most,
+            [&](int samples) { return bake_map(*mesh, model, samples, options_for(threads, go_on), error); }, error);
+    });
 }
 
 void Workshop::split_suns(bool splits)
