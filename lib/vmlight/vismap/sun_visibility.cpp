@@ -15,6 +15,17 @@ namespace {
 
 // Points that are kept between traces.
 constexpr size_t kMostKept = size_t(256) << 20; // bytes
+// Of a map, for each triangle that rays can meet: with fewer, each triangle's shadow is so small that what blocked one
+// ray seldom blocks the next.
+constexpr double kTexelsPerBlocker = 64;
+
+bool can_spare_blocked(const BakeScene& scene, double texels)
+{
+    size_t triangles = 0;
+    for (const TracedTriangles& mesh : scene.occluder().triangles())
+        triangles += mesh.count;
+    return texels >= kTexelsPerBlocker * double(triangles);
+}
 
 // The tiles around one that have been looked at for disc k of `count`.
 LookedAround around(const std::vector<LookedTile>& looked, const UvRaster& raster, int tile, size_t k, size_t count)
@@ -41,15 +52,20 @@ bool SunTracer::prepare(BakeScenePointer scene, const VismapParams& map, std::st
     if (!check_params(map, error))
         return false;
     auto points = std::make_unique<MapPoints>(std::move(scene), map, std::move(normal_map));
-    if (!points->prepare(kMostKept, nthreads, progress)) {
+    std::vector<std::vector<PointBlock>> blocks(size_t(points->tiles()));
+    const auto sort
+        = [&](int tile, const std::vector<MapPoint>& of_tile) { blocks[size_t(tile)] = point_blocks(of_tile); };
+    if (!points->prepare(kMostKept, nthreads, progress, sort)) {
         error = "interrupted";
         return false;
     }
     m_points = std::move(points);
+    m_blocks = std::move(blocks);
+    const double texels = double(m_points->width()) * m_points->height();
+    m_tries_blockers = map.skip_open && can_spare_blocked(m_points->scene(), texels);
     m_open = {};
     if (map.skip_open) // for one trace, if no more: a search that pays then pays always
-        m_open.find(m_points->scene(), map.max_distance * m_points->scene().frame().scale,
-                    double(m_points->width()) * m_points->height());
+        m_open.find(m_points->scene(), map.max_distance * m_points->scene().frame().scale, texels);
     return true;
 }
 
@@ -73,8 +89,10 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
     const auto each = [&](const auto& work, const Progress& part) {
         const auto trace_tile = [&](int64_t tile, int index) {
             Worker& worker = workers[size_t(index)];
+            if (m_blocks[size_t(tile)].empty())
+                return;
             const std::vector<MapPoint>& points = map.of_tile(int(tile), worker.scratch);
-            for (size_t k = 0; k < count && !points.empty(); ++k)
+            for (size_t k = 0; k < count; ++k)
                 worker.rays += work(int(tile), points, k);
         };
         return parallel_items(map.tiles(), nthreads, trace_tile, part);
@@ -84,18 +102,26 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
     const auto tracer_of = [&](size_t k) {
         const Disc& disc = discs[ptrdiff_t(k)];
         return DiscTracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length, params.seed,
-                          ground);
+                          ground, m_tries_blockers);
     };
     // One ray each, but for texels that a horizon cuts the disc of: these need all.
     const auto look = [&](int tile, const std::vector<MapPoint>& points, size_t k) {
         DiscLook one(map.scene().occluder(), discs[ptrdiff_t(k)], samples[k], length, params.seed, ground,
-                     looked[size_t(tile) * count + k]);
+                     looked[size_t(tile) * count + k], m_tries_blockers);
         DiscTracer all = tracer_of(k);
         const int left = map.left(tile), top = map.top(tile);
-        for (const MapPoint& point : points)
-            if (const bool is_open = m_open.is_open(point.triangle);
-                one.add(point.surface, is_open, left, top, point.x, point.y, &value(tile, point, k)) == DiscHeight::cut)
-                all.add(point.surface, is_open, left + point.x, top + point.y, &value(tile, point, k));
+        const double below = DiscHorizon::below(discs[ptrdiff_t(k)]);
+        for (const PointBlock& block : m_blocks[size_t(tile)]) {
+            if (block.most_facing(discs[ptrdiff_t(k)].direction) < below)
+                continue;
+            for (uint32_t i = block.first; i < block.end; ++i) {
+                const MapPoint& point = points[i];
+                const bool is_open = m_open.is_open(point.triangle);
+                if (one.add(point.surface, is_open, left, top, point.x, point.y, &value(tile, point, k))
+                    == DiscHeight::cut)
+                    all.add(point.surface, is_open, left + point.x, top + point.y, &value(tile, point, k));
+            }
+        }
         one.flush();
         all.flush();
         return one.rays() + all.rays();
@@ -106,10 +132,14 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
         if (std::all_of(edge.begin(), edge.end(), [](uint64_t row) { return row == 0; }))
             return int64_t(0);
         DiscTracer tracer = tracer_of(k);
-        for (const MapPoint& point : points)
-            if (edge[point.y] >> point.x & 1)
-                tracer.add(point.surface, m_open.is_open(point.triangle), map.left(tile) + point.x,
-                           map.top(tile) + point.y, &value(tile, point, k));
+        for (const PointBlock& block : m_blocks[size_t(tile)]) {
+            if (!block.has_any(edge))
+                continue;
+            for (uint32_t i = block.first; i < block.end; ++i)
+                if (const MapPoint& point = points[i]; edge[point.y] >> point.x & 1)
+                    tracer.add(point.surface, m_open.is_open(point.triangle), map.left(tile) + point.x,
+                               map.top(tile) + point.y, &value(tile, point, k));
+        }
         tracer.flush();
         return tracer.rays();
     };
@@ -128,7 +158,10 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
 
 size_t SunTracer::bytes() const
 {
-    return m_points ? m_points->bytes() : 0;
+    size_t bytes = m_points ? m_points->bytes() : 0;
+    for (const std::vector<PointBlock>& blocks : m_blocks)
+        bytes += blocks.capacity() * sizeof(PointBlock);
+    return bytes;
 }
 
 } // namespace vmlight

@@ -11,6 +11,7 @@
 #include <vmlight/vismap/map_points.h>
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/open_triangles.h>
+#include <vmlight/vismap/point_blocks.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/span.h>
@@ -42,8 +43,9 @@ public:
     /// @param rays     per texel; divides DiscSamples::kCount
     /// @param length   of rays, in the units of `occluder`
     /// @param ground   hides what of the disc is below its horizon
+    /// @param tries_blockers   as of DiscLook
     DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, int rays, float length, int seed,
-               const GroundPlane& ground);
+               const GroundPlane& ground, bool tries_blockers);
 
     /// Trace the disc for `point`, the centre of texel (x, y), whose ray origin adjust_ray_origins() has set. Its
     /// visibility goes to `*dst`, by the next flush() at the latest:
@@ -83,6 +85,8 @@ private:
     const int m_rays_each;
     const float m_length;
     const uint32_t m_seed;
+    const bool m_tries_blockers;
+    RecentBlockers m_blockers;
     int64_t m_rays = 0;
     // Rays that wait for their packet to fill.
     int m_count = 0;
@@ -123,7 +127,9 @@ public:
 
 private:
     std::unique_ptr<MapPoints> m_points;
+    std::vector<std::vector<PointBlock>> m_blocks; // of each tile
     OpenTriangles m_open;
+    bool m_tries_blockers = false;
     int64_t m_rays = 0;
 };
 
