@@ -18,9 +18,9 @@ using namespace vmlight::scenes;
 
 namespace {
 
-constexpr float kEndless = std::numeric_limits<float>::infinity();
+constexpr float kAnyLength = std::numeric_limits<float>::infinity();
 
-struct Traced
+struct SunsTraced
 {
     std::vector<float> seen;
     int64_t rays = 0;
@@ -28,8 +28,8 @@ struct Traced
     double mean() const { return std::accumulate(seen.begin(), seen.end(), 0.0) / double(seen.size()); }
 };
 
-Traced trace_suns(const Mesh& mesh, const std::vector<Mesh>& occluders, const std::vector<Disc>& discs, bool spares,
-                  VismapParams map = {}, int nthreads = 0)
+SunsTraced trace_suns(const Mesh& mesh, const std::vector<Mesh>& occluders, const std::vector<Disc>& discs, bool spares,
+                      VismapParams map = {}, int nthreads = 0)
 {
     map.resolution = { 64, 64 };
     map.margin = 0;
@@ -37,7 +37,7 @@ Traced trace_suns(const Mesh& mesh, const std::vector<Mesh>& occluders, const st
     std::string error;
     auto scene = std::make_shared<BakeScene>();
     SunTracer tracer;
-    Traced traced;
+    SunsTraced traced;
     EXPECT_TRUE(scene->build(non_owning(mesh), occluders, nthreads, error)) << error;
     EXPECT_TRUE(tracer.prepare(scene, map, error, nthreads)) << error;
     EXPECT_TRUE(tracer.trace(traced.seen, discs, nthreads));
@@ -62,23 +62,23 @@ TEST(Blocker, BlocksWhatPassesThroughItsInside)
     const Blocker triangle(V3f(0, 0, 1), V3f(1, 0, 1), V3f(0, 1, 1)), rewound(V3f(0, 0, 1), V3f(0, 1, 1), V3f(1, 0, 1));
     for (const Blocker& blocker : { triangle, rewound }) {
         const V3f up(0, 0, 1);
-        EXPECT_TRUE(blocker.surely_blocks(V3f(0.25f, 0.25f, 0), up, kEndless));
-        EXPECT_TRUE(blocker.surely_blocks(V3f(0.25f, 0.25f, 2), -up, kEndless));
+        EXPECT_TRUE(blocker.surely_blocks(V3f(0.25f, 0.25f, 0), up, kAnyLength));
+        EXPECT_TRUE(blocker.surely_blocks(V3f(0.25f, 0.25f, 2), -up, kAnyLength));
         EXPECT_TRUE(blocker.surely_blocks(V3f(0.25f, 0.25f, 0), up, 1.01f));
         EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0.25f, 0), up, 0.99f)) << "too far";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0.25f, 0), -up, kEndless)) << "behind";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0.25f, 1), up, kEndless)) << "in its plane";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(-0.25f, 0.25f, 0), up, kEndless)) << "beside it";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(0.75f, 0.75f, 0), up, kEndless)) << "beside it";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0, 0), up, kEndless)) << "on an edge";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(0, 0, 0), up, kEndless)) << "on a corner";
-        EXPECT_FALSE(blocker.surely_blocks(V3f(-1, 0.25f, 1), V3f(1, 0, 0), kEndless)) << "edge-on";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0.25f, 0), -up, kAnyLength)) << "behind";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0.25f, 1), up, kAnyLength)) << "in its plane";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(-0.25f, 0.25f, 0), up, kAnyLength)) << "beside it";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(0.75f, 0.75f, 0), up, kAnyLength)) << "beside it";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(0.25f, 0, 0), up, kAnyLength)) << "on an edge";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(0, 0, 0), up, kAnyLength)) << "on a corner";
+        EXPECT_FALSE(blocker.surely_blocks(V3f(-1, 0.25f, 1), V3f(1, 0, 0), kAnyLength)) << "edge-on";
     }
     EXPECT_FALSE(Blocker().exists());
-    EXPECT_FALSE(Blocker().surely_blocks(V3f(0), V3f(0, 0, 1), kEndless));
+    EXPECT_FALSE(Blocker().surely_blocks(V3f(0), V3f(0, 0, 1), kAnyLength));
     const Blocker point(V3f(1), V3f(1), V3f(1)), line(V3f(0, 0, 1), V3f(1, 0, 1), V3f(2, 0, 1));
     EXPECT_FALSE(point.exists());
-    EXPECT_FALSE(line.surely_blocks(V3f(0.5f, 0, 0), V3f(0, 0, 1), kEndless));
+    EXPECT_FALSE(line.surely_blocks(V3f(0.5f, 0, 0), V3f(0, 0, 1), kAnyLength));
 }
 
 // Triangles of all shapes and distances, and rays close to their edges: it is never sure where Embree says otherwise.
@@ -107,7 +107,7 @@ TEST(Blocker, IsSureOnlyOfWhatEmbreeFinds)
             const V3f origin(point());
             const V3d to = target - V3d(origin);
             const V3f direction((to * (k % 16 ? 1 : -1)).normalized());
-            const auto length = float(k % 8 == 3 ? to.length() * (1 + 1e-6 * unit(random)) : kEndless);
+            const auto length = float(k % 8 == 3 ? to.length() * (1 + 1e-6 * unit(random)) : kAnyLength);
             const bool is_blocked = occluder.find_blocked(&origin, &direction, 1, length, false) != 0;
             const bool is_sure = blocker.surely_blocks(origin, direction, length);
             ASSERT_LE(is_sure, is_blocked) << i << " " << k;
@@ -122,8 +122,8 @@ TEST(Blocker, IsSureOnlyOfWhatEmbreeFinds)
 TEST(Blocker, AFloorUnderALidTracesAPacketOrTwo)
 {
     const std::vector<Disc> discs { sun(1, 2, 3) };
-    const Traced all = trace_suns(floor_facing_z(1), { lid(1) }, discs, false),
-                 some = trace_suns(floor_facing_z(1), { lid(1) }, discs, true);
+    const SunsTraced all = trace_suns(floor_facing_z(1), { lid(1) }, discs, false),
+                     some = trace_suns(floor_facing_z(1), { lid(1) }, discs, true);
     EXPECT_EQ(all.rays, 64 * 64 + 4 * 8);
     EXPECT_EQ(all.mean(), 0);
     EXPECT_EQ(some.seen, all.seen);
@@ -142,12 +142,12 @@ TEST(Blocker, NothingIsTriedWhereNothingIsInTheWay)
 
 TEST(Blocker, WhatLightPassesThroughIsNotOne)
 {
-    const Traced none = trace_suns(floor_facing_z(1), {}, { sun(0, 0, 1) }, false);
+    const SunsTraced none = trace_suns(floor_facing_z(1), {}, { sun(0, 0, 1) }, false);
     for (const AlphaMode mode : { AlphaMode::mask, AlphaMode::blend }) {
         const Mesh card = cutout_scene::with_material(cutout_scene::card(2, 1, 4),
                                                       cutout_scene::material(mode, cutout_scene::checker(8)));
-        const Traced all = trace_suns(floor_facing_z(1), { card }, { sun(0, 0, 1) }, false),
-                     some = trace_suns(floor_facing_z(1), { card }, { sun(0, 0, 1) }, true);
+        const SunsTraced all = trace_suns(floor_facing_z(1), { card }, { sun(0, 0, 1) }, false),
+                         some = trace_suns(floor_facing_z(1), { card }, { sun(0, 0, 1) }, true);
         EXPECT_NEAR(all.mean(), none.mean() / 2, 0.1);
         EXPECT_EQ(some.seen, all.seen);
         EXPECT_EQ(some.rays, all.rays);
@@ -186,8 +186,8 @@ TEST(Blocker, TheSameBitsAsWithEveryRay)
         VismapParams map;
         map.ground = i % 5 == 0;
         map.max_distance = i % 4 == 0 ? 0.7 : map.max_distance;
-        const Traced all = trace_suns(mesh, occluders, discs, false, map),
-                     some = trace_suns(mesh, occluders, discs, true, map, 1 + i % 3);
+        const SunsTraced all = trace_suns(mesh, occluders, discs, false, map),
+                         some = trace_suns(mesh, occluders, discs, true, map, 1 + i % 3);
         ASSERT_EQ(some.seen, all.seen) << i;
         EXPECT_LE(some.rays, all.rays);
         some_rays += some.rays;
