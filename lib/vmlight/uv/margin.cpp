@@ -131,13 +131,7 @@ void MarginPlan::fill_part(size_t part, float* pixels, size_t channels) const
 {
     const uint32_t* source = sources.data() + parts[part].source;
     const size_t end = part + 1 < parts.size() ? parts[part + 1].texel : texels.size();
-    for (size_t i = parts[part].texel; i < end && channels == 1; ++i) { // one sun: the same sums, twice as fast
-        double sum = 0;
-        for (const uint32_t* last = source + texels[i].sources; source < last; ++source)
-            sum += double(pixels[*source]);
-        pixels[texels[i].index] = float(sum / double(texels[i].sources));
-    }
-    for (size_t i = parts[part].texel; i < end && channels != 1; ++i) {
+    for (size_t i = parts[part].texel; i < end; ++i) {
         const Texel& texel = texels[i];
         for (size_t c = 0; c < channels; ++c) {
             double sum = 0;

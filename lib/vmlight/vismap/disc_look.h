@@ -34,17 +34,12 @@ struct DiscHorizon
 
     DiscHeight height(const SurfacePoint& point) const
     {
-        const double facing = Imath::V3d(point.normal).dot(direction);
-        if (facing <= -sine) // half of all texels
-            return DiscHeight::below;
-        const double above = Imath::V3d(point.geometric_normal).dot(direction), lowest = ground.lowest_ray(point);
-        if (above <= -sine || direction.y + sine < lowest)
+        const double facing = Imath::V3d(point.normal).dot(direction),
+                     above = Imath::V3d(point.geometric_normal).dot(direction), lowest = ground.lowest_ray(point);
+        if (facing <= -sine || above <= -sine || direction.y + sine < lowest)
             return DiscHeight::below;
         return facing >= sine && above >= sine && direction.y - sine >= lowest ? DiscHeight::whole : DiscHeight::cut;
     }
-    /// The disc is below the horizon of a normal that leans towards its direction by less than this: with a margin for
-    /// sums in another order.
-    static double below(const Disc& disc) { return -std::sin(disc.half_angle) - 1e-12; }
     /// What is left out below the geometric surface: of a mean over the hemisphere, the share that counts. What a
     /// normal map adds is in front of the surface or behind it, and not left out.
     static double counted(const SurfacePoint& point)

@@ -52,15 +52,11 @@ bool SunTracer::prepare(BakeScenePointer scene, const VismapParams& map, std::st
     if (!check_params(map, error))
         return false;
     auto points = std::make_unique<MapPoints>(std::move(scene), map, std::move(normal_map));
-    std::vector<std::vector<PointBlock>> blocks(size_t(points->tiles()));
-    const auto sort
-        = [&](int tile, const std::vector<MapPoint>& of_tile) { blocks[size_t(tile)] = point_blocks(of_tile); };
-    if (!points->prepare(kMostKept, nthreads, progress, sort)) {
+    if (!points->prepare(kMostKept, nthreads, progress)) {
         error = "interrupted";
         return false;
     }
     m_points = std::move(points);
-    m_blocks = std::move(blocks);
     const double texels = double(m_points->width()) * m_points->height();
     m_tries_blockers = map.skip_open && can_spare_blocked(m_points->scene(), texels);
     m_open = {};
@@ -89,10 +85,8 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
     const auto each = [&](const auto& work, const Progress& part) {
         const auto trace_tile = [&](int64_t tile, int index) {
             Worker& worker = workers[size_t(index)];
-            if (m_blocks[size_t(tile)].empty())
-                return;
             const std::vector<MapPoint>& points = map.of_tile(int(tile), worker.scratch);
-            for (size_t k = 0; k < count; ++k)
+            for (size_t k = 0; k < count && !points.empty(); ++k)
                 worker.rays += work(int(tile), points, k);
         };
         return parallel_items(map.tiles(), nthreads, trace_tile, part);
@@ -110,18 +104,10 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
                      looked[size_t(tile) * count + k], m_tries_blockers);
         DiscTracer all = tracer_of(k);
         const int left = map.left(tile), top = map.top(tile);
-        const double below = DiscHorizon::below(discs[ptrdiff_t(k)]);
-        for (const PointBlock& block : m_blocks[size_t(tile)]) {
-            if (block.most_facing(discs[ptrdiff_t(k)].direction) < below)
-                continue;
-            for (uint32_t i = block.first; i < block.end; ++i) {
-                const MapPoint& point = points[i];
-                const bool is_open = m_open.is_open(point.triangle);
-                if (one.add(point.surface, is_open, left, top, point.x, point.y, &value(tile, point, k))
-                    == DiscHeight::cut)
-                    all.add(point.surface, is_open, left + point.x, top + point.y, &value(tile, point, k));
-            }
-        }
+        for (const MapPoint& point : points)
+            if (const bool is_open = m_open.is_open(point.triangle);
+                one.add(point.surface, is_open, left, top, point.x, point.y, &value(tile, point, k)) == DiscHeight::cut)
+                all.add(point.surface, is_open, left + point.x, top + point.y, &value(tile, point, k));
         one.flush();
         all.flush();
         return one.rays() + all.rays();
@@ -132,14 +118,10 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
         if (std::all_of(edge.begin(), edge.end(), [](uint64_t row) { return row == 0; }))
             return int64_t(0);
         DiscTracer tracer = tracer_of(k);
-        for (const PointBlock& block : m_blocks[size_t(tile)]) {
-            if (!block.has_any(edge))
-                continue;
-            for (uint32_t i = block.first; i < block.end; ++i)
-                if (const MapPoint& point = points[i]; edge[point.y] >> point.x & 1)
-                    tracer.add(point.surface, m_open.is_open(point.triangle), map.left(tile) + point.x,
-                               map.top(tile) + point.y, &value(tile, point, k));
-        }
+        for (const MapPoint& point : points)
+            if (edge[point.y] >> point.x & 1)
+                tracer.add(point.surface, m_open.is_open(point.triangle), map.left(tile) + point.x,
+                           map.top(tile) + point.y, &value(tile, point, k));
         tracer.flush();
         return tracer.rays();
     };
@@ -158,10 +140,7 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
 
 size_t SunTracer::bytes() const
 {
-    size_t bytes = m_points ? m_points->bytes() : 0;
-    for (const std::vector<PointBlock>& blocks : m_blocks)
-        bytes += blocks.capacity() * sizeof(PointBlock);
-    return bytes;
+    return m_points ? m_points->bytes() : 0;
 }
 
 } // namespace vmlight

@@ -11,7 +11,6 @@
 #include <vmlight/vismap/map_points.h>
 #include <vmlight/vismap/normal_map.h>
 #include <vmlight/vismap/open_triangles.h>
-#include <vmlight/vismap/point_blocks.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/span.h>
@@ -127,7 +126,6 @@ public:
 
 private:
     std::unique_ptr<MapPoints> m_points;
-    std::vector<std::vector<PointBlock>> m_blocks; // of each tile
     OpenTriangles m_open;
     bool m_tries_blockers = false;
     int64_t m_rays = 0;
