@@ -23,6 +23,14 @@ namespace vmlight::embree {
 constexpr uint32_t kNoStrand = ~0u;
 
 class Placements;
+struct Buffers;
+
+/// A triangle that a ray met.
+struct MetTriangle
+{
+    const Buffers* buffers = nullptr; ///< nullptr: none
+    unsigned number = 0;
+};
 
 /// The rays of a packet as they are asked, in the scene. Within an instance Embree's own are in the space of its mesh;
 /// their `id` is the place here.
@@ -42,6 +50,7 @@ struct QueryContext : RTCRayQueryContext
     CutoutWork cutouts;
     uint32_t own_strand = kNoStrand;
     const SceneRays* scene_rays = nullptr;
+    MetTriangle blocker;
 };
 
 /// The arguments of a query besides its rays, which are marked incoherent.
@@ -73,6 +82,8 @@ public:
     const CutoutWork& cutouts() const { return m_context.cutouts; }
     /// Rays pass this strand: see StrandScene.
     void pass_strand(uint32_t strand) { m_context.own_strand = strand; }
+    /// What a filter has noted.
+    const MetTriangle& blocker() const { return m_context.blocker; }
     /// For filters, of a scene with instances. Must stay until the query is done.
     void set_scene_rays(const SceneRays* rays) { m_context.scene_rays = rays; }
 
@@ -97,6 +108,7 @@ struct QueryContext : RTCIntersectContext
     CutoutWork cutouts;
     uint32_t own_strand = kNoStrand;
     const SceneRays* scene_rays = nullptr;
+    MetTriangle blocker;
 };
 
 class Query
@@ -116,6 +128,8 @@ public:
     const CutoutWork& cutouts() const { return m_context.cutouts; }
     /// Rays pass this strand: see StrandScene.
     void pass_strand(uint32_t strand) { m_context.own_strand = strand; }
+    /// What a filter has noted.
+    const MetTriangle& blocker() const { return m_context.blocker; }
     /// For filters, of a scene with instances. Must stay until the query is done.
     void set_scene_rays(const SceneRays* rays) { m_context.scene_rays = rays; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/occluder.h>
 
+#include <vmlight/trace/blocker.h>
 #include <vmlight/trace/embree_scene.h>
 #include <vmlight/trace/exact_hit.h>
 #include <vmlight/trace/fan_query.h>
@@ -61,6 +62,25 @@ void reject_hits_behind_origin(const RTCFilterFunctionNArguments* arguments)
         if (!((a - V3d(hit.origin)).dot(normal) / V3d(hit.direction).dot(normal) > 0))
             arguments->valid[i] = 0;
     }
+}
+
+// Embree's filter of hits that notes one of them.
+void note_blocker(const RTCFilterFunctionNArguments* arguments)
+{
+    const auto& buffers = *static_cast<const embree::Buffers*>(arguments->geometryUserPtr);
+    if (!buffers.triangles || buffers.cutouts)
+        return;
+    const unsigned lanes = embree::valid_lanes(arguments->valid, arguments->N);
+    if (!lanes)
+        return;
+    static_cast<embree::QueryContext*>(arguments->context)->blocker
+        = { &buffers, RTCHitN_primID(arguments->hit, arguments->N, embree::first_lane(lanes)) };
+}
+
+void reject_and_note(const RTCFilterFunctionNArguments* arguments)
+{
+    reject_hits_behind_origin(arguments);
+    note_blocker(arguments);
 }
 
 // As Occluder::find_blocked(), of the rays in `lanes`, in a scene with instances. What is near may lie on the wrong
@@ -184,10 +204,12 @@ void Occluder::clear_blocked(RayFan& fan, const V3f& origin, float length, bool 
     Occluder::count(query.cutouts());
 }
 
-uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length, bool is_near) const
+uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int count, float length, bool is_near,
+                               Blocker* blocker) const
 {
     const embree::FlushDenormals flush;
-    embree::Query query(is_near ? reject_hits_behind_origin : nullptr);
+    const bool notes = blocker && m_instances.instances == 0;
+    embree::Query query(is_near ? notes ? reject_and_note : reject_hits_behind_origin : notes ? note_blocker : nullptr);
     if (m_instances.instances > 0) {
         const uint8_t found = find_blocked_by_instances(*m_scene, query, origins, directions,
                                                         uint8_t((1u << count) - 1), length, is_near);
@@ -206,6 +228,10 @@ uint8_t Occluder::find_blocked(const V3f* origins, const V3f* directions, int co
     }
     query.occluded8(valid, m_scene->handle(), rays);
     Occluder::count(query.cutouts());
+    if (const auto& [buffers, number] = query.blocker(); buffers) {
+        const auto& corners = buffers->triangles[number];
+        *blocker = Blocker(buffers->vertices[corners[0]], buffers->vertices[corners[1]], buffers->vertices[corners[2]]);
+    }
     uint8_t blocked = 0;
     for (int lane = 0; lane < count; ++lane)
         blocked |= uint8_t(!(rays.tfar[lane] >= 0)) << lane;

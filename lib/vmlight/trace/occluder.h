@@ -19,6 +19,8 @@
 
 namespace vmlight {
 
+class Blocker;
+
 namespace embree {
 class Scene;
 }
@@ -93,8 +95,10 @@ public:
     /// Which of the first `count` of kPacketSize rays are blocked within `length`: bit k for ray k. For rays that run
     /// side by side.
     /// @param is_near  as for clear_blocked(): one of the origins is
+    /// @param blocker  nullptr, or set to a triangle that blocks one of them, if there is one that is opaque and of no
+    ///                 instance
     uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length,
-                         bool is_near = true) const;
+                         bool is_near = true, Blocker* blocker = nullptr) const;
 
     /// What the first `count` of kPacketSize rays meet first within their lengths (in scene units), from origins that
     /// are off the surface. The same triangles block rays as for find_blocked().

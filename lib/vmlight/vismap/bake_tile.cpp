@@ -63,7 +63,7 @@ BakeCounts VismapBaker::bake_tile(int tile, Scratch& scratch, float* texels, siz
         suns.emplace_back(m_setup->scene->occluder(), m_setup->suns[k], m_setup->sun_samples[k],
                           disc_rays(m_setup->suns[k].half_angle),
                           float(m_setup->params.max_distance * m_setup->scene->frame().scale), m_setup->params.seed,
-                          m_setup->ground);
+                          m_setup->ground, false);
     TexelSpacing spacing(m_setup->scene->mesh(), m_setup->scene->frame(), width(), height());
     const int64_t rays_before = scratch.integrator.rays();
     // Texels in blocks of 8 x 8: rays of neighbours visit the same part of the scene (measured: 1.2 times).

@@ -9,7 +9,7 @@ using Imath::V3d;
 using Imath::V3f;
 
 DiscLook::DiscLook(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, float length, int seed,
-                   const GroundPlane& ground, LookedTile& looked)
+                   const GroundPlane& ground, LookedTile& looked, bool tries_blockers)
     : m_occluder(occluder)
     , m_samples(samples)
     , m_horizon(disc, ground)
@@ -17,6 +17,7 @@ DiscLook::DiscLook(const Occluder& occluder, const Disc& disc, const DiscSamples
     , m_length(length)
     , m_seed(uint32_t(seed))
     , m_looked(looked)
+    , m_tries_blockers(tries_blockers)
 {
 }
 
@@ -32,6 +33,11 @@ DiscHeight DiscLook::add(const SurfacePoint& point, bool is_open, int left, int 
     if (is_open && direction.dot(point.geometric_normal) > 0) { // in floats too, as Horizon asks
         *dst = value;
         m_looked.set(x, y, true);
+        return height;
+    }
+    if (m_blockers.surely_block(point.origin, direction, m_length)) {
+        *dst = 0;
+        m_looked.set(x, y, false);
         return height;
     }
     m_origins[size_t(m_count)] = point.origin;
@@ -51,8 +57,11 @@ void DiscLook::flush()
         m_origins[size_t(i)] = m_origins[0];
         m_directions[size_t(i)] = m_directions[0];
     }
-    const uint8_t blocked
-        = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length, m_is_near);
+    Blocker blocker;
+    const bool tries = m_tries_blockers && m_blockers.pay();
+    const uint8_t blocked = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length, m_is_near,
+                                                    tries ? &blocker : nullptr);
+    m_blockers.remember(blocker, tries && blocked != 0);
     for (int i = 0; i < m_count; ++i) {
         const Waiting& texel = m_waiting[size_t(i)];
         const bool is_seen = !(blocked >> i & 1);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vmlight/math/disc.h>
+#include <vmlight/trace/blocker.h>
 #include <vmlight/trace/ground_plane.h>
 #include <vmlight/trace/surface.h>
 #include <vmlight/vismap/penumbra.h>
@@ -58,8 +59,9 @@ public:
     /// @param occluder, samples, looked    must outlive this
     /// @param length   of rays, in the units of `occluder`
     /// @param looked   set for each texel that was looked at
+    /// @param tries_blockers   what has blocked a ray is tried before the next is traced: fewer rays, the same bits
     DiscLook(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, float length, int seed,
-             const GroundPlane& ground, LookedTile& looked);
+             const GroundPlane& ground, LookedTile& looked, bool tries_blockers);
 
     /// Look from `point`, of column and row `x`, `y` of the tile whose first texel is (left, top), along one ray, if
     /// the whole disc is above its horizons. Then `*dst` is set, by the next flush() at the latest: to T of
@@ -86,6 +88,8 @@ private:
     const float m_length;
     const uint32_t m_seed;
     LookedTile& m_looked;
+    const bool m_tries_blockers;
+    RecentBlockers m_blockers;
     int64_t m_rays = 0;
     int m_count = 0;
     bool m_is_near = false; // one of them is

@@ -86,7 +86,7 @@ int disc_rays(double half_angle)
 }
 
 DiscTracer::DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, int rays, float length,
-                       int seed, const GroundPlane& ground)
+                       int seed, const GroundPlane& ground, bool tries_blockers)
     : m_occluder(occluder)
     , m_samples(samples)
     , m_horizon(disc, ground)
@@ -94,6 +94,7 @@ DiscTracer::DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSam
     , m_rays_each(rays)
     , m_length(length)
     , m_seed(uint32_t(seed))
+    , m_tries_blockers(tries_blockers)
 {
     m_texels.reserve(kPacketSize + 1);
 }
@@ -136,8 +137,8 @@ void DiscTracer::start(const Texel& texel, int rays)
             continue;
         }
         own.all += cosine;
-        if (own.is_open) {
-            own.seen += cosine;
+        if (own.is_open || m_blockers.surely_block(own.point.origin, direction, m_length)) {
+            own.seen += own.is_open ? cosine : 0;
             if (--own.rays_left == 0)
                 finish(own);
             continue;
@@ -176,8 +177,11 @@ void DiscTracer::trace()
         m_origins[size_t(i)] = m_origins[0];
         m_directions[size_t(i)] = m_directions[0];
     }
-    const uint8_t blocked
-        = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length, m_is_near);
+    Blocker blocker;
+    const bool tries = m_tries_blockers && m_blockers.pay();
+    const uint8_t blocked = m_occluder.find_blocked(m_origins.data(), m_directions.data(), m_count, m_length, m_is_near,
+                                                    tries ? &blocker : nullptr);
+    m_blockers.remember(blocker, tries && blocked != 0);
     for (int i = 0; i < m_count; ++i) {
         Texel& texel = m_texels[m_owner[size_t(i)]];
         texel.seen += blocked >> i & 1 ? 0 : m_cosines[size_t(i)];

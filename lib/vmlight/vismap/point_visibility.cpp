@@ -82,7 +82,7 @@ bool trace_points(std::vector<float>& dst, const BakeScene& scene, const VismapP
         for (size_t k = 0; k < count; ++k) {
             const Disc& disc = discs[ptrdiff_t(k)];
             DiscTracer tracer(scene.occluder(), disc, samples[k], disc_rays(disc.half_angle), length, params.seed,
-                              ground);
+                              ground, false);
             tracer.add(point, false, int(index), 0, &dst[index * count + k]);
             tracer.flush();
         }

@@ -15,6 +15,17 @@ namespace {
 
 // Points that are kept between traces.
 constexpr size_t kMostKept = size_t(256) << 20; // bytes
+// Of a map, for each triangle that rays can meet: with fewer, each triangle's shadow is so small that what blocked one
+// ray seldom blocks the next.
+constexpr double kTexelsPerBlocker = 64;
+
+bool can_spare_blocked(const BakeScene& scene, double texels)
+{
+    size_t triangles = 0;
+    for (const TracedTriangles& mesh : scene.occluder().triangles())
+        triangles += mesh.count;
+    return texels >= kTexelsPerBlocker * double(triangles);
+}
 
 // The tiles around one that have been looked at for disc k of `count`.
 LookedAround around(const std::vector<LookedTile>& looked, const UvRaster& raster, int tile, size_t k, size_t count)
@@ -46,10 +57,11 @@ bool SunTracer::prepare(BakeScenePointer scene, const VismapParams& map, std::st
         return false;
     }
     m_points = std::move(points);
+    const double texels = double(m_points->width()) * m_points->height();
+    m_tries_blockers = map.skip_open && can_spare_blocked(m_points->scene(), texels);
     m_open = {};
     if (map.skip_open) // for one trace, if no more: a search that pays then pays always
-        m_open.find(m_points->scene(), map.max_distance * m_points->scene().frame().scale,
-                    double(m_points->width()) * m_points->height());
+        m_open.find(m_points->scene(), map.max_distance * m_points->scene().frame().scale, texels);
     return true;
 }
 
@@ -84,12 +96,12 @@ bool SunTracer::trace(std::vector<float>& dst, OIIO::cspan<Disc> discs, int nthr
     const auto tracer_of = [&](size_t k) {
         const Disc& disc = discs[ptrdiff_t(k)];
         return DiscTracer(map.scene().occluder(), disc, samples[k], disc_rays(disc.half_angle), length, params.seed,
-                          ground);
+                          ground, m_tries_blockers);
     };
     // One ray each, but for texels that a horizon cuts the disc of: these need all.
     const auto look = [&](int tile, const std::vector<MapPoint>& points, size_t k) {
         DiscLook one(map.scene().occluder(), discs[ptrdiff_t(k)], samples[k], length, params.seed, ground,
-                     looked[size_t(tile) * count + k]);
+                     looked[size_t(tile) * count + k], m_tries_blockers);
         DiscTracer all = tracer_of(k);
         const int left = map.left(tile), top = map.top(tile);
         for (const MapPoint& point : points)

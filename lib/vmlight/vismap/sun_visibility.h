@@ -42,8 +42,9 @@ public:
     /// @param rays     per texel; divides DiscSamples::kCount
     /// @param length   of rays, in the units of `occluder`
     /// @param ground   hides what of the disc is below its horizon
+    /// @param tries_blockers   as of DiscLook
     DiscTracer(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, int rays, float length, int seed,
-               const GroundPlane& ground);
+               const GroundPlane& ground, bool tries_blockers);
 
     /// Trace the disc for `point`, the centre of texel (x, y), whose ray origin adjust_ray_origins() has set. Its
     /// visibility goes to `*dst`, by the next flush() at the latest:
@@ -83,6 +84,8 @@ private:
     const int m_rays_each;
     const float m_length;
     const uint32_t m_seed;
+    const bool m_tries_blockers;
+    RecentBlockers m_blockers;
     int64_t m_rays = 0;
     // Rays that wait for their packet to fill.
     int m_count = 0;
@@ -124,6 +127,7 @@ public:
 private:
     std::unique_ptr<MapPoints> m_points;
     OpenTriangles m_open;
+    bool m_tries_blockers = false;
     int64_t m_rays = 0;
 };
 
