@@ -95,8 +95,9 @@ public:
     /// Which of the first `count` of kPacketSize rays are blocked within `length`: bit k for ray k. For rays that run
     /// side by side.
     /// @param is_near  as for clear_blocked(): one of the origins is
-    /// @param blocker  nullptr, or set to a triangle that blocks one of them, if there is one that is opaque and of no
-    ///                 instance
+    /// @param blocker  if not nullptr, set to an opaque triangle that blocks one of them; left alone if none does, or
+    /// if
+    ///                 the scene has instances
     uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length,
                          bool is_near = true, Blocker* blocker = nullptr) const;
 

@@ -59,7 +59,7 @@ public:
     /// @param occluder, samples, looked    must outlive this
     /// @param length   of rays, in the units of `occluder`
     /// @param looked   set for each texel that was looked at
-    /// @param tries_blockers   what has blocked a ray is tried before the next is traced: fewer rays, the same bits
+    /// @param tries_blockers   try the triangles that blocked a ray before tracing the next: fewer rays, the same bits
     DiscLook(const Occluder& occluder, const Disc& disc, const DiscSamples& samples, float length, int seed,
              const GroundPlane& ground, LookedTile& looked, bool tries_blockers);
 

@@ -15,8 +15,8 @@ namespace {
 
 // Points that are kept between traces.
 constexpr size_t kMostKept = size_t(256) << 20; // bytes
-// Of a map, for each triangle that rays can meet: with fewer, each triangle's shadow is so small that what blocked one
-// ray seldom blocks the next.
+// Texels of the map per triangle of the scene, below which shadows of triangles are so small that what blocked one ray
+// seldom blocks the next.
 constexpr double kTexelsPerBlocker = 64;
 
 bool can_spare_blocked(const BakeScene& scene, double texels)
