@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -108,7 +109,10 @@ TEST(Blocker, IsSureOnlyOfWhatEmbreeFinds)
             const V3d to = target - V3d(origin);
             const V3f direction((to * (k % 16 ? 1 : -1)).normalized());
             const auto length = float(k % 8 == 3 ? to.length() * (1 + 1e-6 * unit(random)) : kAnyLength);
-            const bool is_blocked = occluder.find_blocked(&origin, &direction, 1, length, false) != 0;
+            std::array<V3f, kPacketSize> origins, directions; // those of all lanes are read
+            origins.fill(origin);
+            directions.fill(direction);
+            const bool is_blocked = occluder.find_blocked(origins.data(), directions.data(), 1, length, false) != 0;
             const bool is_sure = blocker.surely_blocks(origin, direction, length);
             ASSERT_LE(is_sure, is_blocked) << i << " " << k;
             sure += is_sure;
