@@ -96,9 +96,8 @@ public:
     /// side by side.
     /// @param origins, directions  kPacketSize of each: those of unused rays are read, and must be valid numbers
     /// @param is_near  as for clear_blocked(): one of the origins is
-    /// @param blocker  if not nullptr, set to an opaque triangle that blocks one of them. Not set if none does, or if
-    /// the
-    ///                 scene has instances
+    /// @param blocker  if not nullptr, set to an opaque triangle that blocks one of them. Not set if none does, or in a
+    ///                 scene with instances
     uint8_t find_blocked(const Imath::V3f* origins, const Imath::V3f* directions, int count, float length,
                          bool is_near = true, Blocker* blocker = nullptr) const;
 
