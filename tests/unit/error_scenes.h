@@ -83,7 +83,8 @@ inline double channel_rms(const BakedMap& map)
     return rms(map, [](const float* texel, int, int) { return texel[4]; });
 }
 
-/// Against reference_of(): 32 times the rays, from another seed, with a tenth of the error at most: that adds half a percent.
+/// Against reference_of(): 32 times the rays, from another seed, with a tenth of the error at most: that adds half a
+/// percent.
 inline double true_rms(const BakedMap& map, const BakedMap& reference)
 {
     return rms(map, [&](const float* texel, int x, int y) { return texel[0] - reference.at(x, y).visibility; });
