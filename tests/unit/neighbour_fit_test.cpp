@@ -186,7 +186,8 @@ TEST(NeighbourWeights, ASlopeIsFollowedToTheBorderOfAnIsland)
     EXPECT_LT(variance[texel(20, 30)], kDeviation * kDeviation / 9);
 }
 
-// Each neighbour and the opposite one are compared together.
+// Each neighbour and the opposite one are compared together. In the turned window sums run the other way round: slopes
+// and the fourth power of a difference enlarge their rounding.
 TEST(NeighbourWeights, ATurnedWindowHasTheTurnedWeights)
 {
     // A flat half, a ramp, a step and an island's end.

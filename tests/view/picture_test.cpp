@@ -203,12 +203,8 @@ TEST_F(Picture, QuickIsNearlyExact)
     const Assets assets = loaded(request);
     Renderer renderer;
     PictureParams params;
-    LightmapParams light;
     std::string error;
-    ASSERT_TRUE(renderer.build(error) && renderer.set_mesh(assets.mesh, true, error)
-                && renderer.set_map(assets.map, error) && renderer.set_light(assets.light, error)
-                && light_params(light, request.light, 0, error) && show_surface(renderer, 0, "lit", light, error))
-        << error;
+    ASSERT_NO_FATAL_FAILURE(show_lit(renderer, assets, request));
     params.has_background = true;
     params.view.camera = place_camera(request.camera, assets.mesh->subject, 96.0 / 72, false);
     OIIO::ImageBuf exact;

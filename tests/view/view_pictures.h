@@ -5,6 +5,7 @@
 #include "view_test.h"
 
 #include "vmview/headless.h"
+#include "vmview/render/lighting.h"
 #include "vmview/scene/loading.h"
 
 #include <cmath>
@@ -25,6 +26,17 @@ inline OIIO::ImageBuf drawn(const Assets& assets, const Request& request)
     std::string error;
     EXPECT_TRUE(render_headless(picture, assets, request, error)) << error;
     return picture;
+}
+
+/// Let `renderer` show these assets in the light of `request`.
+inline void show_lit(Renderer& renderer, const Assets& assets, const Request& request)
+{
+    LightmapParams light;
+    std::string error;
+    ASSERT_TRUE(renderer.build(error) && renderer.set_mesh(assets.mesh, true, error)
+                && renderer.set_map(assets.map, error) && renderer.set_light(assets.light, error)
+                && light_params(light, request.light, 0, error) && show_surface(renderer, 0, "lit", light, error))
+        << error;
 }
 
 /// Over the mean of `b`.

@@ -23,10 +23,9 @@ struct SpecularParams
     template <class Visit> void visit(Visit&& field)
     {
         field("strand_specular", strand_specular, Range { 0, 100 },
-              "Strength of the highlights of strands: under a constant sky an open strand gets so much of its light; 0 "
-              "for none");
+              "Strength of strand highlights: what an open strand mirrors of a constant sky; 0 switches them off");
         field("strand_exponent", strand_exponent, Range { 1, ConeLevels::kLargestExponent },
-              "How narrow these highlights are: the exponent of their cosine");
+              "Exponent of the cosine lobe of strand highlights: larger is narrower");
     }
 };
 
