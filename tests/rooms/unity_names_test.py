@@ -179,6 +179,22 @@ def hidden_names(paths):
                     yield f"{name} of {path} hides that of {header} from {hidden[0]}: rename it"
 
 
+def passes(code, name):
+    """Whether code names a function without arguments, as when it passes it on: then the function must have no overload."""
+    return re.search(rf"(?<![\w.>:]){name}\b(?!\s*[({{:=])", code)
+
+
+def overloaded_values(paths):
+    """Functions in unnamed namespaces that a file passes, and that headers of other files of the group overload."""
+    headers = sorted(set().union(*(headers_of(path) for path in paths)))
+    declared = {one.name: header for header in headers for one in declarations_of(header)
+                if one.kind == FUNCTION and UNNAMED not in one.scope}
+    for path in paths:
+        for one in declarations_of(path):
+            if one.kind == FUNCTION and UNNAMED in one.scope and one.name in declared and passes(code_of(path), one.name):
+                yield f"{one.name}, which {path} passes, is overloaded in {declared[one.name]}: rename it"
+
+
 def is_alone(path):
     """Files that are never compiled with others: those that are compiled once for each instruction set."""
     return "hwy/foreach_target.h" in text_of(path)
@@ -207,6 +223,7 @@ class UnityNames(unittest.TestCase):
         for paths in all_groups.values():
             faults += clashes({path: declarations_of(path) for path in paths})
             faults += hidden_names(paths)
+            faults += overloaded_values(paths)
         self.assertEqual(sorted(set(faults)), [])
 
     def test_names_are_found(self):
@@ -224,6 +241,11 @@ class UnityNames(unittest.TestCase):
         self.assertEqual({one.scope for one in found[:-1]}, {f"a::b::{UNNAMED}"})
         self.assertEqual(found[-1].scope, "a::b")
         self.assertEqual([one.detail for one in found if one.kind == FUNCTION], [(1, 2), (0, 0), (0, 0)])
+
+    def test_functions_that_are_passed_are_found(self):
+        for code, is_passed in [("sort(a, b, near);", True), ("near<int>(1);", True), ("int near(int x) { return x; }", False),
+                                ("near (2);", False), ("other.near, other::near, nearer", False)]:
+            self.assertEqual(bool(passes(code, "near")), is_passed, code)
 
     def test_clashes_are_found(self):
         for one, other, count in [("int a();", "double a();", 1), ("int a();", "int a(int);", 0),

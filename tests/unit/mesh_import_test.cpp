@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The seam of mesh formats: detection, the table, and a format of the test's own that no library reads.
-#include "mesh_fixture.h"
+#include "gltf_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
@@ -11,11 +11,6 @@
 using namespace mesh_files;
 
 namespace {
-
-template <class Number> std::string bytes_of(const std::vector<Number>& numbers)
-{
-    return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
-}
 
 const char* const kPly = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                          "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
