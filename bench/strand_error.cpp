@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the models of strands are from ray tracing: for each sky the relative root mean square error over every
 // STEP-th texel of a map of strands, single scattering, against (1/pi^2) Int L(w) vis(w) sin(t, w) dw by rays at every
-// pixel of the sky. Skies are reduced to 128x64, for models and rays alike.
+// pixel of the sky. Skies are reduced to 512x256, for models and rays alike.
 // `+suns` are the same models of a sky whose suns are split off, and traced. The last figure is of a model that does
 // not exist: the part of B lit by the cosine lobe around it, the rest by the sine.
 //     strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...
@@ -36,7 +36,7 @@ using Imath::V3f;
 
 namespace {
 
-constexpr int kWidth = 128, kHeight = 64;
+constexpr int kWidth = 512, kHeight = 256;
 constexpr double kRays = 16384; // beside one for each pixel, by its power
 
 [[noreturn]] void fail(const std::string& reason)
