@@ -5,7 +5,6 @@
 #include <vmlight/cfem/spherical_harmonics.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/brightest_light.h>
-#include <vmlight/math/float4.h>
 #include <vmlight/math/harmonics.h>
 #include <vmlight/math/latlong.h>
 
@@ -24,53 +23,6 @@ int complete_bands(const OIIO::ImageSpec& vismap)
             return bands;
     }
     return 2;
-}
-
-// `Count` texels at once: the sums of one wait for each other. The bits do not depend on how many.
-template <size_t Count>
-bool shade_texels(const HarmonicLight& harmonics, const ShadeSetup& setup, const float* vismap, float* rgb)
-{
-    const int count = harmonics.count;
-    const float* light = harmonics.coefficients.data();
-    Float4 even[Count] {}, odd[Count] {};
-    int k = 0;
-    for (; k + 1 < count; k += 2) {
-        const Float4 first = load_float4(light + 4 * k), second = load_float4(light + 4 * (k + 1));
-        for (size_t i = 0; i < Count; ++i) {
-            const float* texel = vismap + i * size_t(count) + k;
-            even[i] += splat_float4(texel[0]) * first;
-            odd[i] += splat_float4(texel[1]) * second;
-        }
-    }
-    bool sound = true;
-    for (size_t i = 0; i < Count; ++i, vismap += count, rgb += 3) {
-        if (k < count)
-            even[i] += splat_float4(vismap[k]) * load_float4(light + 4 * k);
-        sound &= std::abs(vismap[0]) <= kLargestVisibility;
-        const Float4 sum = splat_float4(setup.gain) * (even[i] + odd[i]);
-        for (int c = 0; c < 3; ++c) {
-            sound &= std::isfinite(sum[c]);
-            // A texel that sees nothing has no light, whatever rounding left of its harmonics. A value that is not
-            // finite stays, to be reported.
-            rgb[c] = !(vismap[0] > 0) || (sum[c] < 0 && std::isfinite(sum[c]))
-                ? 0.0f
-                : held_to(harmonics.brightest[c], setup.gain, sum[c]);
-        }
-    }
-    return sound;
-}
-
-bool shade_harmonics(const HarmonicLight& harmonics, const ShadeSetup& setup, const float* vismap, size_t texels,
-                     float* rgb)
-{
-    constexpr size_t kAtOnce = 4;
-    bool sound = true;
-    size_t i = 0;
-    for (; i + kAtOnce <= texels; i += kAtOnce)
-        sound &= shade_texels<kAtOnce>(harmonics, setup, vismap + i * size_t(harmonics.count), rgb + 3 * i);
-    for (; i < texels; ++i)
-        sound &= shade_texels<1>(harmonics, setup, vismap + i * size_t(harmonics.count), rgb + 3 * i);
-    return sound;
 }
 
 struct HarmonicShader : ModelShader

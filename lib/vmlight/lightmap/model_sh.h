@@ -6,21 +6,10 @@
 /// 2002, section 4.
 #pragma once
 
+#include <vmlight/lightmap/harmonic_sums.h>
 #include <vmlight/lightmap/model_shader.h>
 
 namespace vmlight {
-
-/// The environment as spherical harmonics, at one rotation.
-struct HarmonicLight
-{
-    /// Bands squared.
-    int count = 0;
-    /// R, G, B and a 0 for each number of a texel. V and B are the first two bands up to constants, which are
-    /// multiplied in here.
-    std::vector<float> coefficients;
-    /// From find_brightest_light().
-    float brightest[3] = { 0, 0, 0 };
-};
 
 /// Project `radiance` onto the first `bands` bands, then rotate them.
 ///
