@@ -24,21 +24,22 @@ fail() {
     exit 2
 }
 
-# Split the flags of makevismap into what the parts need (FLAGS), and the output and its format.
+# Split the flags of makevismap into what the parts need (FLAGS), and the output and how it is stored (FORMAT).
 split_flags() {
     FLAGS=() OUTPUT="" FORMAT=()
     while (($# > 0)); do
         case $1 in
         -o | --output) OUTPUT=${2-} && shift $(($# > 1)) ;;
         -o=* | --output=*) OUTPUT=${1#*=} ;;
-        --format) FORMAT=(--format "${2-}") && shift $(($# > 1)) ;;
-        --format=*) FORMAT=("$1") ;;
+        --format | --compression) FORMAT+=("$1" "${2-}") && shift $(($# > 1)) ;;
+        --format=* | --compression=*) FORMAT+=("$1") ;;
         --part | --part=* | --join | --resume) fail "$1 is set by this script" ;;
         *) FLAGS+=("$1") ;;
         esac
         shift
     done
     [[ $OUTPUT == *.exr ]] || fail "-o OUTPUT.exr is missing"
+    JOINED=${OUTPUT%.exr}.joined # there while the parts of a whole map are removed
 }
 
 # One task of the array, run by Slurm.
@@ -66,11 +67,15 @@ join() {
     pattern=$(sed 's/[][*?\\]/\\&/g' <<<"$stem")
     pattern=${pattern//<UDIM>/[0-9][0-9][0-9][0-9]}
     pattern=${pattern//<MATERIAL>/*}
+    pattern=${pattern//<INSTANCE>/*}
     local IFS=
     # shellcheck disable=SC2206 # the pattern is to be expanded
     files=($pattern.part*of"$parts".exr)
-    makevismap --join "${files[@]}" -o "$OUTPUT" "${FORMAT[@]}" || exit
+    # A join that was requeued while it removed parts would miss them.
+    [[ -e $JOINED ]] || makevismap --join "${files[@]}" -o "$OUTPUT" "${FORMAT[@]}" || exit
+    : >"$JOINED"
     rm -f -- "${files[@]}"
+    rm -f -- "$JOINED"
 }
 
 case ${1-} in
@@ -93,6 +98,7 @@ done
 [[ ${1-} == -- ]] || fail "-- and the options of makevismap are missing"
 shift
 split_flags "$@"
+rm -f -- "$JOINED"
 
 array=$(sbatch --parsable --job-name=vismap --array="1-$parts" --requeue "${options[@]}" "$0" bake "$parts" "$@")
 joining=$(sbatch --parsable --job-name=vismap-join --dependency="afterok:$array" --kill-on-invalid-dep=yes --requeue \

@@ -112,6 +112,53 @@ class Farm(unittest.TestCase):
         self.expect_whole()
 
 
+class Joining(unittest.TestCase):
+    """The job that joins, with a makevismap that notes its arguments; needs no cluster."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="vmlight_farm_")
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.tools = os.path.join(self.folder, "tools")
+        self.work = os.path.join(self.folder, "work")
+        os.mkdir(self.tools)
+        os.mkdir(self.work)
+        self.tool("makevismap", 'printf "%s\\n" "$@" >>../joins')
+
+    def tool(self, name, text):
+        path = pathlib.Path(self.tools, name)
+        path.write_text("#!/bin/bash\n" + text + "\n")
+        path.chmod(0o755)
+
+    def parts(self, *names):
+        for name in names:
+            pathlib.Path(self.work, name).touch()
+
+    def join(self, *flags):
+        return subprocess.run([SCRIPT, "join", "2", "hero.obj", *flags], cwd=self.work, timeout=60,
+                              env={**os.environ, "PATH": self.tools + ":" + os.environ["PATH"]}).returncode
+
+    def joins(self):
+        return pathlib.Path(self.folder, "joins").read_text().split()
+
+    def test_requeued_while_parts_are_removed_it_removes_the_rest(self):
+        self.parts("vm.part1of2.exr", "vm.part2of2.exr", "other.part1of2.exr")
+        self.tool("rm", 'command -p rm -f vm.part1of2.exr; exit 1')
+        self.assertNotEqual(self.join("-o", "vm.exr"), 0)
+        os.remove(os.path.join(self.tools, "rm"))
+        self.assertIn("vm.part2of2.exr", os.listdir(self.work))
+        self.assertEqual(self.join("-o", "vm.exr"), 0)
+        self.assertEqual(os.listdir(self.work), ["other.part1of2.exr"])
+        self.assertEqual(self.joins(), ["--join", "vm.part1of2.exr", "vm.part2of2.exr", "-o", "vm.exr"])  # once
+
+    def test_every_map_is_joined_and_stored_as_asked(self):
+        self.parts("vm_hut.part1of2.exr", "vm_tree.part1of2.exr", "vm_hut.part2of2.exr", "vm_tree.part2of2.exr")
+        self.assertEqual(self.join("-o", "vm_<INSTANCE>.exr", "--format", "half", "--samples", "8", "--compression=none"), 0)
+        self.assertEqual(os.listdir(self.work), [])
+        self.assertEqual(self.joins(), ["--join", "vm_hut.part1of2.exr", "vm_hut.part2of2.exr", "vm_tree.part1of2.exr",
+                                        "vm_tree.part2of2.exr", "-o", "vm_<INSTANCE>.exr", "--format", "half",
+                                        "--compression=none"])
+
+
 class Refusals(unittest.TestCase):
     """Need no cluster."""
 
