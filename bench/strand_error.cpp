@@ -2,12 +2,12 @@
 // How far the models of strands are from ray tracing: for each sky the relative root mean square error over every
 // STEP-th texel of a map of strands, single scattering, against (1/pi^2) Int L(w) vis(w) sin(t, w) dw by rays at every
 // pixel of the sky. Skies are reduced to 512x256, for models and rays alike.
-// `+suns` are the same models of a sky whose suns are split off, and traced. The last figure is of a model that does
-// not exist: the part of B lit by the cosine lobe around it, the rest by the sine.
+// `+suns` are the same models of a sky whose suns are split off, and traced.
 //     strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/cfem/stack.h>
 #include <vmlight/cfem/suns.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/sun_light.h>
@@ -156,57 +156,65 @@ int main(int argc, const char** argv)
         const int x = int(strand / layout.rows) * layout.texels + int(i % layout.texels), y = int(strand % layout.rows);
         texels.push_back({ x, y, strand, StrandCurve(strands, size_t(strand)).at(layout.share_at(x)) });
     }
-    const std::array<int, 4> orders { 0, 4, 5, 8 };
-    std::vector<OIIO::ImageBuf> maps;
-    for (const int order : orders)
-        maps.push_back(bake(strands, scene, layout, order, std::atoi(argv[5])));
-    std::printf("%zu texels; relative RMSE of ao, of sh with 4, 5 and 8 bands, the same + suns, and of V and B between "
-                "two lobes\n",
+    struct Model
+    {
+        const char* name;
+        int order;
+        OIIO::ImageBuf map;
+    };
+    std::vector<Model> models { { "ao", 0, {} }, { "lobe", 0, {} }, { "sh", 4, {} }, { "sh", 5, {} }, { "sh", 8, {} } };
+    for (Model& model : models)
+        model.map = model.name == models[1].name ? models[0].map
+                                                 : bake(strands, scene, layout, model.order, std::atoi(argv[5]));
+    std::printf("%zu texels; relative RMSE of ao, lobe and sh with 4, 5 and 8 bands, each without and with suns\n",
                 texels.size());
     for (int k = 6; k < argc; ++k) {
         OIIO::ImageBuf sky;
         oiio::resize(sky, OIIO::ImageBuf(argv[k]), OIIO::ROI(0, kWidth, 0, kHeight, 0, 1, 0, 3), 0, "box");
         const std::vector<Pixel> pixels = pixels_of(sky);
+        // What the models look up: of the whole sky, and of the rest without suns.
+        struct Light
+        {
+            std::vector<OIIO::ImageBuf> lobes; // the first is what `ao` looks up
+            OIIO::ImageBuf radiance;
+        } light[2];
         CfemParams filter;
-        OIIO::ImageBuf cosine, sine, whole;
         filter.resolution = { kWidth, kHeight };
-        if (!make_radiance(whole, sky, filter, error))
-            fail(error);
-        if (!make_cfem(cosine, sky, filter))
-            fail(cosine.geterror());
         filter.kernel = "strand";
-        if (!make_cfem(sine, sky, filter))
-            fail(sine.geterror());
+        const auto prepare = [&](Light& dst, const Environment& from) {
+            CfemParams unfiltered;
+            unfiltered.resolution = filter.resolution;
+            if (!make_lobes(dst.lobes, from, filter, error) || !make_radiance(dst.radiance, from, unfiltered, error))
+                fail(error);
+        };
         SunSplit split;
         SunLight suns;
-        OIIO::ImageBuf rest_sine, rest_whole;
         const Environment environment(sky);
         if (!split.find(environment, false, error))
             fail(error);
-        CfemParams whole_filter = filter;
-        whole_filter.kernel = "cosine";
-        if (!make_cfem(rest_sine, split.rest(environment), filter)
-            || !make_radiance(rest_whole, split.rest(environment), whole_filter, error))
-            fail(error + rest_sine.geterror());
+        prepare(light[0], environment);
+        prepare(light[1], split.rest(environment));
         suns.suns = split.suns();
-        suns.roi = maps[0].roi();
+        suns.roi = models[0].map.roi();
         suns.roi.chend = 1;
         std::vector<Disc> discs;
         for (const Sun& sun : suns.suns)
             discs.push_back(sun.disc);
         int64_t sun_rays = 0;
         trace_strand_discs(suns.visibility, strands, scene, layout, discs, {}, 0, sun_rays);
-        std::vector<OIIO::ImageBuf> lit(2 * orders.size());
+        std::vector<OIIO::ImageBuf> lit(2 * models.size());
         for (size_t m = 0; m < lit.size(); ++m) {
+            const Model& model = models[m / 2];
+            const Light& from = light[m % 2];
             LightmapParams params;
-            const bool is_sh = orders[m / 2] != 0, has_suns = m % 2 == 1;
-            params.model = is_sh ? "sh" : "ao";
-            const OIIO::ImageBuf& light = is_sh ? (has_suns ? rest_whole : whole) : (has_suns ? rest_sine : sine);
-            if (!make_lightmap(lit[m], maps[m / 2], OIIO::cspan<OIIO::ImageBuf>(&light, 1), has_suns ? &suns : nullptr,
-                               params, nullptr, 0, {}))
+            params.model = model.name;
+            const OIIO::cspan<OIIO::ImageBuf> images = model.order ? OIIO::cspan<OIIO::ImageBuf>(&from.radiance, 1)
+                : params.model == "ao"                             ? OIIO::cspan<OIIO::ImageBuf>(&from.lobes[0], 1)
+                                                                   : OIIO::cspan<OIIO::ImageBuf>(from.lobes);
+            if (!make_lightmap(lit[m], model.map, images, m % 2 ? &suns : nullptr, params, nullptr, 0, {}))
                 fail(lit[m].geterror());
         }
-        std::array<double, 9> squares {};
+        std::vector<double> squares(lit.size());
         double mean = 0, noise = 0;
         for (const Texel& texel : texels) {
             // Two truths of their own noise: the product of the errors against them has none, on average.
@@ -214,24 +222,11 @@ int main(int argc, const char** argv)
                          second = traced(scene, pixels, texel.point, texel.strand, uint32_t(2 * texel.strand + 2));
             mean += (first + second) / 2;
             noise += (first - second) * (first - second) / 4;
-            float rgb[3], map[7], around[3];
+            float rgb[3];
             for (size_t m = 0; m < lit.size(); ++m) {
                 lit[m].getpixel(texel.x, texel.y, rgb, 3);
                 squares[m] += (grey(rgb) - first) * (grey(rgb) - second);
             }
-            // The part of B goes to the cosine lobe around it, which has a mean of 2/3, the rest to the sine.
-            maps[0].getpixel(texel.x, texel.y, map, 7);
-            const V3d b(map[1], map[2], map[3]);
-            const double share = std::min(1.5 * b.length(), double(map[0]));
-            float s[3] = {};
-            const auto look_up = [](const OIIO::ImageBuf& image, const V3d& w, float* color) {
-                const Imath::V2d at = latlong::position(w);
-                image.interppixel_NDC(float(at.x), float(at.y), color, OIIO::ImageBuf::WrapPeriodic);
-            };
-            look_up(sine, V3d(map[4], map[5], map[6]), s);
-            look_up(cosine, b.length() > 0 ? b.normalized() : V3d(0, 1, 0), around);
-            const double mixed = (map[0] - share) * grey(s) + share * grey(around);
-            squares[8] += (mixed - first) * (mixed - second);
         }
         const double count = double(texels.size());
         mean /= count;

@@ -5,6 +5,7 @@
 #include "strand_bake.h"
 
 #include <vmlight/cfem/radiance.h>
+#include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/model.h>
@@ -28,8 +29,8 @@ CfemParams of_strands(int width, int height)
     return params;
 }
 
-// (1/pi^2) Int L sin(t, w) dw, pixel by pixel, each in parts.
-double gathered(const Map& sky, const V3d& tangent)
+// (1/pi^2) Int L sin(t, w) dw over directions of at least this height, pixel by pixel, each in parts.
+double gathered(const Map& sky, const V3d& tangent, double lowest = -1)
 {
     constexpr int kParts = 8;
     double sum = 0;
@@ -38,8 +39,8 @@ double gathered(const Map& sky, const V3d& tangent)
         for (int pixel = 0; pixel < sky.width; ++pixel) {
             const float light = sky.at(pixel, y / kParts)[0];
             for (int x = pixel * kParts; light != 0 && x < (pixel + 1) * kParts; ++x)
-                sum += light * center(x, y, width, height).cross(tangent).length()
-                    * brute::solid_angle(y, width, height);
+                if (const V3d w = center(x, y, width, height); w.y >= lowest)
+                    sum += light * w.cross(tangent).length() * brute::solid_angle(y, width, height);
         }
     return sum / (pi * pi);
 }
@@ -78,6 +79,15 @@ OIIO::ImageBuf unfiltered(const Map& sky)
     std::string error;
     EXPECT_TRUE(make_radiance(light, image(sky), exact(sky.width, sky.height), error)) << error;
     return light;
+}
+
+/// A stack for strands.
+std::vector<OIIO::ImageBuf> strand_stack(const Map& sky, int width, int height)
+{
+    std::vector<OIIO::ImageBuf> images;
+    std::string error;
+    EXPECT_TRUE(make_cfem_stack(images, image(sky), of_strands(width, height), error)) << error;
+    return images;
 }
 
 LightmapParams model_entry(const char* name)
@@ -148,12 +158,13 @@ TEST(StrandCfem, ItsKernelIsInTheMetadata)
 
 TEST(StrandLight, AConstantEnvironmentGivesV)
 {
-    const OIIO::ImageBuf map = map_with("sh", crossing(), low_floor()), sky = unfiltered(Map(16, 8, .5f));
-    OIIO::ImageBuf light;
-    ASSERT_TRUE(make_cfem(light, image(Map(16, 8, .5f)), of_strands(16, 8)));
-    for (const char* name : { "ao", "sh" }) {
+    const OIIO::ImageBuf map = map_with("sh", crossing(), low_floor());
+    const std::vector<OIIO::ImageBuf> stack = strand_stack(Map(16, 8, .5f), 16, 8);
+    for (const char* name : { "ao", "lobe", "sh" }) {
         OIIO::ImageBuf lit;
-        ASSERT_TRUE(make_lightmap(lit, map, *name == 'a' ? light : sky, model_entry(name))) << lit.geterror();
+        LightmapParams params = model_entry(name);
+        params.skip_one_color = false;
+        ASSERT_TRUE(make_lightmap(lit, map, stack, params)) << lit.geterror();
         for (int y = 0; y < 2; ++y)
             for (int x = 0; x < 8; ++x)
                 EXPECT_NEAR(lit.getchannel(x, y, 0, 0), .5f * map.getchannel(x, y, 0, 0), 1e-6) << name;
@@ -170,9 +181,59 @@ TEST(StrandLight, AnOpenStrandHasTheLightAroundItsTangent)
     const OIIO::ImageBuf map = map_with("sh", oblique, {});
     ASSERT_TRUE(make_lightmap(ao, map, light, model_entry("ao"))) << ao.geterror();
     EXPECT_NEAR(ao.getchannel(3, 0, 0, 0), truth, 1e-3 * truth);
+    OIIO::ImageBuf lobe;
+    ASSERT_TRUE(make_lightmap(lobe, map, strand_stack(sky, 128, 64), model_entry("lobe"))) << lobe.geterror();
+    EXPECT_NEAR(lobe.getchannel(3, 0, 0, 0), ao.getchannel(3, 0, 0, 0), 1e-5 * truth);
     // Without the bands from 6 on, where the sine has less than .005.
     ASSERT_TRUE(make_lightmap(sh, map, unfiltered(sky), model_entry("sh"))) << sh.geterror();
     EXPECT_NEAR(sh.getchannel(3, 0, 0, 0), truth, .01 * truth);
+}
+
+// The moments of the light that reaches a strand are those of V and B.
+TEST(StrandLight, LobeIsExactForLightThatIsLinearInDirection)
+{
+    const V3d slope(.3, .5, -.2);
+    Map sky(128, 64);
+    for (int y = 0; y < sky.height; ++y)
+        for (int x = 0; x < sky.width; ++x)
+            std::fill_n(sky.at(x, y), 3, float(1 + slope.dot(center(x, y, sky.width, sky.height))));
+    const std::vector<OIIO::ImageBuf> stack = strand_stack(sky, 128, 64);
+    std::vector<Mesh> around = low_floor();
+    for (const bool has_wall : { false, true }) { // with it, all that is open lies to one side
+        if (has_wall)
+            around.push_back(scenes::quad(V3d(-3, -3, -.1), V3d(3, -3, -.1), V3d(3, 3, -.1), V3d(-3, 3, -.1)));
+        const OIIO::ImageBuf map = map_with("vector", crossing(), around);
+        OIIO::ImageBuf lit;
+        ASSERT_TRUE(make_lightmap(lit, map, stack, model_entry("auto"))) << lit.geterror();
+        EXPECT_EQ(lit.spec().get_string_attribute("vmlight:model"), "lobe");
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 8; ++x) {
+                float texel[7];
+                map.getpixel(x, y, texel, 7);
+                const V3d b(texel[1], texel[2], texel[3]);
+                EXPECT_EQ(b.length() > .5 * double(texel[0]), has_wall) << x << " " << y; // no light around the tangent
+                EXPECT_NEAR(double(lit.getchannel(x, y, 0, 0)), double(texel[0]) + slope.dot(b), 5e-4) << x << " " << y;
+            }
+    }
+}
+
+TEST(StrandLight, AboveAFloorLobeIsOffByLessThanHalfAsMuchAsAo)
+{
+    const Strands low = straight({ { V3d(-.1, 0, 0), V3d(.1, 0, 0) } }, .001);
+    const std::vector<Mesh> floor { scenes::quad(V3d(-500, -.01, 500), V3d(500, -.01, 500), V3d(500, -.01, -500),
+                                                 V3d(-500, -.01, -500)) };
+    const Map sky = uneven_sky();
+    const double truth = gathered(sky, V3d(1, 0, 0), 0);
+    const std::vector<OIIO::ImageBuf> stack = strand_stack(sky, 64, 32);
+    const OIIO::ImageBuf map = strand_map(low, floor, rays(1024));
+    double off[2];
+    for (const bool is_lobe : { false, true }) {
+        OIIO::ImageBuf lit;
+        ASSERT_TRUE(make_lightmap(lit, map, stack, model_entry(is_lobe ? "lobe" : "ao"))) << lit.geterror();
+        off[is_lobe] = std::abs(double(lit.getchannel(3, 0, 0, 0)) - truth) / truth;
+    }
+    EXPECT_GT(off[0], .1);
+    EXPECT_LT(off[1], .5 * off[0]);
 }
 
 TEST(StrandLight, ModelsAndLightOfSurfacesAreRefused)
@@ -185,7 +246,8 @@ TEST(StrandLight, ModelsAndLightOfSurfacesAreRefused)
     for (const ModelEntry& entry : model_entries()) {
         if (entry.strand_rank > 0)
             continue;
-        EXPECT_THAT(strand_refusal(map, strands, entry.name), testing::HasSubstr("use one of ao, sh")) << entry.name;
+        EXPECT_THAT(strand_refusal(map, strands, entry.name), testing::HasSubstr("use one of ao, lobe, sh"))
+            << entry.name;
     }
     EXPECT_NE(strand_refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
     EXPECT_NE(strand_refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
@@ -302,9 +364,9 @@ TEST_F(StrandStage, ALightmapFiltersTheEnvironmentByTheKernelOfItsMap)
     LightmapRecipe light;
     light.vismap = folder / "hair.vismap";
     light.environment = folder / "studio.exr";
+    light.lightmap_params.model = "ao";
     OIIO::ImageBuf own, given;
     ASSERT_TRUE(make_image(own, light)) << own.geterror();
-    EXPECT_EQ(own.spec().get_string_attribute("vmlight:model"), "ao");
     folder.write("strand.cfem", "environment = \"studio.exr\"\nkernel = \"strand\"\n");
     light.environment.clear();
     light.cfem = folder / "strand.cfem";
@@ -320,13 +382,21 @@ TEST_F(StrandStage, ALightmapFiltersTheEnvironmentByTheKernelOfItsMap)
     EXPECT_NE(given.geterror().find("a visibility map of strands"), std::string::npos) << given.geterror();
 }
 
-TEST_F(StrandStage, StacksAreOfSurfaces)
+TEST_F(StrandStage, AStackForStrandsIsTakenForTheirMapsAlone)
 {
-    CfemRecipe filter;
-    filter.environment = folder / "studio.exr";
-    filter.cfem_params.kernel = "strand";
-    OIIO::ImageBuf light;
-    filter.stack = true;
-    EXPECT_FALSE(make_image(light, filter));
-    EXPECT_EQ(light.geterror(), "stack: not with the kernel strand");
+    folder.write("hair.vismap", "mesh = \"hair.tfx\"\nradius = \"0.05:0.01\"\nsamples = 16\n");
+    LightmapRecipe light;
+    light.vismap = folder / "hair.vismap";
+    light.environment = folder / "studio.exr";
+    OIIO::ImageBuf own, given;
+    ASSERT_TRUE(make_image(own, light)) << own.geterror();
+    EXPECT_EQ(own.spec().get_string_attribute("vmlight:model"), "lobe");
+    folder.write("strand.cfem", "environment = \"studio.exr\"\nkernel = \"strand\"\nstack = true\n");
+    light.environment.clear();
+    light.cfem = folder / "strand.cfem";
+    ASSERT_TRUE(make_image(given, light)) << given.geterror();
+    EXPECT_EQ(std::memcmp(own.localpixels(), given.localpixels(), own.spec().image_bytes()), 0);
+    light.vismap = folder.write("spot.vismap", "mesh = \"spot.obj\"\nresolution = 16\nsamples = 4\n");
+    EXPECT_FALSE(make_image(given, light));
+    EXPECT_THAT(given.geterror(), testing::HasSubstr("makecfem --kernel cosine"));
 }

@@ -173,9 +173,11 @@ TEST_F(StrandSunStage, AStoredMapIsGivenItsFiles)
     EXPECT_THAT(refused(), testing::HasSubstr("does not store its mesh"));
 }
 
-TEST_F(StrandSunStage, TheModelAoHasThemToo)
+TEST_F(StrandSunStage, OtherModelsHaveThemToo)
 {
     folder.write("hair.vismap", "mesh = \"hair.tfx\"\nradius = \"0.05:0.01\"\nsamples = 16\n");
     light.suns = "auto";
+    EXPECT_EQ(lit(light).spec().get_string_attribute("vmlight:model"), "lobe+suns");
+    light.lightmap_params.model = "ao";
     EXPECT_EQ(lit(light).spec().get_string_attribute("vmlight:model"), "ao+suns");
 }

@@ -26,8 +26,8 @@ bool filter_sine(std::vector<double>& rgb, const Size& resolution, const Environ
 }
 
 constexpr FilterKernel kKernels[] = {
-    { kCosineKernel, "(1/pi) max(0, cos): for the normals of surfaces", cosine_eigenvalue, filter_cosine, true },
-    { kStrandKernel, "(1/pi^2) sin: for the tangents of strands", sine_eigenvalue, filter_sine, false },
+    { kCosineKernel, "(1/pi) max(0, cos): for the normals of surfaces", cosine_eigenvalue, filter_cosine },
+    { kStrandKernel, "(1/pi^2) sin: for the tangents of strands", sine_eigenvalue, filter_sine },
 };
 
 } // namespace

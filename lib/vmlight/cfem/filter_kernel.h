@@ -20,8 +20,6 @@ struct FilterKernel
     /// CfemParams::filter `exact`: filter the rows of `read`. False if `read` or `progress` stopped it.
     bool (*filter)(std::vector<double>& rgb, const Size& resolution, const EnvironmentGrid& grid, const ReadRow& read,
                    int nthreads, const Progress& progress);
-    /// Whether stacks are made of it.
-    bool has_stack;
 };
 
 /// The table.

@@ -74,8 +74,8 @@ bool LitStrands::light(const SceneLight& light, const LightmapParams& given, con
         return false;
     const OIIO::ImageBuf& map = m_maps[m_basis].at(kFirstUdim);
     if (!choose_model(model, params, map.spec(), true, error)
-        || (model.light == ModelLight::cfem && !m_sine.initialized()
-            && !filter_for_strands(m_sine, light, options.threads, error)))
+        || (model.light != ModelLight::radiance && m_filtered.empty()
+            && !filter_for_strands(m_filtered, light, options.threads, error)))
         return false;
     const Stopwatch timer;
     const bool has_suns = m_recipe.trace.suns != "off" && !light.suns.empty();
@@ -86,7 +86,7 @@ bool LitStrands::light(const SceneLight& light, const LightmapParams& given, con
     params.model = model.name;
     OIIO::ImageBuf& lightmap = m_lightmaps[kFirstUdim];
     const OIIO::cspan<OIIO::ImageBuf> filtered
-        = model.light == ModelLight::cfem ? OIIO::cspan<OIIO::ImageBuf>(&m_sine, 1) : light.filtered;
+        = model.light == ModelLight::radiance ? light.filtered : OIIO::cspan<OIIO::ImageBuf>(m_filtered);
     if (!make_lightmap(lightmap, map, filtered, has_suns ? &m_suns.light() : nullptr, params, nullptr, options.threads,
                        {})) {
         error = oiio::error_line(lightmap);

@@ -38,7 +38,7 @@ private:
 
     StrandObject m_object;
     std::unique_ptr<StrandScene> m_scene;
-    OIIO::ImageBuf m_sine; // the light filtered for the model `ao`
+    std::vector<OIIO::ImageBuf> m_filtered; // the light, by filter_for_strands()
     StrandSuns m_suns;
     const std::vector<float> m_all {}; // every texel counts
     bool m_has_warned = false;

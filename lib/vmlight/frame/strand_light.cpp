@@ -27,15 +27,21 @@ std::string strand_light_fault(const SceneLight& light, const std::string& path)
         : format("\"{}\": strands need the environment itself, or a stack of makecfem", path);
 }
 
-bool filter_for_strands(OIIO::ImageBuf& dst, const SceneLight& light, int nthreads, std::string& error)
+bool filter_for_strands(std::vector<OIIO::ImageBuf>& dst, const SceneLight& light, int nthreads, std::string& error)
 {
-    const OIIO::ImageSpec& spec = light.filtered.back().spec();
+    const OIIO::ImageBuf& environment = light.filtered.back();
     CfemParams params;
     params.kernel = kStrandKernel;
-    params.resolution = { spec.width, spec.height };
-    if (!make_cfem(dst, light.filtered.back(), params, nthreads))
-        error = oiio::error_line(dst);
-    return error.empty();
+    params.resolution = { environment.spec().width, environment.spec().height };
+    dst.assign(light.filtered.begin(), light.filtered.begin() + kStackLevels);
+    OIIO::ImageBuf around;
+    if (!make_cfem(around, environment, params, nthreads)) {
+        error = oiio::error_line(around);
+        return false;
+    }
+    around.specmod() = describe_cfem_level(environment.spec(), params, 0);
+    dst[0] = std::move(around);
+    return true;
 }
 
 bool StrandSuns::trace(const StrandObject& object, const StrandScene& scene, const VismapRecipe& recipe,

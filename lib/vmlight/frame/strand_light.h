@@ -12,6 +12,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <string>
+#include <vector>
 
 namespace vmlight {
 
@@ -21,9 +22,9 @@ std::string strand_model(const std::string& model);
 /// Why no strands, which were read from `path`, can be lit by `light`, or "": it is a filtered map without the rest.
 std::string strand_light_fault(const SceneLight& light, const std::string& path);
 
-/// The light of a stack filtered for strands, which the model `ao` looks up. False, with the reason in `error`, if it
-/// cannot be filtered.
-bool filter_for_strands(OIIO::ImageBuf& dst, const SceneLight& light, int nthreads, std::string& error);
+/// The lobes of a stack as one for strands has them, which the models `ao` and `lobe` look up: the first is filtered
+/// again. False, with the reason in `error`, if it cannot be filtered.
+bool filter_for_strands(std::vector<OIIO::ImageBuf>& dst, const SceneLight& light, int nthreads, std::string& error);
 
 /// The suns that texels of a map of strands see, traced for each rotation.
 class StrandSuns

@@ -2,6 +2,7 @@
 #include <vmlight/lightmap/lobe_lookup.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/image/channels.h>
 #include <vmlight/lightmap/cfem_lookup.h>
 
 namespace vmlight {
@@ -24,6 +25,21 @@ void set_knot(LobeLookup& dst, int knot, int64_t place, const float* texel)
         std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * ((knot - 1) * texels + place) + 3)]);
     if (knot + 1 < kLobeKnots)
         std::copy_n(texel, 3, &dst.texels[size_t(kLobeFloats * (knot * texels + place))]);
+}
+
+// The knots that the first level of a stack would fill.
+void fill_first_knots(LobeLookup& dst, int64_t texels)
+{
+    const double share = (stack_lobe(0) - stack_lobe(1)) / (stack_lobe(2) - stack_lobe(1));
+    for (int64_t i = 0; i < texels; ++i) {
+        const float *hemisphere = &dst.texels[size_t(kLobeFloats * (texels + i))],
+                    *narrower = &dst.texels[size_t(kLobeFloats * (3 * texels + i))];
+        float between[3];
+        for (int c = 0; c < 3; ++c)
+            between[c] = float(double(hemisphere[c]) + share * (double(narrower[c]) - double(hemisphere[c])));
+        set_knot(dst, 0, i, hemisphere);
+        set_knot(dst, kCfemKnot, i, between);
+    }
 }
 
 std::string level_fault(const OIIO::ImageSpec& first, const OIIO::ImageSpec& spec, int level)
@@ -71,6 +87,7 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
     dst.pitch = spec.width + 2;
     const int64_t texels = int64_t(dst.pitch) * (dst.height + 2);
     dst.texels.resize(kLobeFloats * size_t(texels) * (kLobeKnots - 1) + 2);
+    const bool is_of_strands = kernel_of(spec) == kStrandKernel;
     for (int level = 0; level < kStackLevels; ++level) {
         CfemLookup map;
         if (!prepare_cfem(map, levels[level], error)) {
@@ -80,13 +97,15 @@ bool prepare_lobes(LobeLookup& dst, OIIO::cspan<OIIO::ImageBuf> levels, std::str
         dst.largest = std::max(dst.largest, map.largest);
         if (level == 0)
             std::copy_n(map.brightest, 4, dst.brightest);
-        for (int64_t i = 0; i < texels; ++i) {
+        for (int64_t i = 0; i < texels && !(is_of_strands && level == 0); ++i) {
             const float* texel = &map.texels[4 * size_t(i)];
             set_knot(dst, knot_of(level), i, texel);
             if (level == 0)
                 set_knot(dst, 0, i, &map.texels[4 * size_t(map.mean_texel())]);
         }
     }
+    if (is_of_strands)
+        fill_first_knots(dst, texels);
     return true;
 }
 

@@ -4,6 +4,9 @@
 /// Its levels are knots, sorted by r: knot 0, r = 0, is the mean of the CFEM over the sphere; knot 1 the hemisphere,
 /// knot 2 the CFEM, and from there on the lobes narrow. Light is linear in r between knots, so that its first moment is
 /// right at every r: light a + b.w is filtered to a + r b.d.
+///
+/// The first level of a stack for strands is no lobe. There, knot 0 is the hemisphere too, and knot 2 lies between its
+/// neighbours.
 #pragma once
 
 #include <vmlight/cfem/stack.h>

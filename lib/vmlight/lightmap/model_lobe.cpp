@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/lightmap/model_lobe.h>
 
+#include <vmlight/image/channels.h>
 #include <vmlight/lightmap/lookup_kernel.h>
+#include <vmlight/lightmap/model_strand_lobe.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vmlight/lightmap/model_lobe.cpp"
@@ -152,8 +154,18 @@ struct LobeShader : ModelShader
 
 } // namespace
 
+std::vector<std::string> lobe_model_channels(const OIIO::ImageSpec& vismap)
+{
+    std::vector<std::string> names { kVismapChannels.begin(), kVismapChannels.end() };
+    if (kernel_of(vismap) == kStrandKernel)
+        names.insert(names.end(), kTangentChannels.begin(), kTangentChannels.end());
+    return names;
+}
+
 std::unique_ptr<ModelShader> prepare_lobe(const ModelInput& input, std::string& error)
 {
+    if (kernel_of(input.light[0].spec()) == kStrandKernel)
+        return prepare_strand_lobe(input, error);
     auto shader = std::make_unique<LobeShader>();
     shader->setup = input.setup;
     if (!prepare_lobes(shader->lobes, input.light, error))

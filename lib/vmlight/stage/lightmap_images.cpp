@@ -34,7 +34,7 @@ PixelSourcePointer open_light(PixelSourcePointer& environment, const LightmapRec
     filter.layout = recipe.layout;
     filter.cfem_params = recipe.cfem_params;
     filter.stack = model.light != ModelLight::cfem;
-    if (!filter.stack) // what is read of a stack for strands is not filtered
+    if (model.light != ModelLight::radiance) // which is not filtered
         filter.cfem_params.kernel = kernel_of(vismap);
     filter.suns = recipe.suns == "off" ? "off" : "auto";
     return open_source(filter, error);

@@ -46,7 +46,8 @@ bool MapTextures::load(const OIIO::ImageBuf& vismap, const std::vector<float>& c
     width = spec.width;
     height = spec.height;
     std::array<int, 4> axis { -1, -1, -1, -1 };
-    const auto& axis_channels = kernel_of(spec) == kStrandKernel ? kTangentChannels : kNormalChannels;
+    is_of_strands = kernel_of(spec) == kStrandKernel;
+    const auto& axis_channels = is_of_strands ? kTangentChannels : kNormalChannels;
     for (size_t c = 0; c < axis_channels.size(); ++c)
         axis[c] = spec.channelindex(axis_channels[c]);
     const std::vector<std::string> names = has_sh(spec) ? sh_model_channels(spec) : std::vector<std::string>();

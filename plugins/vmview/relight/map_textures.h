@@ -19,6 +19,7 @@ struct MapTextures
     int width = 0, height = 0;
     /// Harmonics of a texel, V and B among them; 4 without any others.
     int harmonics = 4;
+    bool is_of_strands = false;
 
     /// Load a map, float and in memory.
     ///

@@ -72,6 +72,8 @@ bool RelightPass::run(LitTexture& dst, const MapTextures& map, const LightTextur
         for (int c = 0; c < 3; ++c)
             brightest[c] = light.brightest[c] * gain * kAboveRounding;
         program.set("brightest", brightest[0], brightest[1], brightest[2]);
+        program.set("is_of_strands", int(map.is_of_strands));
+        program.set("around", 3, map.is_of_strands ? light.cfem : m_none);
     } else if (params.model != "sh") {
         program.set("cfem", 1, light.cfem);
         program.set("uses_normal", int(params.model == "ao"));

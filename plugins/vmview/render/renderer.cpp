@@ -87,8 +87,8 @@ bool Renderer::filter_for_strands(std::string& error)
 {
     if (m_strand_light.cfem)
         return true;
-    std::vector<OIIO::ImageBuf> filtered(1);
-    return vmlight::filter_for_strands(filtered[0], m_light->light, 0, error) && m_strand_light.load(filtered, error);
+    std::vector<OIIO::ImageBuf> filtered;
+    return vmlight::filter_for_strands(filtered, m_light->light, 0, error) && m_strand_light.load(filtered, error);
 }
 
 bool Renderer::relight(int slot, const LightmapParams& params, std::string& error, size_t figure)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The model lobe: lightmap/model_lobe.cpp and lobe_lookup.h.
+// The model lobe: lightmap/model_lobe.cpp and lobe_lookup.h; of strands model_strand_lobe.cpp.
 uniform sampler2DArray lobes; // a layer for each knot
+uniform bool is_of_strands;
+uniform sampler2D around; // the light around the tangents of strands
 uniform vec3 brightest;
 
 const int kKnots = 10, kCfemKnot = 2;
@@ -29,9 +31,25 @@ vec3 lobe(Lookup at, int knot)
                     texelFetch(lobes, ivec3(at.texel + ivec2(1, 1), knot), 0).rgb);
 }
 
+// The light around the tangent that is `part` of 1 visible.
+vec3 along_strand(float part)
+{
+    precise float total = max(part * gain, 0.0);
+    Lookup at = look(texelFetch(map, ivec3(ivec2(gl_FragCoord.xy), 1), 0).xyz, total);
+    return bilinear(at, texelFetch(around, at.texel, 0).rgb, texelFetch(around, at.texel + ivec2(1, 0), 0).rgb,
+                    texelFetch(around, at.texel + ivec2(0, 1), 0).rgb,
+                    texelFetch(around, at.texel + ivec2(1, 1), 0).rgb);
+}
+
 void main()
 {
     vec4 seen = texelFetch(map, ivec3(ivec2(gl_FragCoord.xy), 0), 0);
+    precise float rest = 0.0;
+    if (is_of_strands) {
+        precise float part = min(seen.x, 2.0 * look(seen.yzw, 0.0).length);
+        rest = seen.x - part;
+        seen.x = part;
+    }
     precise float total = max(seen.x * gain, 0.0);
     Lookup at = look(seen.yzw, total);
     float position = lobe_position(at.length / max(seen.x, kSmallest));
@@ -39,5 +57,10 @@ void main()
     precise float share = position - float(knot);
     vec3 wide = lobe(at, knot), narrow = lobe(at, knot + 1);
     precise vec3 light = wide + share * (narrow - wide);
-    put(min(light, brightest));
+    light = min(light, brightest);
+    if (is_of_strands) {
+        precise vec3 all = light + along_strand(rest);
+        light = min(all, brightest);
+    }
+    put(light);
 }

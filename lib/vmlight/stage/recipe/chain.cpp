@@ -2,7 +2,6 @@
 #include <vmlight/stage/recipe/chain.h>
 
 #include <vmlight/base/format.h>
-#include <vmlight/cfem/filter_kernel.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
@@ -110,12 +109,7 @@ std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)
 {
     if (recipe.environment.empty())
         return missing("environment", chain);
-    const FilterKernel* const kernel = find_filter_kernel(recipe.cfem_params.kernel);
-    const char* const key = "stack";
-    return !recipe.stack || !kernel || kernel->has_stack
-        ? ""
-        : with_location(recipe, key, chain,
-                        format("{}not with the kernel {}", chain.empty() ? "stack: " : "", recipe.cfem_params.kernel));
+    return "";
 }
 
 std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
