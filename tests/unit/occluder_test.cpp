@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <memory>
 #include <random>
 
 using namespace vmlight;
@@ -63,6 +65,41 @@ TEST(Occluder, AllMeshesCast)
     EXPECT_TRUE(scene.blocked(V3f(0), V3f(0, 0, 1)));
     EXPECT_TRUE(scene.blocked(V3f(5, 0, 0), V3f(0, 0, 1)));
     EXPECT_FALSE(scene.blocked(V3f(3, 0, 0), V3f(0, 0, 1)));
+}
+
+// Its triangles are not copied; those of other meshes are, and may go.
+TEST(Occluder, AMeshThatLastsIsMetAsAnyOther)
+{
+    const Mesh ball = icosphere(2);
+    auto other = std::make_unique<Mesh>(floor_facing_z(1, V3d(0, 0, 2)));
+    Occluder lasting, copied;
+    std::string error;
+    ASSERT_TRUE(
+        lasting.build({ &ball, other.get() }, {}, 1, error, CutoutMode::micromaps, {}, InstanceMode::many, &ball))
+        << error;
+    ASSERT_TRUE(copied.build({ &ball, other.get() }, {}, 1, error)) << error;
+    other.reset();
+    EXPECT_EQ(lasting.triangles()[0].triangles, ball.triangles.data());
+    EXPECT_NE(copied.triangles()[0].triangles, ball.triangles.data());
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> place(-1.5f, 1.5f);
+    for (int i = 0; i < 500; ++i) {
+        std::array<V3f, kPacketSize> origins, directions;
+        std::array<float, kPacketSize> lengths;
+        lengths.fill(kNoLimit);
+        for (int k = 0; k < kPacketSize; ++k) {
+            origins[k] = V3f(place(random), place(random), 3 * place(random));
+            directions[k] = V3f(place(random), place(random), place(random)).normalized();
+        }
+        std::array<NearestHit, kPacketSize> hits, expected;
+        lasting.find_nearest(origins.data(), directions.data(), lengths.data(), kPacketSize, hits.data());
+        copied.find_nearest(origins.data(), directions.data(), lengths.data(), kPacketSize, expected.data());
+        for (int k = 0; k < kPacketSize; ++k) {
+            ASSERT_EQ(hits[k].mesh, expected[k].mesh);
+            ASSERT_EQ(hits[k].triangle, expected[k].triangle);
+            ASSERT_EQ(hits[k].distance, expected[k].distance);
+        }
+    }
 }
 
 TEST(Occluder, NothingBlocksInAnEmptyScene)

@@ -11,6 +11,9 @@
 #include <limits>
 #include <vector>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -120,6 +123,13 @@ int64_t available_memory(const std::string& root)
 {
     const int64_t swap = free_swap(root);
     return std::min({ left_by_machine(root, swap), left_by_groups(root, swap), left_by_limits(root) });
+}
+
+void release_freed_memory()
+{
+#if defined(__GLIBC__)
+    ::malloc_trim(0);
+#endif
 }
 
 std::string memory_shortage(const OIIO::ImageSpec& spec, double more)

@@ -17,6 +17,10 @@ namespace vmlight {
 /// @param root     prefix of /proc and /sys, for tests
 int64_t available_memory(const std::string& root = "");
 
+/// Give memory that was freed back to the system, as far as the allocator allows, which otherwise keeps some for later.
+/// Takes milliseconds. Nothing but with glibc.
+void release_freed_memory();
+
 /// "" if an image of `spec` fits in memory as float, with `more` bytes besides it, else the reason why not. Counts no
 /// more, so that it never refuses a job that could have run.
 std::string memory_shortage(const OIIO::ImageSpec& spec, double more = 0);

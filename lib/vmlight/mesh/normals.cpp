@@ -19,7 +19,8 @@ using Imath::V3f;
 // `most` will differ.
 template <class CornerNormal> void rebuild(Mesh& mesh, size_t most, const CornerNormal& corner_normal)
 {
-    UniqueIndex<VertexKey> vertices(std::min(most, mesh.triangles.size() * 3));
+    most = std::min(most, mesh.triangles.size() * 3);
+    UniqueIndex<VertexKey> vertices(most, std::min(most, mesh.positions.size()));
     const bool has_uvs = !mesh.uvs.empty();
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::array<uint32_t, 3> old = mesh.triangles[t]; // corner_normal() needs all three

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/bake_scene.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/opacity_hash.h>
@@ -16,6 +17,9 @@
 
 namespace vmlight {
 namespace {
+
+// Of fewer, what reading them has left behind does not count.
+constexpr size_t kManyTriangles = size_t(1) << 20;
 
 int64_t count_tiny(const Mesh& mesh, const SceneFrame& frame)
 {
@@ -152,7 +156,13 @@ bool BakeScene::trace(const std::vector<Mesh>& occluders, int nthreads, std::str
     m_diagonal = (Imath::V3d(box.high) - Imath::V3d(box.low)).length() / m_frame.scale;
     const auto occluder = std::make_shared<Occluder>();
     m_occluder = occluder;
-    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step, m_choice.instances);
+    size_t triangles = 0;
+    for (const Mesh* caster : casters)
+        triangles += caster ? caster->triangles.size() : 0;
+    if (triangles >= kManyTriangles)
+        release_freed_memory(); // of reading: the most is held while Embree builds
+    return occluder->build(casters, m_frame, nthreads, error, m_choice.cutouts, at_step, m_choice.instances,
+                           m_mesh.get());
 }
 
 bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_ptr<const Mesh> part, const Mesh& rest,
@@ -192,9 +202,10 @@ const CasterReach* BakeScene::culled_occluder() const
 
 size_t BakeScene::bytes() const
 {
-    // Embree needs about 100 bytes per triangle, and with what is kept here of its place 700 per instance.
+    // Embree needs about 80 bytes per triangle, of which the mesh has 12, and with what is kept here of its place 700
+    // per instance.
     return (m_whole ? m_whole->bytes()
-                    : 100 * size_t(m_triangles) + size_t(kBytesOfSpan) * size_t(m_spans)
+                    : 80 * size_t(m_triangles) - 12 * m_mesh->triangles.size() + size_t(kBytesOfSpan) * size_t(m_spans)
                     + 700 * size_t(m_occluder->instances().instances) + m_occluder->cutouts().bytes)
         + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
 }

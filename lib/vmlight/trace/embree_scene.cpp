@@ -160,22 +160,30 @@ void Scene::start(Part& part, bool is_compact)
     rtcSetSceneFlags(part.scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kFilteredByQuery | size));
 }
 
-bool Scene::attach(Part& part, const Mesh& mesh, unsigned id)
+// The triangles of a mesh that lasts are Embree's too, 12 bytes each. Vertices are not: it reads floats.
+bool Scene::attach(Part& part, const Mesh& mesh, unsigned id, bool is_lasting)
 {
     if (mesh.triangles.empty())
         return true; // Embree refuses empty buffers
     RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f),
                                              mesh.positions.size());
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
-                                            mesh.triangles.size());
+    const auto* indices = mesh.triangles.data();
+    if (is_lasting) {
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices, 0, sizeof(*indices),
+                                   mesh.triangles.size());
+    } else {
+        auto* copies = static_cast<std::array<uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(*indices), mesh.triangles.size()));
+        if (copies)
+            std::copy(mesh.triangles.begin(), mesh.triangles.end(), copies);
+        indices = copies;
+    }
     const bool good = vertices && indices;
     if (good) {
         for (size_t v = 0; v < mesh.positions.size(); ++v)
             static_cast<V3f*>(vertices)[v] = part.frame.to_scene(mesh.positions[v]);
-        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(uint32_t));
-        part.buffers.push_back(
-            { static_cast<V3f*>(vertices), static_cast<std::array<uint32_t, 3>*>(indices), mesh.triangles.size() });
+        part.buffers.push_back({ static_cast<V3f*>(vertices), indices, mesh.triangles.size() });
         rtcSetGeometryUserData(geometry, &part.buffers.back());
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(part.scene, geometry, id);
@@ -231,7 +239,7 @@ bool Scene::attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, 
 
 std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
                                     std::string& error, const std::vector<std::unique_ptr<const Cutouts>>& cutouts,
-                                    const std::vector<PlacedMeshes>& placed)
+                                    const std::vector<PlacedMeshes>& placed, const Mesh* lasting)
 {
     auto scene = std::make_unique<Scene>();
     scene->m_placements = std::make_unique<Placements>();
@@ -252,7 +260,7 @@ std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, cons
         const size_t first = whole.buffers.size();
         good = id < cutouts.size() && cutouts[id]
             ? scene->attach_sorted(whole, *meshes[id], *cutouts[id], unsigned(id), unsigned(meshes.size() + id))
-            : scene->attach(whole, *meshes[id], unsigned(id));
+            : scene->attach(whole, *meshes[id], unsigned(id), meshes[id] == lasting);
         if (good && meshes[id]->strands)
             good = scene->attach_strands(*meshes[id]->strands, unsigned(2 * meshes.size() + id), error);
         for (size_t i = first; i < whole.buffers.size(); ++i)

@@ -78,10 +78,12 @@ public:
     ///
     /// @param cutouts  of each mesh, nullptr where all of it is opaque; or none: no mesh is cut out. Must outlive the
     ///                 scene. The mixed triangles of mesh i are the geometry meshes.size() + i
+    /// @param lasting  the one of `meshes` that outlives the scene and does not change meanwhile, so that its triangles
+    ///                 need not be copied; nullptr: none does
     static std::unique_ptr<Scene> build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,
                                         std::string& error,
                                         const std::vector<std::unique_ptr<const Cutouts>>& cutouts = {},
-                                        const std::vector<PlacedMeshes>& placed = {});
+                                        const std::vector<PlacedMeshes>& placed = {}, const Mesh* lasting = nullptr);
 
     RTCScene handle() const { return m_whole.scene; }
     /// Those of each geometry that is no instance.
@@ -109,7 +111,7 @@ private:
     };
     void start(Part& part, bool is_compact);
     bool attach_strands(const Strands& strands, unsigned id, std::string& error);
-    bool attach(Part& part, const Mesh& mesh, unsigned id);
+    bool attach(Part& part, const Mesh& mesh, unsigned id, bool is_lasting = false);
     bool attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, unsigned id, unsigned mixed_id);
     bool attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& triangles,
                      const Cutouts* cutouts, unsigned id);

@@ -120,7 +120,7 @@ Occluder::Occluder() = default;
 Occluder::~Occluder() = default;
 
 bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
-                     CutoutMode mode, const StepListener& at_step, InstanceMode instances)
+                     CutoutMode mode, const StepListener& at_step, InstanceMode instances, const Mesh* lasting)
 {
     std::vector<const Mesh*> traced;
     std::vector<embree::PlacedMeshes> placed;
@@ -146,7 +146,7 @@ bool Occluder::build(const std::vector<const Mesh*>& meshes, const SceneFrame& f
         }
     }
     begin_step(at_step, "build");
-    m_scene = embree::Scene::build(traced, frame, nthreads, error, m_cutouts, placed);
+    m_scene = embree::Scene::build(traced, frame, nthreads, error, m_cutouts, placed, lasting);
     if (!m_scene)
         return false;
     m_instances = m_scene->instances();

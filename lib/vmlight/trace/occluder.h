@@ -82,9 +82,12 @@ public:
     ///
     /// Mesh::instances are met as if they were triangles of their mesh, but for the rounding of their transforms: of
     /// some 1e-6 of the frame's size.
+    ///
+    /// @param lasting  the one of `meshes` that outlives this and does not change meanwhile, so that its triangles need
+    ///                 not be copied; nullptr: none does
     bool build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads, std::string& error,
                CutoutMode mode = CutoutMode::micromaps, const StepListener& at_step = {},
-               InstanceMode instances = InstanceMode::many);
+               InstanceMode instances = InstanceMode::many, const Mesh* lasting = nullptr);
 
     /// Clear the bit of each ray that a triangle blocks within `length` (in scene units) of `origin`, which must be off
     /// the surface: see SurfacePoint. Not checked: that build() succeeded.

@@ -108,7 +108,7 @@ bool StrandScene::build(const Strands& strands, const std::vector<Mesh>& occlude
 
 size_t StrandScene::bytes() const
 {
-    return size_t(kBytesOfSpan) * m_rounds->curves.spans().size() + 100 * size_t(m_triangles); // as BakeScene::bytes()
+    return size_t(kBytesOfSpan) * m_rounds->curves.spans().size() + 80 * size_t(m_triangles); // as BakeScene::bytes()
 }
 
 void StrandScene::clear_blocked(RayFan& fan, const V3f& origin, float radius, uint32_t own, float length) const

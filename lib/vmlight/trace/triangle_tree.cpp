@@ -21,22 +21,29 @@ constexpr double kSlack = 1e-5, kOffsets = 4 * kRayOffset;
 TriangleTree::TriangleTree(const std::vector<TracedTriangles>& meshes)
     : m_meshes(meshes)
 {
-    std::vector<Triangle> all;
+    size_t count = 0;
+    for (const TracedTriangles& mesh : meshes)
+        count += mesh.count;
+    if (count == 0)
+        return;
+    m_triangles.reserve(count);
     for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh)
         for (uint32_t i = 0; i < meshes[mesh].count; ++i)
-            all.push_back({ mesh, i });
-    if (all.empty())
-        return;
+            m_triangles.push_back({ mesh, i });
     std::vector<V3f> middles;
-    for (const Triangle& triangle : all)
+    middles.reserve(count);
+    for (const Triangle& triangle : m_triangles)
         middles.push_back(corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2));
-    std::vector<uint32_t> order(all.size());
+    std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
-    m_triangles = all;
-    m_nodes.reserve(4 * all.size() / kLeaf + 1);
-    build(middles, order, 0, all.size());
-    for (size_t i = 0; i < all.size(); ++i)
-        m_triangles[i] = all[order[i]];
+    m_nodes.reserve(4 * count / kLeaf + 1);
+    build(middles, order, 0, count);
+    std::vector<V3f>().swap(middles); // before the triangles are there twice
+    std::vector<Triangle> sorted;
+    sorted.reserve(count);
+    for (const uint32_t i : order)
+        sorted.push_back(m_triangles[i]);
+    m_triangles = std::move(sorted);
 }
 
 // Halves of equal number: at most 32 levels deep.

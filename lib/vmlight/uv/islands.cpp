@@ -33,12 +33,10 @@ private:
 // Vertices with the same texture coordinates have the same number.
 std::vector<uint32_t> number_points(const Mesh& mesh, size_t& count)
 {
-    UniqueIndex<Imath::V2f> points(mesh.uvs.size());
-    std::vector<uint32_t> point_of_vertex;
-    point_of_vertex.reserve(mesh.uvs.size());
-    for (const Imath::V2f& uv : mesh.uvs)
-        point_of_vertex.push_back(points.index_of(uv + Imath::V2f(0))); // -0 becomes 0
-    count = points.keys().size();
+    std::vector<uint32_t> first;
+    const auto point = [&](size_t vertex) { return mesh.uvs[vertex] + Imath::V2f(0); }; // -0 becomes 0
+    std::vector<uint32_t> point_of_vertex = number_alike(mesh.uvs.size(), point, first);
+    count = first.size();
     return point_of_vertex;
 }
 

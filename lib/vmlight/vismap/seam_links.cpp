@@ -39,18 +39,13 @@ struct SeamEdge
 // Vertices at the same position have the same number.
 std::vector<uint32_t> number_positions(const Mesh& mesh, std::vector<bool>& has_seam)
 {
-    UniqueIndex<V3d> points(mesh.positions.size());
-    std::vector<uint32_t> numbers;
-    std::vector<size_t> first; // vertex of each
-    for (size_t v = 0; v < mesh.positions.size(); ++v) {
-        const uint32_t number = points.index_of(mesh.positions[v] + V3d(0)); // -0 becomes 0
-        numbers.push_back(number);
-        if (number == first.size()) {
-            first.push_back(v);
-            has_seam.push_back(false);
-        } else if (mesh.uvs[v] != mesh.uvs[first[number]])
-            has_seam[number] = true;
-    }
+    std::vector<uint32_t> first; // vertex of each
+    const auto position = [&](size_t vertex) { return mesh.positions[vertex] + V3d(0); }; // -0 becomes 0
+    std::vector<uint32_t> numbers = number_alike(mesh.positions.size(), position, first);
+    has_seam.assign(first.size(), false);
+    for (size_t v = 0; v < numbers.size(); ++v)
+        if (const uint32_t other = first[numbers[v]]; other != v && mesh.uvs[v] != mesh.uvs[other])
+            has_seam[numbers[v]] = true;
     return numbers;
 }
 

@@ -51,6 +51,7 @@ public:
         : m_file(dst)
         , m_header(read_header(bytes))
         , m_body(bytes, m_header)
+        , m_body_bytes(bytes.size() - std::min(m_header.body, bytes.size()))
     {
         dst.textures = m_header.textures;
         for (const Element& element : m_header.elements)
@@ -67,8 +68,10 @@ private:
     // Read the numbers of a property into m_numbers. Returns the error, or "".
     std::string read_property(const Element& element, const Property& property, size_t row);
     std::string read_element(const Element& element);
+    size_t rows_of(const Element& element) const;
     std::string begin_vertices(const Element& element, const Roles& roles);
     void add_vertex();
+    void reserve_faces(const Element& element);
     std::string add_corners(const Element& element, size_t row);
     std::string add_face(size_t row);
     void add_strips();
@@ -76,6 +79,7 @@ private:
     File& m_file;
     const Header m_header;
     Body m_body;
+    const size_t m_body_bytes;
     size_t m_vertex_count = 0;
     bool m_has_normals = false, m_has_uvs = false;
     std::vector<TextNumber> m_numbers; // of a property
@@ -123,6 +127,16 @@ std::string Parser::read_property(const Element& element, const Property& proper
     return "";
 }
 
+// Rows of an element, but no more than the file can hold, whatever its header says. Reserved for, as vectors that grow
+// hold all twice while they move.
+size_t Parser::rows_of(const Element& element) const
+{
+    size_t least = 0;
+    for (const Property& property : element.properties)
+        least += m_header.format == "ascii" ? 1 : property.count ? property.count->bytes : property.type->bytes;
+    return std::min(element.count, m_body_bytes / std::max<size_t>(1, least));
+}
+
 std::string Parser::begin_vertices(const Element& element, const Roles& roles)
 {
     const auto has = [&](Role role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
@@ -132,6 +146,11 @@ std::string Parser::begin_vertices(const Element& element, const Roles& roles)
     m_has_uvs = has(kU) && has(kV);
     for (size_t i = 0; i < roles.size(); ++i)
         m_file.has_doubles |= roles[i] <= kZ && element.properties[i].type->bytes == 8;
+    const size_t rows = rows_of(element);
+    m_file.positions.reserve(rows);
+    m_file.rounded_positions.reserve(rows);
+    m_file.normals.reserve(m_has_normals ? rows : 0);
+    m_file.uvs.reserve(m_has_uvs ? rows : 0);
     return "";
 }
 
@@ -144,6 +163,14 @@ void Parser::add_vertex()
         m_file.normals.push_back(V3f(n[kNormalX].rounded, n[kNormalY].rounded, n[kNormalZ].rounded));
     if (m_has_uvs)
         m_file.uvs.push_back(V2f(n[kU].rounded, n[kV].rounded));
+}
+
+// As if all faces had as many corners as the first. Each corner takes a byte of the file at least.
+void Parser::reserve_faces(const Element& element)
+{
+    const size_t rows = rows_of(element);
+    m_file.ends.reserve(rows);
+    m_file.corners.reserve(std::min(rows * m_corners.size(), m_body_bytes));
 }
 
 std::string Parser::add_corners(const Element& element, size_t row)
@@ -223,6 +250,8 @@ std::string Parser::read_element(const Element& element)
             if (roles[i] == kTexture && m_numbers[0].value >= 0 && m_numbers[0].value < double(m_file.textures.size()))
                 m_texture = int32_t(m_numbers[0].value);
         }
+        if (is_face && row == 0)
+            reserve_faces(element);
         if (is_vertex)
             add_vertex();
         else if (is_face)
