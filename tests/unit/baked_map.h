@@ -2,6 +2,7 @@
 /// A visibility map in memory, for tests that look at its texels.
 #pragma once
 
+#include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <gtest/gtest.h>
@@ -27,6 +28,11 @@ public:
     BakedMap(const Mesh& mesh, const std::vector<Mesh>& occluders, const VismapParams& params, int nthreads = 0)
     {
         EXPECT_TRUE(make_vismap(m_image, mesh, occluders, params, &report, nthreads)) << m_image.geterror();
+    }
+    /// Of a scene that several maps share: to build one may take longer than its rays.
+    BakedMap(const BakeScenePointer& scene, const VismapParams& params)
+    {
+        EXPECT_TRUE(make_vismap(m_image, scene, params, &report, 0, {})) << m_image.geterror();
     }
     Texel at(int x, int y) const
     {

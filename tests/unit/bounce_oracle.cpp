@@ -4,24 +4,44 @@
 #include <cmath>
 
 namespace vmlight::oracle {
+namespace {
+
+// To where a ray meets a triangle; infinite if it does not.
+double length_to(const std::array<V3d, 3>& triangle, const V3d& origin, const V3d& direction)
+{
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto& [a, b, c] = triangle;
+    const V3d side1 = b - a, side2 = c - a, p = direction.cross(side2);
+    const double scale = side1.dot(p);
+    if (scale == 0)
+        return kNone;
+    const V3d s = (origin - a) / scale, q = s.cross(side1);
+    const double u = s.dot(p), v = direction.dot(q), t = side2.dot(q);
+    return u >= 0 && v >= 0 && u + v <= 1 && t > 1e-9 ? t : kNone;
+}
+
+} // namespace
+
+bool Bounce::is_open(const V3d& origin, const V3d& direction) const
+{
+    for (const auto& triangle : m_triangles)
+        if (length_to(triangle, origin, direction) < m_reach)
+            return false;
+    return true;
+}
 
 Met Bounce::nearest(const V3d& origin, const V3d& direction) const
 {
     Met met;
     for (size_t i = 0; i < m_triangles.size(); ++i) {
-        const auto& [a, b, c] = m_triangles[i];
-        const V3d side1 = b - a, side2 = c - a, p = direction.cross(side2);
-        const double scale = side1.dot(p);
-        if (scale == 0)
-            continue;
-        const V3d s = (origin - a) / scale, q = s.cross(side1);
-        const double u = s.dot(p), v = direction.dot(q), t = side2.dot(q);
-        if (u >= 0 && v >= 0 && u + v <= 1 && t > 1e-9 && t < met.distance && t < m_reach) {
+        const double t = length_to(m_triangles[i], origin, direction);
+        if (t < met.distance && t < m_reach) {
             met.distance = t;
             met.triangle = i;
-            met.normal = side1.cross(side2).normalized();
+            met.normal = (m_triangles[i][1] - m_triangles[i][0]).cross(m_triangles[i][2] - m_triangles[i][0]);
         }
     }
+    met.normal.normalize();
     met.normal *= met.normal.dot(direction) > 0 ? -1 : 1;
     return met;
 }
@@ -31,7 +51,7 @@ double Bounce::direct(const V3d& at, const V3d& normal, int n)
     double sum = 0;
     for (int i = 0; i < n * n; ++i) {
         const V3d way = direction(normal, i % n, i / n, n);
-        sum += nearest(at, way).distance < m_reach ? 0 : m_sky(way);
+        sum += is_open(at, way) ? m_sky(way) : 0;
     }
     return sum / (n * n);
 }

@@ -42,6 +42,7 @@ public:
     }
 
     Met nearest(const V3d& origin, const V3d& direction) const;
+    bool is_open(const V3d& origin, const V3d& direction) const;
 
     /// The light of the sky at a point, over pi: the mean over n x n directions, stratified.
     double direct(const V3d& at, const V3d& normal, int n);

@@ -7,6 +7,9 @@
 #include "scenes.h"
 
 #include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace vmlight::closed_forms {
 
@@ -39,10 +42,19 @@ inline double bound(double c, int samples)
     return c * std::pow(samples, -0.75);
 }
 
+inline BakeScenePointer shared_scene(const Mesh& floor, const std::vector<Mesh>& occluders)
+{
+    const auto scene = std::make_shared<BakeScene>();
+    std::string error;
+    EXPECT_TRUE(scene->build(std::make_shared<const Mesh>(floor), occluders, 0, error)) << error;
+    return scene;
+}
+
 /// The map may err by what the sampler does: 1.4 times the bound over 64 texels (4 sigma of a root mean square of 64
 /// normal numbers is 1.35), 5 / sqrt(64) of it in the mean; and by `flaw`, which the scene's facets add.
 inline void expect_truth(const Mesh& floor, const std::vector<Mesh>& occluders, const Truth& truth, double flaw = 2e-4)
 {
+    const BakeScenePointer scene = shared_scene(floor, occluders);
     for (const Rate& rate : kRates)
         for (int samples : { 16, 64, 256, 1024, 2048 })
             for (const char* measure : { "cosine", "uniform" }) {
@@ -56,7 +68,7 @@ inline void expect_truth(const Mesh& floor, const std::vector<Mesh>& occluders, 
                 if (uniform)
                     wanted
                         = { truth.uniform_visibility, truth.direction * (truth.uniform_visibility / truth.visibility) };
-                const MapError error = error_of(BakedMap(floor, occluders, params), wanted);
+                const MapError error = error_of(BakedMap(scene, params), wanted);
                 const double v = bound(uniform ? rate.uniform_visibility : rate.visibility, samples);
                 const double d = bound(uniform ? rate.uniform_direction : rate.direction, samples);
                 SCOPED_TRACE(testing::Message() << rate.sampler << ", " << samples << " rays, " << measure);

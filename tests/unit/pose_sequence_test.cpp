@@ -155,7 +155,7 @@ TEST(PoseSequence, AnOccluderThatComesIntoReachIsTracedOnlyWhereItIsSeen)
 TEST(PoseSequence, ErrorsDoNotAddUp)
 {
     // Each pose is within the error of the one before; the last is far from the first.
-    const VismapParams params = pose_params(192, 128);
+    const VismapParams params = pose_params(128, 128);
     PoseSequence sequence(kSequenceError);
     const auto wall = [](double x) { return placed(box(V3d(-0.1, 0, -2), V3d(0.1, 2, 2), false), 1, V3d(x, 0, 0)); };
     std::unique_ptr<PoseMap> last;
@@ -183,7 +183,7 @@ TEST(PoseSequence, OfTexelsThatStandStillOnlyRaysAreTracedThatMayMeetWhatMoves)
 {
     for (const char* basis : { "vector", "sh", "cells" })
         for (const bool ground : { false, true }) {
-            VismapParams params = pose_params(160, 64);
+            VismapParams params = pose_params(112, 64);
             params.basis = basis;
             params.ground = ground;
             params.ground_height = -0.5;

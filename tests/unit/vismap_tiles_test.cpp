@@ -128,10 +128,11 @@ TEST(VismapTiles, EachBasisIsThatOfTheWholeMapInTheMarginToo)
             const std::vector<float> whole = whole_map(params);
             EXPECT_EQ(tiled_map(tiles, baker, 1, 2), whole) << basis << " " << margin;
             // A margin of packed numbers is copied, so that they stay whole.
-            for (size_t i = 0; i < whole.size(); ++i)
-                if (basis != std::string("sh") && i % size_t(channels) >= 7) {
-                    ASSERT_EQ(whole[i], std::floor(whole[i])) << i;
-                }
+            int64_t broken = 0;
+            for (size_t texel = 0; basis != std::string("sh") && texel < whole.size(); texel += size_t(channels))
+                for (size_t i = texel + 7; i < texel + size_t(channels); ++i)
+                    broken += whole[i] != std::floor(whole[i]);
+            EXPECT_EQ(broken, 0) << basis << " " << margin;
         }
 }
 
@@ -150,6 +151,8 @@ TEST(VismapTiles, ReconstructedTilesAreThoseOfTheWholeMap)
             VismapTiles tiles(baker, margin);
             const std::vector<float> whole = whole_map(params);
             EXPECT_EQ(tiled_map(tiles, baker, 1, 3), whole) << basis << " " << margin;
+            if (margin != 0)
+                continue;
             params.reconstruct = "off";
             EXPECT_NE(whole_map(params), whole);
         }

@@ -68,12 +68,19 @@ class View:
     def wait_until_ready(self):
         """It has the keyboard, and draws. A window that is not there yet takes neither the keyboard nor a key."""
         end = time.monotonic() + LIMIT
+        pressed = 0
         while not os.path.exists(self.path(1)):
             if time.monotonic() > end:
                 raise AssertionError("waited in vain for a screenshot")
             self.xdotool("windowfocus", self.window)
             self.xdotool("key", "F12")
-            time.sleep(1)
+            pressed += 1
+            answer = time.monotonic() + 1
+            while not os.path.exists(self.path(1)) and time.monotonic() < answer:
+                time.sleep(0.05)
+        if pressed == 1:
+            self.count = 1
+            return
         # Keys that it has not come to yet would pass for those that are pressed later.
         quiet = time.monotonic()
         while time.monotonic() < quiet + 3:
@@ -245,7 +252,7 @@ class Window(unittest.TestCase):
         for stop in ("quit", signal.SIGTERM):
             view = self.view(DATA + "/spot.obj", DATA + "/studio_small_03.hdr", "--resolution", "4096", "--samples",
                              "65536", "--basis", "cells")
-            time.sleep(3)
+            time.sleep(1)
             self.assertIsNone(view.process.poll())
             begin = time.monotonic()
             if stop == "quit":

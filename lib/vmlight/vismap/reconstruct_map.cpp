@@ -74,13 +74,10 @@ bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContext
 {
     struct Worker
     {
-        std::unique_ptr<Reconstruction> reconstruction;
+        std::unique_ptr<Reconstruction> reconstruction; // from its first tile on: its planes are large
         int64_t dark = 0;
     };
     std::vector<Worker> workers(static_cast<size_t>(worker_count(nthreads)));
-    for (Worker& worker : workers)
-        worker.reconstruction
-            = std::make_unique<Reconstruction>(baker.params(), baker.error().pattern_error, baker.error().error_scale);
     const int width = baker.width(), height = baker.height();
     const auto channels = size_t(baker.channels());
     const size_t pitch = size_t(width) * channels;
@@ -102,9 +99,13 @@ bool reconstruct_map(const VismapBaker& baker, float* pixels, const TexelContext
         const int left = int(tile % baker.tiles_across()) * kTileSize;
         const int top = int(tile / baker.tiles_across()) * kTileSize;
         const size_t first = size_t(top) * pitch + size_t(left) * channels;
-        if (is_covered(left, top))
-            worker.dark += reconstruct_tile(*worker.reconstruction, baker, int(tile), find, &raw[first], pixels + first,
-                                            pitch, contexts);
+        if (!is_covered(left, top))
+            return;
+        if (!worker.reconstruction)
+            worker.reconstruction = std::make_unique<Reconstruction>(baker.params(), baker.error().pattern_error,
+                                                                     baker.error().error_scale);
+        worker.dark += reconstruct_tile(*worker.reconstruction, baker, int(tile), find, &raw[first], pixels + first,
+                                        pitch, contexts);
     };
     if (!parallel_items(int64_t(baker.tiles_across()) * baker.tiles_down(), nthreads, work, progress))
         return false;
