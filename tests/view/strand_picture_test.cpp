@@ -246,7 +246,7 @@ TEST_F(StrandView, IsLitAsInFrames)
     Request request = request_for(groom, "kloppenheim_05.hdr");
     request.light.rotate = { 20, 130, -70 };
     const Assets assets = loaded(request);
-    for (const char* model : { "ao", "sh" }) {
+    for (const char* model : { "ao", "lobe", "sh" }) {
         request.light.model = model;
         Renderer renderer;
         ASSERT_NO_FATAL_FAILURE(show_lit(renderer, assets, request));
