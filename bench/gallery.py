@@ -38,8 +38,8 @@ def pictures(assets, folder):
           "2048", "--elevation", "30", "--azimuth", "30"], (0.22, 0.32, 0.4)),
         ([asset("hair/ratboy_body_atlas.obj"), asset("hdri/kloppenheim_05_1k.hdr"), "--object", asset("hair/ratboy_mohawk.tfx"),
           "--radius", "0.0012:0.0004", "--suns", "auto", "--elevation", "10", "--azimuth", "35", *BROWN], (0.28, 0.02, 0.48)),
-        ([head, asset("hdri/studio_small_03_1k.hdr"), "--object", hair, "--radius", groom.RADIUS, "--samples", "32", "--suns",
-          "auto", "--elevation", "8", "--azimuth", "140", *BROWN], (0.2, 0.2, 0.6)),
+        ([head, asset("hdri/studio_small_03_1k.hdr"), "--object", hair, "--radius", groom.RADIUS, "--samples", "32",
+          "--elevation", "8", "--azimuth", "140", *BROWN], (0.2, 0.2, 0.6)),
         ([head, asset("hdri/st_fagans_interior_1k.hdr"), "--object", hair, "--radius", groom.RADIUS, "--samples", "32",
           "--elevation", "25", "--azimuth", "35", *BROWN], (0.2, 0.2, 0.6)),
     ]

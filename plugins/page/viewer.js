@@ -137,6 +137,7 @@ class Viewer {
     if (model === "lobe") {
       bind(1, gl.TEXTURE_2D_ARRAY, light.lobes, "lobes");
       gl.uniform3fv(at("brightest"), light.brightest);
+      bind(2, gl.TEXTURE_2D, this.none, "around"); // of strands, which pages do not show
     } else {
       bind(1, gl.TEXTURE_2D, light.cfem, "cfem");
       gl.uniform1i(at("uses_normal"), model === "ao" ? 1 : 0);
