@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernel of `sh`: every instruction set against the scalar form, and that against sums in double.
+#include "instruction_sets.h"
+
 #include <vmlight/lightmap/brightest_light.h>
 #include <vmlight/lightmap/harmonic_sums.h>
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <cfloat>
 #include <cmath>
@@ -67,14 +68,7 @@ TEST(ShadeHarmonics, ATexelIsTheSumOfItsNumbersTimesTheLights)
 TEST(ShadeHarmonics, EveryInstructionSetGivesTheBitsOfTheScalarForm)
 {
     std::mt19937 random(7);
-    int tested = 0;
-    for (int64_t target = 1; target; target = int64_t(uint64_t(target) << 1)) {
-        hwy::SetSupportedTargetsForTest(0);
-        if (!(hwy::SupportedTargets() & target))
-            continue;
-        ++tested;
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    with_each_instruction_set([&](const char* instruction_set) {
         for (const int bands : { 3, 4, 5, 8 }) {
             const HarmonicLight light = random_light(bands, random);
             const std::vector<float> texels = random_texels(light.count, random);
@@ -83,13 +77,10 @@ TEST(ShadeHarmonics, EveryInstructionSetGivesTheBitsOfTheScalarForm)
                 EXPECT_EQ(shade_harmonics_scalar(light, kPlainSetup, texels.data(), count, expected.data()),
                           shade_harmonics(light, kPlainSetup, texels.data(), count, got.data()));
                 EXPECT_EQ(std::memcmp(expected.data(), got.data(), 4 * expected.size()), 0)
-                    << hwy::TargetName(target) << ", " << bands << " bands, " << count << " texels";
+                    << instruction_set << ", " << bands << " bands, " << count << " texels";
             }
         }
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_GT(tested, 0);
+    });
 }
 
 // In each lane, and in each number of a texel.
