@@ -29,7 +29,7 @@ using Lanes = hn::FixedTag<float, 4>;
 using Sums = hn::Vec<Lanes>;
 
 // Four floats of the texel in each block of lanes.
-HWY_INLINE Sums LoadRows(const float* texel, size_t stride)
+HWY_INLINE Sums LoadRows(const float* texel, [[maybe_unused]] size_t stride)
 {
     const hn::FixedTag<float, 4> four;
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
