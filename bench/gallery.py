@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The picture of docs/large_scenes.md: a city block, a building, a landscape and its forest, a groom and a head of hair.
+"""The picture of docs/large_scenes.md: a city block, a building, a landscape, and a groom on a body.
 
     bench/gallery.py ASSETS OUT.png     (executables in $VMLIGHT_BIN or build/release/bin)
 
@@ -12,8 +12,6 @@ import subprocess
 import sys
 import tempfile
 
-import groom
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 CONFIG = os.path.join(HERE, "../configs/ocio/config.ocio")
@@ -21,14 +19,11 @@ WIDTH, HEIGHT = 480, 360
 BROWN = ["--strand-color", "0.25,0.12,0.05", "--strand-specular", "0.06", "--strand-exponent", "60"]
 
 
-def pictures(assets, folder):
+def pictures(assets):
     """Of each: the words of vmframes, and the part of the picture that is kept, as x, y, width over the whole's."""
     def asset(name):
         return os.path.join(assets, name)
 
-    hair, head = os.path.join(folder, "groom.tfx"), os.path.join(folder, "head.obj")
-    groom.write_tfx(hair, 50000, 28)
-    groom.write_ball(head)
     return [
         ([asset("meshes/delft_block_atlas_rd.obj"), asset("hdri/kloppenheim_05_1k.hdr"), "--up", "z", "--suns", "auto",
           "--resolution", "4096", "--elevation", "35", "--azimuth", "30"], (0.37, 0.52, 0.32)),
@@ -38,10 +33,6 @@ def pictures(assets, folder):
           "2048", "--elevation", "30", "--azimuth", "30"], (0.22, 0.32, 0.4)),
         ([asset("hair/ratboy_body_atlas.obj"), asset("hdri/kloppenheim_05_1k.hdr"), "--object", asset("hair/ratboy_mohawk.tfx"),
           "--radius", "0.0012:0.0004", "--suns", "auto", "--elevation", "10", "--azimuth", "35", *BROWN], (0.28, 0.02, 0.48)),
-        ([head, asset("hdri/studio_small_03_1k.hdr"), "--object", hair, "--radius", groom.RADIUS, "--samples", "32",
-          "--elevation", "8", "--azimuth", "140", *BROWN], (0.2, 0.2, 0.6)),
-        ([head, asset("hdri/st_fagans_interior_1k.hdr"), "--object", hair, "--radius", groom.RADIUS, "--samples", "32",
-          "--elevation", "25", "--azimuth", "35", *BROWN], (0.2, 0.2, 0.6)),
     ]
 
 
@@ -61,8 +52,8 @@ def main():
         sys.exit("usage: bench/gallery.py ASSETS OUT.png")
     with tempfile.TemporaryDirectory() as folder:
         cells = [render(words, part, os.path.join(folder, str(i)))
-                 for i, (words, part) in enumerate(pictures(sys.argv[1], folder))]
-        subprocess.run(["oiiotool", "--colorconfig", CONFIG, "--nosoftwareattrib", *cells, "--mosaic:pad=4", "3x2",
+                 for i, (words, part) in enumerate(pictures(sys.argv[1]))]
+        subprocess.run(["oiiotool", "--colorconfig", CONFIG, "--nosoftwareattrib", *cells, "--mosaic:pad=4", "2x2",
                         "--ociodisplay:from=ACEScg", "sRGB - Display", "ACES 1.0 - SDR Video", "--ch", "R,G,B", "-d", "uint8",
                         "-o", sys.argv[2]], check=True)
 
