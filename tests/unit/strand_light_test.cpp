@@ -265,6 +265,8 @@ TEST(StrandLight, ModelsAndLightOfSurfacesAreRefused)
             << entry.name;
     }
     EXPECT_NE(strand_refusal(map, surfaces, "ao").find("makecfem --kernel strand"), std::string::npos);
+    EXPECT_THAT(strand_refusal(map, surfaces, "lobe"), testing::HasSubstr("makecfem --kernel strand --stack"));
+    EXPECT_THAT(strand_refusal(map, strands, "lobe"), testing::HasSubstr("makecfem --kernel strand --stack"));
     EXPECT_NE(strand_refusal(map, sky, "sh").find("--basis sh"), std::string::npos);
     // And the other way round.
     OIIO::ImageBuf wall;

@@ -130,8 +130,8 @@ std::string kernel_fault(const ShadingModel& model, const OIIO::ImageSpec& visma
     return model.light == ModelLight::radiance || map == filtered
         ? ""
         : format("filtered by the kernel {}, and the visibility map needs {}: filter the environment by makecfem "
-                 "--kernel {}",
-                 filtered, map, map);
+                 "--kernel {}{}",
+                 filtered, map, map, model.light == ModelLight::lobes ? " --stack" : "");
 }
 
 } // namespace vmlight

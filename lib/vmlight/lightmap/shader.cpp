@@ -62,9 +62,10 @@ OIIO::cspan<OIIO::ImageBuf> images_for(const ShadingModel& model, OIIO::cspan<OI
     } else if (model.light == ModelLight::lobes) {
         if (is_stack(light)) // the last image of a whole stack is not a lobe
             return light.subspan(0, std::min<ptrdiff_t>(kStackLevels, light.size()));
-        error = format("model {} needs a stack of lobes, not a single cosine-filtered environment; make one with "
-                       "makecfem --stack",
-                       model.name);
+        const bool is_of_strands = kernel_of(light[0].spec()) == kStrandKernel;
+        error = format("model {} needs a stack of lobes, not a single {}-filtered environment; make one with "
+                       "makecfem {}--stack",
+                       model.name, is_of_strands ? "sine" : "cosine", is_of_strands ? "--kernel strand " : "");
     } else {
         if (radiance)
             return { radiance, 1 };
