@@ -164,8 +164,9 @@ int main(int argc, const char** argv)
     };
     std::vector<Model> models { { "ao", 0, {} }, { "lobe", 0, {} }, { "sh", 4, {} }, { "sh", 5, {} }, { "sh", 8, {} } };
     for (Model& model : models)
-        model.map = model.name == models[1].name ? models[0].map
-                                                 : bake(strands, scene, layout, model.order, std::atoi(argv[5]));
+        if (&model != &models[1])
+            model.map = bake(strands, scene, layout, model.order, std::atoi(argv[5]));
+    models[1].map = models[0].map; // both read V and B
     std::printf("%zu texels; relative RMSE of ao, lobe and sh with 4, 5 and 8 bands, each without and with suns\n",
                 texels.size());
     for (int k = 6; k < argc; ++k) {

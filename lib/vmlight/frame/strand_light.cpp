@@ -33,13 +33,13 @@ bool filter_for_strands(std::vector<OIIO::ImageBuf>& dst, const SceneLight& ligh
     CfemParams params;
     params.kernel = kStrandKernel;
     params.resolution = { environment.spec().width, environment.spec().height };
-    dst.assign(light.filtered.begin(), light.filtered.begin() + kStackLevels);
     OIIO::ImageBuf around;
     if (!make_cfem(around, environment, params, nthreads)) {
         error = oiio::error_line(around);
         return false;
     }
     around.specmod() = describe_cfem_level(environment.spec(), params, 0);
+    dst.assign(light.filtered.begin(), light.filtered.begin() + kStackLevels);
     dst[0] = std::move(around);
     return true;
 }

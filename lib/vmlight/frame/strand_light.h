@@ -23,7 +23,7 @@ std::string strand_model(const std::string& model);
 std::string strand_light_fault(const SceneLight& light, const std::string& path);
 
 /// The lobes of a stack as one for strands has them, which the models `ao` and `lobe` look up: the first is filtered
-/// again. False, with the reason in `error`, if it cannot be filtered.
+/// again. False, with the reason in `error`, if it cannot be filtered; `dst` is then as it was.
 bool filter_for_strands(std::vector<OIIO::ImageBuf>& dst, const SceneLight& light, int nthreads, std::string& error);
 
 /// The suns that texels of a map of strands see, traced for each rotation.

@@ -107,9 +107,7 @@ std::string recipe_fault(const VismapRecipe& recipe, const RecipeChain& chain)
 
 std::string recipe_fault(const CfemRecipe& recipe, const RecipeChain& chain)
 {
-    if (recipe.environment.empty())
-        return missing("environment", chain);
-    return "";
+    return recipe.environment.empty() ? missing("environment", chain) : "";
 }
 
 std::string recipe_fault(const LightmapRecipe& recipe, const RecipeChain& chain)
