@@ -88,13 +88,16 @@ Point32 Lattice::point(uint32_t index) const
 Point32 Lattice::shift(uint32_t x, uint32_t y, uint32_t seed) const
 {
     const Point32 start = texel_hash(0, 0, seed);
-    // A step from point to point leaves the points as they are, but not which of them is first: what tells the rays of
-    // a texel apart by their number (lanes of packets) must not find the same one at the same place in all texels.
-    const Point32 step = point(uint32_t((uint64_t(texel_hash(x, y, seed).u) * m_count) >> 32));
     const int64_t s = uint32_t(start.u + x * kStep[0][0] + y * kStep[0][1]);
     const int64_t t = uint32_t(start.v + x * kStep[1][0] + y * kStep[1][1]);
     const auto along = [&](size_t c) { return uint32_t((s * m_first[c] + t * m_second[c]) / int64_t(m_count)); };
-    return { step.u + along(0), step.v + along(1) };
+    return { along(0), along(1) };
+}
+
+Point32 Lattice::reduce(Point32 shift) const
+{
+    const Point32 step = point(uint32_t((uint64_t(shift.u) * m_count) >> 32));
+    return { shift.u - step.u, shift.v - step.v };
 }
 
 } // namespace vmlight

@@ -30,6 +30,10 @@ public:
     /// like those of reconstruction about half (tests/unit/lattice_test.cpp).
     Point32 shift(uint32_t x, uint32_t y, uint32_t seed) const;
 
+    /// A shift to the same points, if not in the same order, that moves them along u by less than the step from point
+    /// to point: none passes the end of the interval.
+    Point32 reduce(Point32 shift) const;
+
 private:
     uint32_t m_count, m_generator = 1;
     std::array<int64_t, 2> m_first { 1, 0 }, m_second { 0, 1 }; // edges of a cell, in 1 / count

@@ -2,8 +2,7 @@
 #include <vmlight/math/sampling.h>
 
 #include <vmlight/math/latlong.h>
-#include <vmlight/math/lattice.h>
-#include <vmlight/math/sampling_kernel.h>
+#include <vmlight/math/point_pattern.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,34 +15,11 @@ using Imath::V3d;
 using Imath::V3f;
 using kernel::reverse_bits;
 
-uint64_t spread_bits(uint32_t x)
+// Of a distribution by the cosine.
+V3d cosine_direction(const Point32& p)
 {
-    uint64_t s = x;
-    s = (s | (s << 16)) & 0x0000ffff0000ffffull;
-    s = (s | (s << 8)) & 0x00ff00ff00ff00ffull;
-    s = (s | (s << 4)) & 0x0f0f0f0f0f0f0f0full;
-    s = (s | (s << 2)) & 0x3333333333333333ull;
-    return (s | (s << 1)) & 0x5555555555555555ull;
-}
-
-uint64_t morton(const Point32& p)
-{
-    return spread_bits(p.u) << 1 | spread_bits(p.v);
-}
-
-// Choosing a lattice takes time: only where its points are asked for, and once.
-std::unique_ptr<const Lattice> lattice_of(const std::string& sampler, int count)
-{
-    return sampler == "fibonacci" ? std::make_unique<Lattice>(uint32_t(count)) : nullptr;
-}
-
-std::vector<Point32> ordered_points(const std::string& sampler, int count, const Lattice* lattice)
-{
-    std::vector<Point32> points;
-    for (uint32_t i = 0; i < uint32_t(count); ++i)
-        points.push_back(lattice ? lattice->point(i) : sampler == "halton" ? halton_point(i) : sobol_point(i));
-    sort_for_packets(points);
-    return points;
+    const double u = p.u * 0x1p-32, azimuth = 2 * latlong::pi * (p.v * 0x1p-32), radius = std::sqrt(u);
+    return { radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1 - u) };
 }
 
 } // namespace
@@ -64,12 +40,6 @@ Point32 sobol_point(uint32_t index)
         if (rest & 1)
             v ^= direction;
     return { reverse_bits(index), v };
-}
-
-void sort_for_packets(std::vector<Point32>& points)
-{
-    std::stable_sort(points.begin(), points.end(),
-                     [](const Point32& a, const Point32& b) { return morton(a) < morton(b); });
 }
 
 uint32_t owen_scramble(uint32_t fraction, uint32_t seed)
@@ -97,46 +67,40 @@ TangentFrame::TangentFrame(const V3f& n)
     bitangent = V3f(b, sign + n.y * n.y * a, -n.y);
 }
 
-std::vector<Point32> sample_points(const std::string& sampler, int count)
-{
-    return ordered_points(sampler, count, lattice_of(sampler, count).get());
-}
-
 SamplePattern::SamplePattern(const std::string& sampler, int count, bool uniform)
-    : m_count(count)
+    : m_points(std::make_unique<PointPattern>(sampler, count, cosine_direction))
     , m_uniform(uniform)
-    , m_owen(sampler == "sobol")
-    , m_lattice(lattice_of(sampler, count))
 {
-    std::vector<Point32> points = ordered_points(sampler, count, m_lattice.get());
-    const size_t padded = size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize;
-    points.resize(padded, points.back());
-    for (const Point32& p : points) {
-        m_u.push_back(m_owen ? reverse_bits(p.u) : p.u);
-        m_v.push_back(m_owen ? reverse_bits(p.v) : p.v);
-    }
 }
 
 SamplePattern::~SamplePattern() = default;
 
+int SamplePattern::count() const
+{
+    return m_points->count();
+}
+
 Point32 SamplePattern::texel(int x, int y, uint32_t seed) const
 {
-    return m_lattice ? m_lattice->shift(uint32_t(x), uint32_t(y), seed) : texel_hash(uint32_t(x), uint32_t(y), seed);
+    const Lattice* lattice = m_points->lattice();
+    return lattice ? lattice->shift(uint32_t(x), uint32_t(y), seed) : texel_hash(uint32_t(x), uint32_t(y), seed);
 }
 
 void SamplePattern::directions(RayFan& fan, const TangentFrame& frame, const V3f& geometric_normal, Point32 texel) const
 {
-    kernel::directions({ m_u.data(), m_v.data(), m_count, m_uniform, m_owen, texel.u, texel.v }, frame,
-                       geometric_normal, fan);
+    kernel::directions(m_points->points(texel, m_uniform), frame, geometric_normal, fan);
 }
 
 void SamplePattern::directions_scalar(RayFan& fan, const TangentFrame& frame, const V3f& geometric_normal,
                                       Point32 texel) const
 {
+    const kernel::Points points = m_points->points(texel, m_uniform);
     std::fill(fan.lanes.begin(), fan.lanes.end(), uint8_t(0));
     for (int i = 0; i < fan.packets * kPacketSize; ++i) {
-        const uint32_t u = m_owen ? reverse_bits(kernel::scramble_reversed(m_u[i], texel.u)) : m_u[i] + texel.u;
-        const uint32_t v = m_owen ? reverse_bits(kernel::scramble_reversed(m_v[i], texel.v)) : m_v[i] + texel.v;
+        const uint32_t u = points.owen ? reverse_bits(kernel::scramble_reversed(points.u[i], points.texel_u))
+                                       : points.u[i] + points.texel_u;
+        const uint32_t v = points.owen ? reverse_bits(kernel::scramble_reversed(points.v[i], points.texel_v))
+                                       : points.v[i] + points.texel_v;
         // 24 bits are exact in a float, so that u never rounds to 1.
         const double fu = (u >> 8) * 0x1p-24, azimuth = 2 * latlong::pi * ((v >> 8) * 0x1p-24);
         const double radius = std::sqrt(m_uniform ? fu * (2 - fu) : fu);
@@ -144,7 +108,7 @@ void SamplePattern::directions_scalar(RayFan& fan, const TangentFrame& frame, co
         const V3d d = V3d(frame.tangent) * (radius * std::cos(azimuth))
             + V3d(frame.bitangent) * (radius * std::sin(azimuth)) + V3d(frame.normal) * height;
         fan.x[i] = float(d.x), fan.y[i] = float(d.y), fan.z[i] = float(d.z);
-        if (i < m_count && d.dot(V3d(geometric_normal)) > 0)
+        if (i < points.count && d.dot(V3d(geometric_normal)) > 0)
             fan.lanes[i / kPacketSize] |= uint8_t(1u << i % kPacketSize);
     }
 }

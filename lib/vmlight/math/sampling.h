@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace vmlight {
 
@@ -28,9 +27,6 @@ Point32 sobol_point(uint32_t index);
 /// (the same hash).
 uint32_t owen_scramble(uint32_t fraction, uint32_t seed);
 
-/// Order points along a space-filling curve, so that the eight rays of a packet are coherent, also after scrambling.
-void sort_for_packets(std::vector<Point32>& points);
-
 /// Two independent 32-bit numbers for a texel.
 Point32 texel_hash(uint32_t x, uint32_t y, uint32_t seed);
 
@@ -42,12 +38,9 @@ struct TangentFrame
     explicit TangentFrame(const Imath::V3f& n);
 };
 
-/// The points of a sampler ("halton", "sobol" or "fibonacci"), in the order of sort_for_packets().
-std::vector<Point32> sample_points(const std::string& sampler, int count);
+class PointPattern;
 
-class Lattice;
-
-/// The directions of all texels: `count` points, in the order of sort_for_packets().
+/// The directions of all texels: `count` points, in the order of PointPattern.
 class SamplePattern
 {
 public:
@@ -56,7 +49,7 @@ public:
     SamplePattern(const std::string& sampler, int count, bool uniform);
     ~SamplePattern();
 
-    int count() const { return m_count; }
+    int count() const;
 
     /// What turns the points into those of a texel. By "fibonacci", neighbours have shifts that complement each other
     /// (Lattice::shift()); by others, independent ones.
@@ -71,12 +64,8 @@ public:
                            Point32 texel) const;
 
 private:
-    int m_count;
-    bool m_uniform, m_owen;
-    std::unique_ptr<const Lattice> m_lattice; // of "fibonacci"
-    // Padded to whole packets. Texels shift them modulo 1 (Cranley-Patterson) or Owen-scramble them (stored
-    // bit-reversed).
-    std::vector<uint32_t> m_u, m_v;
+    std::unique_ptr<const PointPattern> m_points;
+    bool m_uniform;
 };
 
 /// Sums over the directions whose lane bit is set, unweighted and weighted by the dot product with `weight_axis` (the

@@ -2,6 +2,7 @@
 #include <vmlight/math/strand_pattern.h>
 
 #include <vmlight/math/latlong.h>
+#include <vmlight/math/point_pattern.h>
 #include <vmlight/math/sampling_kernel.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 namespace vmlight {
 
 using Imath::V3f;
-using kernel::reverse_bits;
 using latlong::pi;
 
 double strand_angle(double u)
@@ -26,6 +26,12 @@ double strand_angle(double u)
 }
 
 namespace {
+
+Imath::V3d sine_direction(const Point32& p)
+{
+    const double angle = strand_angle(p.u * 0x1p-32), azimuth = 2 * pi * (p.v * 0x1p-32);
+    return { std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle) };
+}
 
 const kernel::StrandAngles& strand_angles()
 {
@@ -45,23 +51,22 @@ const kernel::StrandAngles& strand_angles()
 } // namespace
 
 StrandPattern::StrandPattern(const std::string& sampler, int count)
-    : m_count(count)
-    , m_owen(sampler == "sobol")
+    : m_points(std::make_unique<PointPattern>(sampler, count, sine_direction))
 {
-    std::vector<Point32> points = sample_points(sampler, count);
-    points.resize(size_t((count + kPacketSize - 1) / kPacketSize) * kPacketSize, points.back());
-    for (const Point32& p : points) {
-        m_u.push_back(m_owen ? reverse_bits(p.u) : p.u);
-        m_v.push_back(m_owen ? reverse_bits(p.v) : p.v);
-    }
+}
+
+StrandPattern::~StrandPattern() = default;
+
+int StrandPattern::count() const
+{
+    return m_points->count();
 }
 
 void StrandPattern::directions(RayFan& fan, const V3f& tangent, Point32 texel) const
 {
-    kernel::strand_directions({ m_u.data(), m_v.data(), m_count, false, m_owen, texel.u, texel.v }, strand_angles(),
-                              TangentFrame(tangent), fan);
+    kernel::strand_directions(m_points->points(texel, false), strand_angles(), TangentFrame(tangent), fan);
     std::fill(fan.lanes.begin(), fan.lanes.end(), uint8_t(0xff));
-    if (const int beyond = int(fan.lanes.size()) * kPacketSize - m_count; beyond > 0)
+    if (const int beyond = int(fan.lanes.size()) * kPacketSize - count(); beyond > 0)
         fan.lanes.back() = uint8_t(0xff >> beyond);
 }
 

@@ -8,8 +8,8 @@
 
 #include <Imath/ImathVec.h>
 
+#include <memory>
 #include <string>
-#include <vector>
 
 namespace vmlight {
 
@@ -24,16 +24,16 @@ public:
     /// @param sampler  "halton", "sobol" or "fibonacci"
     StrandPattern(const std::string& sampler, int count);
 
-    int count() const { return m_count; }
+    ~StrandPattern();
+
+    int count() const;
 
     /// Fill `fan` with the texel's directions, unit vectors around the unit vector `tangent`, and set the lane bits of
     /// all `count`.
     void directions(RayFan& fan, const Imath::V3f& tangent, Point32 texel) const;
 
 private:
-    int m_count;
-    bool m_owen;
-    std::vector<uint32_t> m_u, m_v; // bit-reversed if m_owen, in whole packets
+    std::unique_ptr<const PointPattern> m_points;
 };
 
 } // namespace vmlight
