@@ -88,4 +88,5 @@ def main():
                   f"peak {min(each for _, each in runs):.0f} B a triangle")
 
 
-main()
+if __name__ == "__main__":
+    main()

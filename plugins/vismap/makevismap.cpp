@@ -10,6 +10,7 @@
 #include <vmlight/cli/udim_run.h>
 #include <vmlight/mesh/export/write_mesh.h>
 #include <vmlight/stage/forecast_costs.h>
+#include <vmlight/stage/large_map.h>
 #include <vmlight/stage/mesh_list.h>
 #include <vmlight/stage/pose_report.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
@@ -132,6 +133,16 @@ int main(int argc, const char** argv)
                                               : std::string();
     });
 
+    const auto make_and_write
+        = [&](const VismapRecipe& one, const std::string& path, const MakeOptions& options, std::string& error) {
+              if (is_large_map(one, options))
+                  return write_large_map(one, path, stage.file_params(), options, error);
+              OIIO::ImageBuf vismap;
+              if (!make_image(vismap, one, options))
+                  error = oiio::error_line(vismap);
+              return error.empty() && stage.write(vismap, path, error);
+          };
+
     std::string written; // one mesh for all tiles, unless each has its own
     Forecasts forecasts;
     const auto make = [&](const auto& tile, const auto& output, const MakeOptions& given, std::string& error) {
@@ -177,10 +188,7 @@ int main(int argc, const char** argv)
                 own.answer = once(own.answer);
                 own.warn = once(own.warn);
             }
-            OIIO::ImageBuf vismap;
-            if (!make_image(vismap, poses.at(tile, i), own))
-                error = oiio::error_line(vismap);
-            if (!error.empty() || !stage.write(vismap, poses.path(output, i), error)) {
+            if (!make_and_write(poses.at(tile, i), poses.path(output, i), own, error)) {
                 if (poses.is_sequence())
                     error = own.pose + ": " + error;
                 return false;

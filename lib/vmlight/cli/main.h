@@ -116,6 +116,8 @@ public:
     bool is_form() const { return m_command.line.given_form(); }
     /// Pixel format of the output file: "float" or "half".
     const std::string& pixel_format() const { return m_command.file.format; }
+    /// How the output is stored.
+    const FileParams& file_params() const { return m_command.file; }
     /// The positional arguments.
     const std::vector<std::string>& operands() const { return m_command.line.operands; }
     /// Threads, progress, messages, and the recipe if one was given.

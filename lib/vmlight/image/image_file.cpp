@@ -5,6 +5,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/base/output_file.h>
+#include <vmlight/image/exr_output.h>
 #include <vmlight/image/file_claims.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -14,71 +15,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <map>
-#include <new>
-#include <utility>
 #include <vector>
 
 namespace vmlight {
 namespace {
 
-// OIIO's progress callback: gets a pointer, returns true to stop. A writer that was stopped reports success.
-struct WriteProgress
-{
-    const Progress& progress;
-    const OutputFile& file;
-    bool stopped = false;
-
-    static bool report(void* watch, float done)
-    {
-        WriteProgress& self = *static_cast<WriteProgress*>(watch);
-        self.stopped = self.stopped || (self.progress && !self.progress(double(done)));
-        return self.stopped || !self.file.ok();
-    }
-};
-
 bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 {
-    constexpr float kLargestHalf = 65504;
     const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
     for (size_t c = 0; c < stats.max.size(); ++c) {
         // max and min ignore infinities.
         const float worst = stats.infcount[c] > 0 ? std::numeric_limits<float>::infinity()
                                                   : std::max(std::abs(stats.max[c]), std::abs(stats.min[c]));
-        if (!(worst <= kLargestHalf)) {
-            error = format("channel {} reaches {:g}, but the maximum of half is 65504: write float",
-                           image.spec().channelnames[c], worst);
+        error = half_range_fault(image.spec().channelnames[c], worst);
+        if (!error.empty())
             return false;
-        }
     }
     return true;
-}
-
-// What keeps the file `path`, which holds `images`, from being read, or "". Reads of each image the last row or tile.
-std::string unreadable(const std::string& path, OIIO::cspan<OIIO::ImageBuf> images)
-{
-    const auto in = OIIO::ImageInput::create("openexr");
-    OIIO::ImageSpec spec;
-    if (!in || !in->open(path, spec))
-        return in ? oiio::error_line(*in) : oiio::error_line();
-    for (int i = 0; i < int(images.size()); ++i) {
-        if (!in->seek_subimage(i, 0) || OIIO::get_roi(in->spec()) != OIIO::get_roi(images[i].spec()))
-            return format("image {} of {} is not what was written", i + 1, images.size());
-        spec = in->spec();
-        const int x = spec.tile_width ? spec.x + (spec.width - 1) / spec.tile_width * spec.tile_width : spec.x;
-        const int y
-            = spec.y + (spec.tile_width ? (spec.height - 1) / spec.tile_height * spec.tile_height : spec.height - 1);
-        const int xend = spec.x + spec.width, yend = spec.y + spec.height;
-        std::vector<float> last(size_t(xend - x) * size_t(yend - y) * size_t(spec.nchannels));
-        if (!(spec.tile_width
-                  ? in->read_tiles(i, 0, x, xend, y, yend, spec.z, spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat,
-                                   last.data())
-                  : in->read_scanlines(i, 0, y, yend, spec.z, 0, spec.nchannels, OIIO::TypeFloat, last.data())))
-            return oiio::error_line(*in);
-    }
-    return "";
 }
 
 // Readers multiply colour by alpha before vmlight can decode it (PNG, TIFF, Targa), unless asked not to.
@@ -196,65 +151,21 @@ bool write_image(const OIIO::ImageBuf& image, const std::string& path, const Fil
 bool write_images(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, const FileParams& params,
                   const Progress& progress, std::string& error)
 {
-    error = output_fault(path);
-    const bool half = params.format == "half";
-    for (const OIIO::ImageBuf& image : images)
-        if (error.empty() && half && !fits_half(image, error))
-            error = format("\"{}\": {}", path, error);
-    if (!error.empty())
-        return false;
-
     std::vector<OIIO::ImageSpec> specs;
     for (const OIIO::ImageBuf& image : images) {
-        OIIO::ImageSpec& spec = specs.emplace_back(image.spec());
-        spec.set_format(half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-        spec.attribute("compression", params.compression);
-        // OIIO writes the current time unless DateTime is set.
-        spec.attribute("DateTime", "");
+        if (params.format == "half" && !fits_half(image, error)) {
+            error = format("\"{}\": {}", path, error);
+            return false;
+        }
+        specs.push_back(image.spec());
     }
-
-    OutputFile file(path);
-    const auto failed = [&](const std::string& reason) {
-        // The temporary file's name means nothing to the user.
-        error = oiio::with_path(path, OIIO::Strutil::replace(reason, file.temporary_path(), path, true));
+    ExrOutput file(path, params);
+    if (!file.open(specs, error))
         return false;
-    };
-    const auto write = [&] {
-        auto out = OIIO::ImageOutput::create("openexr");
-        if (!out)
-            return failed(oiio::error_line());
-        if (!file.ok())
-            return failed(file.reason());
-        const int count = int(specs.size());
-        if (!out->set_ioproxy(&file)
-            || !(count == 1 ? out->open(file.temporary_path(), specs[0])
-                            : out->open(file.temporary_path(), count, specs.data())))
-            return failed(oiio::error_line(*out));
-        WriteProgress watch { progress, file };
-        bool written = true;
-        for (int i = 0; i < count && written && !watch.stopped; ++i)
-            written = (i == 0 || out->open(file.temporary_path(), specs[size_t(i)], OIIO::ImageOutput::AppendSubimage))
-                && out->write_image(OIIO::TypeDesc::FLOAT, images[i].localpixels(), OIIO::AutoStride, OIIO::AutoStride,
-                                    OIIO::AutoStride, WriteProgress::report, &watch);
-        const bool closed = out->close();
-        if (watch.stopped)
-            return failed("interrupted");
-        if (file.ok() && (!written || !closed))
-            return failed(oiio::error_line(*out));
-        // OpenEXR writes its table of offsets last, from a destructor, which reports no failure; and a file of several
-        // parts by its name, of which the last buffer may be lost unseen.
-        const std::string fault = file.ok() ? unreadable(file.temporary_path(), images) : "";
-        if (!fault.empty())
-            return failed("what was written cannot be read: " + fault);
-        return file.commit() || failed(file.reason());
-    };
-    try {
-        return write();
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& exception) { // OpenEXR 3.4 throws where a file grows too large
-        return failed(exception.what());
-    }
+    for (int i = 0; i < int(specs.size()); ++i)
+        if (!file.write_image(i, static_cast<const float*>(images[i].localpixels()), progress, error))
+            return false;
+    return file.commit(error);
 }
 
 } // namespace vmlight

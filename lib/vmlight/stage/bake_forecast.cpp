@@ -8,6 +8,7 @@
 #include <vmlight/effects/bake_facts.h>
 #include <vmlight/math/difference.h>
 #include <vmlight/stage/bake_switches.h>
+#include <vmlight/stage/large_map.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/vismap/forecast.h>
@@ -180,8 +181,7 @@ void report_forecast(const BakeForecast& forecast, const VismapRecipe& recipe, c
            + (recipe.time_budget > 0 && forecast.bake_seconds > recipe.time_budget ? recipe.time_budget
                                                                                    : forecast.bake_seconds));
     const double write = poses * write_seconds(spec, options.threads), read = poses * taken.read;
-    // The map, and what the file's writer holds of it.
-    const double bytes = expected_bytes(spec, 1.5) + reconstruct_bytes(recipe.vismap_params);
+    const double bytes = expected_bytes(map_bytes(recipe, options));
     const double start = options.forecasts ? options.forecasts->start(taken) : start_seconds(taken);
     const double seconds = start + read + bake + margin + write;
     if (options.forecasts)

@@ -66,10 +66,10 @@ std::string Forecasts::text() const
     return m_count > 1 ? format("expected in all: {:.2f} s; {:.0f} MB of memory", m_seconds, m_bytes / 1e6) : "";
 }
 
-double expected_bytes(const OIIO::ImageSpec& spec, double images)
+double expected_bytes(double more)
 {
     const double held = double(OIIO::Sysutil::memory_used(true));
-    return std::max(peak_bytes(), held + values_of(spec) * sizeof(float) * images);
+    return std::max(peak_bytes(), held + more);
 }
 
 } // namespace vmlight

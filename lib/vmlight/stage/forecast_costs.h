@@ -40,8 +40,8 @@ private:
     double m_seconds = 0, m_bytes = 0;
 };
 
-/// Bytes that are held now, and as many floats of an image as `images` of it; or what was held before, if that is more:
-/// to read and build a large scene takes more than to have it.
-double expected_bytes(const OIIO::ImageSpec& spec, double images);
+/// Bytes that are held now, and `more`; or what was held before, if that is more: to read and build a large scene takes
+/// more than to have it.
+double expected_bytes(double more);
 
 } // namespace vmlight

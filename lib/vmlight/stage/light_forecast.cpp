@@ -34,7 +34,8 @@ bool forecast_light(const LightmapInputs& inputs, const LightmapParams& params, 
     const double write = write_seconds(lightmap.spec(), options.threads) * kColorWrite * double(plan.frames);
     const TimeTaken all { 0, taken.processor + double(std::clock() - begin) / CLOCKS_PER_SEC };
     const double start = options.forecasts ? options.forecasts->start(all) : start_seconds(all);
-    const double seconds = start + read + light + write, bytes = expected_bytes(lightmap.spec(), 0.5);
+    const double seconds = start + read + light + write,
+                 bytes = expected_bytes(0.5 * double(lightmap.spec().image_bytes()));
     if (options.forecasts)
         options.forecasts->add(seconds, bytes);
     options.report_answer(

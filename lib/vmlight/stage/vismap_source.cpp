@@ -8,6 +8,7 @@
 #include <vmlight/stage/bake_report.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/cutouts.h>
+#include <vmlight/stage/large_map.h>
 #include <vmlight/stage/map_parts.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/open_source.h>
@@ -97,6 +98,30 @@ public:
         this->report(inputs, report, map.spec(), options);
         if (poses)
             report_pose(poses->last(), options);
+        if (options.explain)
+            report_taken(inputs.forecast, report, before, *inputs.scene, options);
+        return true;
+    }
+
+    // The map from the top down.
+    bool stream(const MapRows& rows, const MakeOptions& options, std::string& error)
+    {
+        Inputs inputs;
+        if (!read_inputs(inputs, options, error))
+            return false;
+        const BakeWork before = BakeWork::so_far(*inputs.scene);
+        MapJob job = job_of(inputs, options);
+        job.in_bands = true;
+        OIIO::ImageSpec map;
+        VismapReport report;
+        const auto begin = [&](OIIO::ImageSpec& spec, std::string& reason) {
+            tag(spec, *inputs.scene);
+            map = spec;
+            return rows.begin(spec, reason);
+        };
+        if (!stream_map({ begin, rows.take }, job, report, error))
+            return false;
+        this->report(inputs, report, map, options);
         if (options.explain)
             report_taken(inputs.forecast, report, before, *inputs.scene, options);
         return true;
@@ -329,6 +354,13 @@ bool make_vismap_parts(const VismapRecipe& recipe, const PartRequest& request, c
     const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
     const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
     return vismap && vismap->make_parts(request, options, error);
+}
+
+bool stream_vismap(const MapRows& rows, const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
+    const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
+    return vismap && vismap->stream(rows, options, error);
 }
 
 } // namespace vmlight

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/vismap.h>
 
+#include <vmlight/base/available_memory.h>
 #include <vmlight/base/fail_with.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
 #include <vmlight/uv/margin.h>
 #include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/band_baker.h>
 #include <vmlight/vismap/make_map.h>
 #include <vmlight/vismap/reconstruct_map.h>
+
+#include <OpenImageIO/strutil.h>
 
 #include <utility>
 
@@ -25,6 +29,19 @@ OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
     if (!scene.occluder_hashes().empty())
         spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
     return spec;
+}
+
+std::string shortage_of(const MapJob& job)
+{
+    const OIIO::ImageSpec spec = describe_vismap("", job.params);
+    if (!job.in_bands)
+        return map_memory_shortage(spec, job.params);
+    const double bytes = BandBaker::held_bytes(job.params, spec.nchannels, job.nthreads);
+    const int64_t available = available_memory();
+    return bytes <= double(available)
+        ? ""
+        : format("rows of {} texels of {} channels need {} of memory, {} available", spec.width, spec.nchannels,
+                 OIIO::Strutil::memformat(int64_t(bytes)), OIIO::Strutil::memformat(available));
 }
 
 // Of the progress of a bake that is reconstructed: about its share of the time at 64 rays.
@@ -75,7 +92,7 @@ bool prepare_map(VismapBaker& baker, OIIO::ImageSpec& spec, VismapReport& report
     const Stopwatch timer;
     const BakeScene& scene = *job.scene;
     if (check_params(job.params, error))
-        error = map_memory_shortage(describe_vismap("", job.params), job.params);
+        error = shortage_of(job);
     begin_step(job.at_step, "prove");
     if (!error.empty()
         || !baker.prepare(job.scene, job.params, error, job.nthreads, job.progress, job.time_budget, job.normal_map))
@@ -142,6 +159,26 @@ bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, Vi
     count_baked(counts, map.counts);
     if (report)
         *report = counts;
+    return true;
+}
+
+bool stream_map(const MapRows& rows, const MapJob& job, VismapReport& report, std::string& error)
+{
+    VismapBaker baker;
+    OIIO::ImageSpec spec;
+    if (!prepare_map(baker, spec, report, job, true, error) || !rows.begin(spec, error))
+        return false;
+    BandBaker bands(baker, job.nthreads);
+    const auto take = [&](int ybegin, int yend, const float* texels) { return rows.take(ybegin, yend, texels, error); };
+    if (!bands.bake(take, job.progress)) {
+        if (error.empty())
+            error = "interrupted";
+        return false;
+    }
+    report.bake_seconds = bands.seconds().bake;
+    report.reconstruct_seconds = bands.seconds().reconstruct;
+    report.margin_seconds = bands.seconds().margin;
+    count_baked(report, bands.counts());
     return true;
 }
 
