@@ -37,7 +37,8 @@ def processor_seconds():
 def makevismap(*words):
     """Processor seconds."""
     before = processor_seconds()
-    subprocess.run([os.path.join(BIN, "makevismap"), *words, "--threads", THREADS, "--quiet"], check=True)
+    subprocess.run([os.path.join(BIN, "makevismap"), *words, "--threads", THREADS, "--quiet"], check=True,
+                   stderr=subprocess.DEVNULL)
     return processor_seconds() - before
 
 

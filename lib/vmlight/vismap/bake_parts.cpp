@@ -28,7 +28,9 @@ bool bake_parts(const PartsJob& job, VismapReport& report, std::string& error)
     VismapBaker baker;
     OIIO::ImageSpec map;
     TileShares shares;
-    if (!prepare_map(baker, map, report, job.map, true, error))
+    MapJob whole = job.map;
+    whole.in_bands = true; // no part is more than some rows of tiles
+    if (!prepare_map(baker, map, report, whole, true, error))
         return false;
     if (!share_tiles(shares, baker, job.count, job.map.nthreads, job.map.progress)) {
         error = "interrupted";
@@ -53,7 +55,7 @@ bool bake_parts(const PartsJob& job, VismapReport& report, std::string& error)
 
     const Stopwatch timer;
     BakeCounts counts;
-    PartBaker bakery(baker, job.map.nthreads);
+    PartBaker bakery(baker, int(missing.size()), job.map.nthreads);
     for (const int part : missing) {
         OIIO::ImageBuf image;
         image.reset(describe(part), OIIO::InitializePixels::Yes);

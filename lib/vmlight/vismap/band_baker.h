@@ -4,12 +4,9 @@
 #pragma once
 
 #include <vmlight/base/progress.h>
-#include <vmlight/uv/margin.h>
 #include <vmlight/vismap/baker.h>
-#include <vmlight/vismap/far_texels.h>
-#include <vmlight/vismap/reconstruct_map.h>
+#include <vmlight/vismap/raw_texels.h>
 
-#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -47,37 +44,9 @@ public:
     static double held_bytes(const VismapParams& params, int channels, int nthreads);
 
 private:
-    /// A row of tiles.
-    struct Row
-    {
-        std::vector<float> texels;
-        Coverage covered;
-        TexelContexts contexts;
-    };
-    /// Rows `first` to end() - 1.
-    struct Rows
-    {
-        std::deque<Row> rows;
-        int first = 0;
-
-        int end() const { return first + int(rows.size()); }
-        bool has(int row) const { return row >= first && row < end(); }
-        const Row& at(int row) const { return rows[size_t(row - first)]; }
-        void drop_before(int row)
-        {
-            for (; first < row && !rows.empty(); ++first)
-                rows.pop_front();
-        }
-    };
     struct Worker;
 
-    int texel_rows(int row) const;
-    Row empty_row(int row) const;
-    BakedTexel find(int x, int y) const;
     bool bake_rows(int end, const Progress& progress);
-    void bake_tile(Row& row, int tile, Worker& worker);
-    void keep_wanted(int row);
-    bool bake_ahead(int first, int end, const Progress& progress);
     bool reconstruct_rows(int end, const Progress& progress);
     bool give(int first, int end, const TakeRows& take);
 
@@ -86,10 +55,10 @@ private:
     const bool m_reconstructs;
     const size_t m_channels, m_pitch; // floats of a texel, and of a row of texels
     std::vector<std::unique_ptr<Worker>> m_workers;
-    Rows m_raw, m_done; // as baked; and without their margin alone
-    // Those that rows far from their own need, beyond a seam; and those of them that are baked, some before their row.
-    TexelSet m_wanted;
-    FarTexels m_far;
+    RawTexels m_raw;
+    // Without their margin, from the row m_first_done on.
+    std::deque<TileRow> m_done;
+    int m_first_done = 0;
     BakeCounts m_counts;
     BandSeconds m_seconds;
 };

@@ -21,7 +21,7 @@ struct MapJob
     double time_budget = 0;
     NormalMapPointer normal_map;
     StepListener at_step {}; ///< hears of the steps before and after those of `progress`
-    bool in_bands = false; ///< for stream_map(): memory for some rows of tiles is enough
+    bool in_bands = false; ///< memory for some rows of tiles is enough: for stream_map() and parts
 };
 
 /// Receives a map from the top down.

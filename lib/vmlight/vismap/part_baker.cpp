@@ -3,52 +3,46 @@
 
 #include <vmlight/base/parallel.h>
 #include <vmlight/base/tile_size.h>
-#include <vmlight/vismap/bake_hints.h>
 #include <vmlight/vismap/reconstruct_map.h>
 
 #include <algorithm>
-#include <map>
 
 namespace vmlight {
 
 struct PartBaker::Worker
 {
     VismapBaker::ScratchPointer scratch;
-    std::unique_ptr<Reconstruction> reconstruction; // nullptr if the map is not reconstructed
+    std::unique_ptr<Reconstruction> reconstruction; // from its first tile on: its planes are large
     std::vector<float> raw, texels; // of one tile
     TileBits covered {};
     BakeCounts counts;
 };
 
-PartBaker::PartBaker(const VismapBaker& baker, int nthreads)
+PartBaker::PartBaker(const VismapBaker& baker, int parts, int nthreads)
     : m_baker(baker)
     , m_threads(nthreads)
     , m_channels(size_t(baker.channels()))
     , m_pitch(kTileSize * m_channels)
+    , m_reconstructs(is_reconstructed(baker.params()))
+    , m_raw(baker, nthreads)
 {
-    const bool reconstructs = is_reconstructed(baker.params());
     for (int i = 0; i < worker_count(nthreads); ++i) {
         Worker& worker = *m_workers.emplace_back(std::make_unique<Worker>());
         worker.scratch = baker.scratch();
         worker.texels.resize(kTileSize * m_pitch);
-        if (reconstructs)
-            worker.reconstruction = std::make_unique<Reconstruction>(baker.params(), baker.error().pattern_error,
-                                                                     baker.error().error_scale);
     }
-    if (reconstructs) {
-        m_raw.resize(size_t(baker.width()) * size_t(baker.height()) * m_channels);
-        m_contexts = TexelContexts(0, 0, baker.width(), baker.height());
-    }
+    if (m_reconstructs && parts > 1)
+        m_raw.keep(texels_beyond_seams(baker, 0, baker.tiles_down(), nthreads, [](int, int, int) { return true; }));
 }
 
 PartBaker::~PartBaker() = default;
 
 // The texels that the reconstruction of the tiles reads, by tile.
-std::vector<std::pair<int, TileBits>> PartBaker::surroundings(TileRange tiles) const
+TexelSet PartBaker::surroundings(TileRange tiles) const
 {
     constexpr int kHalo = NeighbourWindow::kHalo;
     const int width = m_baker.width(), height = m_baker.height();
-    std::map<int, TileBits> wanted;
+    TexelSet wanted;
     const auto want = [&](int x, int y) {
         if (x >= 0 && y >= 0 && x < width && y < height)
             wanted[y / kTileSize * m_baker.tiles_across() + x / kTileSize][size_t(y % kTileSize)] |= uint64_t(1)
@@ -67,27 +61,7 @@ std::vector<std::pair<int, TileBits>> PartBaker::surroundings(TileRange tiles) c
             want(cell.source_x, cell.source_y);
         }
     }
-    return { wanted.begin(), wanted.end() };
-}
-
-// Those of the wanted texels that no part before has baked.
-void PartBaker::bake_missing(int tile, TileBits wanted, Worker& worker, BakeCounts& counts)
-{
-    const int left = tile % m_baker.tiles_across() * kTileSize, top = tile / m_baker.tiles_across() * kTileSize;
-    for (int y = 0; y < std::min(kTileSize, m_baker.height() - top); ++y)
-        for (int x = 0; x < std::min(kTileSize, m_baker.width() - left); ++x)
-            if (m_contexts.at(left + x, top + y).spacing > 0)
-                wanted[size_t(y)] &= ~(uint64_t(1) << x);
-    if (wanted == TileBits {})
-        return;
-    BakeHints hints;
-    hints.only = &wanted;
-    hints.contexts = &m_contexts;
-    const size_t row = size_t(m_baker.width()) * m_channels;
-    counts.rays += m_baker
-                       .bake_tile(tile, *worker.scratch, &m_raw[size_t(top) * row + size_t(left) * m_channels], row,
-                                  worker.covered, &hints)
-                       .rays;
+    return wanted;
 }
 
 void PartBaker::reconstruct(int tile, Worker& worker, BakeCounts& counts)
@@ -98,19 +72,19 @@ void PartBaker::reconstruct(int tile, Worker& worker, BakeCounts& counts)
     if (counted.covered == 0)
         return;
     const int left = tile % m_baker.tiles_across() * kTileSize, top = tile / m_baker.tiles_across() * kTileSize;
+    const TileRow& raw = m_raw.at(top / kTileSize);
     const size_t row = size_t(m_baker.width()) * m_channels;
-    worker.raw.resize(worker.texels.size());
-    for (int y = 0; y < std::min(kTileSize, m_baker.height() - top); ++y)
-        std::copy_n(&m_raw[size_t(top + y) * row + size_t(left) * m_channels],
-                    size_t(std::min(kTileSize, m_baker.width() - left)) * m_channels, &worker.raw[size_t(y) * m_pitch]);
-    worker.texels = worker.raw;
-    const FindTexel find = [&](int x, int y) {
-        const TexelContext& context = m_contexts.at(x, y);
-        return context.spacing > 0 ? BakedTexel { &m_raw[size_t(y) * row + size_t(x) * m_channels], &context }
-                                   : BakedTexel();
-    };
-    counts.dark += reconstruct_tile(*worker.reconstruction, m_baker, tile, find, worker.raw.data(),
-                                    worker.texels.data(), m_pitch, m_contexts);
+    for (int y = 0; y < raw.covered.height(); ++y)
+        std::copy_n(&raw.texels[size_t(y) * row + size_t(left) * m_channels],
+                    size_t(std::min(kTileSize, m_baker.width() - left)) * m_channels,
+                    &worker.texels[size_t(y) * m_pitch]);
+    worker.raw = worker.texels;
+    if (!worker.reconstruction)
+        worker.reconstruction = std::make_unique<Reconstruction>(m_baker.params(), m_baker.error().pattern_error,
+                                                                 m_baker.error().error_scale);
+    counts.dark += reconstruct_tile(
+        *worker.reconstruction, m_baker, tile, [this](int x, int y) { return m_raw.find(x, y); }, worker.raw.data(),
+        worker.texels.data(), m_pitch, raw.contexts);
 }
 
 void PartBaker::put(OIIO::ImageBuf& dst, int tile, const Worker& worker) const
@@ -134,19 +108,17 @@ bool PartBaker::bake(OIIO::ImageBuf& dst, TileRange tiles, BakeCounts& counts, P
 {
     for (const auto& worker : m_workers)
         worker->counts = {};
-    if (!m_raw.empty()) {
-        const auto wanted = surroundings(tiles);
-        const auto trace = [&](int64_t i, int index) {
-            Worker& worker = *m_workers[size_t(index)];
-            bake_missing(wanted[size_t(i)].first, wanted[size_t(i)].second, worker, worker.counts);
-        };
-        if (!parallel_items(int64_t(wanted.size()), m_threads, trace, progress.listener()))
+    if (m_reconstructs && tiles.count() > 0) {
+        const int across = m_baker.tiles_across(), last = (tiles.end - 1) / across;
+        m_raw.set_window(std::max(0, tiles.first / across - 1), std::min(m_baker.tiles_down(), last + 2));
+        if (!m_raw.bake(surroundings(tiles), progress.listener()))
             return false;
+        counts.rays += m_raw.take_counts().rays;
     }
     const auto bake = [&](int64_t i, int index) {
         Worker& worker = *m_workers[size_t(index)];
         const int tile = tiles.first + int(i);
-        if (m_raw.empty())
+        if (!m_reconstructs)
             worker.counts.add(m_baker.bake_tile(tile, *worker.scratch, worker.texels.data(), m_pitch, worker.covered));
         else
             reconstruct(tile, worker, worker.counts);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <vmlight/base/progress.h>
-#include <vmlight/vismap/reconstruct.h>
+#include <vmlight/vismap/raw_texels.h>
 #include <vmlight/vismap/tile_shares.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace vmlight {
@@ -36,7 +35,8 @@ class PartBaker
 {
 public:
     /// @param baker    prepared; must outlive this
-    PartBaker(const VismapBaker& baker, int nthreads);
+    /// @param parts    how many it bakes: of several it keeps what later ones need
+    PartBaker(const VismapBaker& baker, int parts, int nthreads);
     ~PartBaker();
 
     /// Bake the texels of `tiles` that triangles cover.
@@ -49,17 +49,15 @@ public:
 
 private:
     struct Worker;
-    std::vector<std::pair<int, TileBits>> surroundings(TileRange tiles) const;
-    void bake_missing(int tile, TileBits wanted, Worker& worker, BakeCounts& counts);
+    TexelSet surroundings(TileRange tiles) const;
     void reconstruct(int tile, Worker& worker, BakeCounts& counts);
     void put(OIIO::ImageBuf& dst, int tile, const Worker& worker) const;
 
     const VismapBaker& m_baker;
     const int m_threads;
     const size_t m_channels, m_pitch; // floats of a texel, and of a row of a tile
-    // Of the whole map, if it is reconstructed: texels as they were baked, which other parts need too.
-    std::vector<float> m_raw;
-    TexelContexts m_contexts;
+    const bool m_reconstructs;
+    RawTexels m_raw; // if it is reconstructed
     std::vector<std::unique_ptr<Worker>> m_workers;
 };
 
