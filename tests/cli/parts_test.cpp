@@ -156,7 +156,9 @@ TEST_F(MapFiles, WhatIsMissingOrDoesNotFitIsNamed)
     std::string bytes = read("vm.part4of8.exr");
     std::fill(bytes.end() - long(bytes.size() / 2), bytes.end(), '\0');
     write("vm.part4of8.exr", bytes);
+    write("x.exr", "the map of yesterday");
     refused(1, "\"vm.part4of8.exr\": ", join("", ""));
+    EXPECT_EQ(read("x.exr"), "the map of yesterday");
     make_sky({ 1, 1, 1 });
     refused(1, "vismap part", "makelightmap vm.part1of8.exr sky.exr -o x.exr");
 }

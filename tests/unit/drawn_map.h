@@ -4,7 +4,9 @@
 
 #include "scenes.h"
 
+#include <vmlight/base/tile_size.h>
 #include <vmlight/trace/bake_scene.h>
+#include <vmlight/vismap/map_rows.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -52,6 +54,25 @@ inline void expect_same_map(const OIIO::ImageBuf& joined, const OIIO::ImageBuf& 
     ASSERT_EQ(OIIO::get_roi_full(joined.spec()), OIIO::get_roi_full(whole.spec()));
     EXPECT_EQ(joined.spec().tile_width, whole.spec().tile_width);
     EXPECT_EQ(std::memcmp(joined.localpixels(), whole.localpixels(), size_t(whole.spec().image_bytes())), 0);
+}
+
+/// Puts a map together that passes from the top down.
+inline MapRows rows_into(OIIO::ImageBuf& dst)
+{
+    auto next = std::make_shared<int>(0);
+    return {
+        [&dst](OIIO::ImageSpec& spec, std::string&) {
+            dst.reset(spec, OIIO::InitializePixels::Yes);
+            return true;
+        },
+        [&dst, next](int ybegin, int yend, const float* texels, std::string&) {
+            const OIIO::ImageSpec& spec = dst.spec();
+            EXPECT_EQ(ybegin, *next);
+            EXPECT_TRUE(yend == spec.height || yend % kTileSize == 0);
+            *next = yend;
+            return dst.set_pixels({ 0, spec.width, ybegin, yend, 0, 1, 0, spec.nchannels }, OIIO::TypeFloat, texels);
+        }
+    };
 }
 
 inline Mesh random_mesh(std::mt19937& random)

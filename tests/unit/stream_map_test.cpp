@@ -30,28 +30,18 @@ struct StreamedMap
     OIIO::ImageBuf image;
     VismapReport report;
     std::string error;
-    int bands = 0;
+    int bands = 0, end = 0;
 
     bool bake(const MapJob& job)
     {
-        int next = 0;
-        MapRows rows;
-        rows.begin = [&](OIIO::ImageSpec& spec, std::string&) {
-            image.reset(spec, OIIO::InitializePixels::Yes);
-            return true;
-        };
-        rows.take = [&](int ybegin, int yend, const float* texels, std::string&) {
-            const OIIO::ImageSpec& spec = image.spec();
-            EXPECT_EQ(ybegin, next);
-            EXPECT_TRUE(yend == spec.height || yend % kTileSize == 0);
-            EXPECT_TRUE(
-                image.set_pixels({ 0, spec.width, ybegin, yend, 0, 1, 0, spec.nchannels }, OIIO::TypeFloat, texels));
-            next = yend;
+        MapRows rows = rows_into(image);
+        rows.take = [this, take = rows.take](int ybegin, int yend, const float* texels, std::string& reason) {
             ++bands;
-            return true;
+            end = yend;
+            return take(ybegin, yend, texels, reason);
         };
         const bool made = stream_map(rows, job, report, error);
-        EXPECT_TRUE(!made || next == image.spec().height);
+        EXPECT_TRUE(!made || end == image.spec().height);
         return made;
     }
 };
@@ -84,7 +74,7 @@ TEST(StreamMap, IsTheWholeMapWhateverTheMeshAndTheParameters)
         VismapParams params = random_params(random);
         params.resolution = { 1 + int(random() % 200), 300 + int(random() % 500) };
         params.samples = 2;
-        params.margin = std::array { 0, 3, 16, 70, 128 }[random() % 5];
+        params.margin = std::array { 0, 3, 16, 70, 128, 300, -1 }[random() % 7];
         const auto scene = part_scene(mesh, { scenes::rectangle(V3d(-1, 3, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });
         SCOPED_TRACE(testing::Message() << turn << ": " << mesh.name << ", " << params.size().width << "x"
                                         << params.size().height << " " << params.basis << " " << params.reconstruct
@@ -99,8 +89,8 @@ TEST(StreamMap, IsTheWholeMapWhateverTheMeshAndTheParameters)
         streamed += map.bands > 1;
         reconstructed += map.bands > 1 && is_reconstructed(params);
     }
-    EXPECT_GT(streamed, 8);
-    EXPECT_GE(reconstructed, 3);
+    EXPECT_GT(streamed, 6);
+    EXPECT_GE(reconstructed, 2);
 }
 
 // A floor of two islands, the left half at the top of the map and the right half at its bottom.
@@ -139,7 +129,7 @@ TEST(StreamMap, StopsWhereItIsStopped)
     StreamedMap map;
     EXPECT_FALSE(map.bake(job));
     EXPECT_EQ(map.error, "interrupted");
-    EXPECT_EQ(map.bands, 1);
+    EXPECT_LE(map.bands, 1);
 
     job.progress = {};
     int taken = 0;
@@ -180,10 +170,10 @@ TEST(StreamMap, HoldsRowsAndNotTheMap)
     EXPECT_EQ(BandBaker::held_bytes(params, 4, 2), small);
     params.resolution = { 32768, 32768 };
     EXPECT_LT(BandBaker::held_bytes(params, 4, 2), 2e9);
-    EXPECT_TRUE(BandBaker::can_fill(0));
-    EXPECT_TRUE(BandBaker::can_fill(2 * kTileSize));
-    EXPECT_FALSE(BandBaker::can_fill(2 * kTileSize + 1));
-    EXPECT_FALSE(BandBaker::can_fill(-1)); // all texels: any is filled from any other
+    EXPECT_TRUE(MarginRows::is_narrow(0));
+    EXPECT_TRUE(MarginRows::is_narrow(2 * kTileSize));
+    EXPECT_FALSE(MarginRows::is_narrow(2 * kTileSize + 1));
+    EXPECT_FALSE(MarginRows::is_narrow(-1)); // all texels: any is filled from any other
 }
 
 TEST(LargeMap, OnlyMapsOfMoreThanAGigabyteAreWrittenWhileTheyAreBaked)

@@ -9,6 +9,7 @@
 #include <vmlight/cli/mesh_part_names.h>
 #include <vmlight/image/image_file.h>
 #include <vmlight/stage/bake_report.h>
+#include <vmlight/stage/large_map.h>
 #include <vmlight/stage/map_parts.h>
 #include <vmlight/uv/udim.h>
 
@@ -140,12 +141,18 @@ void PartRun::remove_kept() const
 
 bool PartRun::write_joined(const std::vector<std::string>& parts, const std::string& output, std::string& error) const
 {
-    OIIO::ImageBuf map;
     JoinReport report;
-    if (!join_files(map, parts, report, error) || !m_stage.write(map, output, error))
+    OIIO::ImageSpec joined;
+    MapFile file(output, m_stage.file_params());
+    MapRows rows = file.rows([](double) { return !interrupted(); });
+    rows.begin = [&, begin = rows.begin](OIIO::ImageSpec& spec, std::string& reason) {
+        joined = spec;
+        return begin(spec, reason);
+    };
+    if (!join_files(rows, parts, report, error) || !file.commit(error))
         return false;
     m_stage.say(format("join: {} to {}x{} texels; margin {:.2f} s", count_text(int64_t(parts.size()), "part", "parts"),
-                       map.spec().width, map.spec().height, report.margin_seconds));
+                       joined.width, joined.height, report.margin_seconds));
     if (const std::string warning = dark_warning(report.dark, report.covered); !warning.empty())
         m_stage.warn(warning);
     return true;

@@ -2,13 +2,11 @@
 #include <vmlight/stage/large_map.h>
 
 #include <vmlight/base/format.h>
-#include <vmlight/image/exr_output.h>
 #include <vmlight/stage/recipe/strand_recipe.h>
 #include <vmlight/vismap/band_baker.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/margin_rows.h>
 #include <vmlight/vismap/reconstruct.h>
-
-#include <optional>
 
 namespace vmlight {
 namespace {
@@ -28,7 +26,7 @@ double whole_bytes(const OIIO::ImageSpec& spec, const VismapParams& params)
 bool is_large_map(const VismapRecipe& recipe, const MakeOptions& options)
 {
     const VismapParams& params = recipe.vismap_params;
-    return BandBaker::can_fill(params.margin) && whole_bytes(describe_vismap("", params), params) > kLargeBytes
+    return MarginRows::is_narrow(params.margin) && whole_bytes(describe_vismap("", params), params) > kLargeBytes
         && !options.poses && !bakes_strands(recipe);
 }
 
@@ -39,25 +37,39 @@ double map_bytes(const VismapRecipe& recipe, const MakeOptions& options)
                                          : whole_bytes(spec, recipe.vismap_params);
 }
 
+MapFile::MapFile(const std::string& path, const FileParams& params)
+    : m_path(path)
+    , m_params(params)
+    , m_output(path, params)
+{
+}
+
+MapRows MapFile::rows(const Progress& progress)
+{
+    const auto begin = [this](OIIO::ImageSpec& spec, std::string& error) {
+        const std::string fault = m_params.format == "half" ? half_fault(spec) : "";
+        if (!fault.empty()) {
+            error = format("\"{}\": {}", m_path, fault);
+            return false;
+        }
+        return m_output.open({ spec }, error);
+    };
+    const auto take = [this, progress](int ybegin, int yend, const float* texels, std::string& error) {
+        if (progress && !progress(0)) {
+            error = format("\"{}\": interrupted", m_path);
+            return false;
+        }
+        return m_output.write_rows(ybegin, yend, texels, error);
+    };
+    return { begin, take };
+}
+
 bool write_large_map(const VismapRecipe& recipe, const std::string& path, const FileParams& file,
                      const MakeOptions& options, std::string& error)
 {
     error = output_fault(path); // before the work
-    if (!error.empty())
-        return false;
-    ExrOutput output(path, file);
-    const auto begin = [&](OIIO::ImageSpec& spec, std::string& reason) {
-        const std::string fault = file.format == "half" ? half_fault(spec) : "";
-        if (!fault.empty()) {
-            reason = format("\"{}\": {}", path, fault);
-            return false;
-        }
-        return output.open({ spec }, reason);
-    };
-    const auto take = [&](int ybegin, int yend, const float* texels, std::string& reason) {
-        return output.write_rows(ybegin, yend, texels, reason);
-    };
-    return stream_vismap({ begin, take }, recipe, options, error) && output.commit(error);
+    MapFile output(path, file);
+    return error.empty() && stream_vismap(output.rows(), recipe, options, error) && output.commit(error);
 }
 
 } // namespace vmlight

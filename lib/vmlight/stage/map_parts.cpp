@@ -106,17 +106,26 @@ bool sort_parts(std::vector<PartFiles>& dst, const std::vector<std::string>& pat
     return true;
 }
 
-bool join_files(OIIO::ImageBuf& dst, const std::vector<std::string>& paths, JoinReport& report, std::string& error)
+bool join_files(const MapRows& rows, const std::vector<std::string>& paths, JoinReport& report, std::string& error)
 {
     std::string path;
-    bool is_read = true; // its error names the path
+    bool is_named = false; // the path is in the error
     const ReadPart read = [&](OIIO::ImageBuf& part, int index, std::string& reason) {
         path = paths[size_t(index) - 1];
-        return is_read = read_image(part, path, reason);
+        is_named = !read_image(part, path, reason);
+        return !is_named;
     };
-    if (join_parts(dst, int(paths.size()), read, report, error))
+    const MapRows given { [&](OIIO::ImageSpec& spec, std::string& reason) {
+                             is_named = !rows.begin(spec, reason);
+                             return !is_named;
+                         },
+                          [&](int ybegin, int yend, const float* texels, std::string& reason) {
+                              is_named = !rows.take(ybegin, yend, texels, reason);
+                              return !is_named;
+                          } };
+    if (join_parts(given, int(paths.size()), read, report, error))
         return true;
-    if (is_read)
+    if (!is_named)
         error = format("\"{}\": {}", path, error);
     return false;
 }

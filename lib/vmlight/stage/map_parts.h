@@ -45,6 +45,6 @@ struct PartFiles
 bool sort_parts(std::vector<PartFiles>& dst, const std::vector<std::string>& paths, std::string& error);
 
 /// Join the parts of a map. False, with the reason and the file in `error`, as join_parts().
-bool join_files(OIIO::ImageBuf& dst, const std::vector<std::string>& paths, JoinReport& report, std::string& error);
+bool join_files(const MapRows& rows, const std::vector<std::string>& paths, JoinReport& report, std::string& error);
 
 } // namespace vmlight

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <vmlight/vismap/baker.h>
+#include <vmlight/vismap/map_rows.h>
 #include <vmlight/vismap/reconstruct.h>
 
 #include <OpenImageIO/imagebuf.h>
@@ -22,15 +23,6 @@ struct MapJob
     NormalMapPointer normal_map;
     StepListener at_step {}; ///< hears of the steps before and after those of `progress`
     bool in_bands = false; ///< memory for some rows of tiles is enough: for stream_map() and parts
-};
-
-/// Receives a map from the top down.
-struct MapRows
-{
-    /// Size, channels and metadata, before the first row; may add metadata.
-    std::function<bool(OIIO::ImageSpec& spec, std::string& error)> begin;
-    /// Rows `ybegin` to `yend` - 1, whole rows of tiles, all channels, with their margin.
-    std::function<bool(int ybegin, int yend, const float* texels, std::string& error)> take;
 };
 
 /// A map without its margin.
@@ -66,8 +58,8 @@ void count_baked(VismapReport& report, const BakeCounts& baked);
 /// make_vismap(), with the texels of `bake`.
 bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report);
 
-/// make_vismap(), bit for bit, without the whole map in memory. For margins that BandBaker::can_fill(). False, with the
-/// reason in `error`, also if `rows` returned it.
+/// make_vismap(), bit for bit, without the whole map in memory, unless its margin is not MarginRows::is_narrow(). False,
+/// with the reason in `error`, also if `rows` returned it.
 bool stream_map(const MapRows& rows, const MapJob& job, VismapReport& report, std::string& error);
 
 } // namespace vmlight

@@ -4,24 +4,15 @@
 #pragma once
 
 #include <vmlight/base/progress.h>
-#include <vmlight/uv/margin.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/far_texels.h>
-#include <vmlight/vismap/reconstruct.h>
+#include <vmlight/vismap/map_rows.h>
 
 #include <deque>
 #include <memory>
 #include <vector>
 
 namespace vmlight {
-
-/// A row of tiles. Rows of texels without padding.
-struct TileRow
-{
-    std::vector<float> texels;
-    Coverage covered; ///< of the tiles of which a texel was baked
-    TexelContexts contexts; ///< empty if the map is not reconstructed
-};
 
 class RawTexels
 {
