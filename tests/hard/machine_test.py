@@ -68,17 +68,16 @@ class Machine(HardCase):
 
     def test_more_memory_than_there_is(self):
         before = self.contents()
+        # The margin of all texels needs the whole map.
+        whole = ["makevismap", "quad.obj", "--resolution", "32768", "--margin", "infinite", "--reconstruct", "off"]
         for words, text in (
-                (["makevismap", "quad.obj", "--resolution", "32768", "--basis", "sh", "--order", "8", "--reconstruct",
-                  "off"],
-                 "32768x32768 pixels of 64 channels need 256.0 GB of memory, "),
-                (["makevismap", "quad.obj", "--resolution", "32768", "--channels", "normal,coverage,error", "--basis=sh",
-                  "--reconstruct=off"],
+                (["--basis", "sh", "--order", "8"], "32768x32768 pixels of 64 channels need 256.0 GB of memory, "),
+                (["--channels", "normal,coverage,error", "--basis=sh"],
                  "32768x32768 pixels of 30 channels need 120.0 GB of memory, ")):
             with open("/proc/meminfo") as info:
                 if int(info.readline().split()[1]) > 100 << 20:
                     self.skip("a machine that may have the memory")
-            self.told(self.run_tool(*words, "-o", "x.exr"), 1, text)
+            self.told(self.run_tool(*whole, *words, "-o", "x.exr"), 1, text)
         self.file("wide.vismap", 'mesh = "quad.obj"\nresolution = 32768\nbasis = "sh"\norder = 8\nmargin = "infinite"\nreconstruct = "off"\n')
         code, told = self.reader("wide.vismap")
         self.assertEqual(code, 1)
@@ -95,18 +94,25 @@ class Machine(HardCase):
             self.skip("sanitizers take all addresses there are")
         self.file("x.exr", "old")
         before = self.contents()
-        words = ["makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--samples", "1", "--resolution"]
-        self.told(self.run_tool(*words, "16384x4096", preexec_fn=limit), 1,
+        words = ["makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--margin", "infinite"]
+        self.told(self.run_tool(*words, "--samples", "1", "--resolution", "16384x4096", preexec_fn=limit), 1,
                   "16384x4096 pixels of 4 channels need 1.0 GB of memory, ")
         # What reconstruction needs besides can be left out.
-        result = self.run_tool("makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--resolution", "4096", preexec_fn=limit)
+        result = self.run_tool(*words, "--resolution", "4096", preexec_fn=limit)
         self.told(result, 1, "4096x4096 pixels of 4 channels need 1.1 GB of memory, ")
         self.assertIn("; with --reconstruct off it fits", result.stderr)
+        # With a narrow margin the map is written while it is baked.
+        words = words[:-2]
+        result = self.run_tool(*words, "--resolution", "32768x1024", "--basis=sh", "--order=8", preexec_fn=limit)
+        self.told(result, 1, "rows of 32768 texels of 64 channels need ")
         self.assertEqual(self.contents(), before)
-        result = self.run_tool(*words, "2048", preexec_fn=limit)
+        result = self.run_tool(*words, "--resolution", "4096", preexec_fn=limit)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_tool(*words, "--samples", "1", "--resolution", "2048", preexec_fn=limit)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.row("A map that exceeds `ulimit -v`", "std::bad_alloc, or an image without pixels",
-                 "exit code 1, with the memory needed and available; smaller maps work")
+                 "exit code 1, with the memory needed and available; smaller maps work, and larger ones that are written while "
+                 "they are baked")
 
     def test_no_streams(self):
         # Else the output would be the process's stdout, and what it says would go into the picture.

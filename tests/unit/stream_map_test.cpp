@@ -18,6 +18,7 @@
 #include <array>
 #include <random>
 #include <string>
+#include <vector>
 
 using namespace vmlight;
 using Imath::V3d;
@@ -221,4 +222,22 @@ TEST(LargeMap, IsTheSameFile)
     EXPECT_FALSE(write_large_map(recipe, folder / "no such folder/map.exr", {}, {}, error));
     EXPECT_THAT(error, testing::HasSubstr("no such folder"));
     EXPECT_EQ(bytes(found), before);
+}
+
+TEST(LargeMap, ValuesBeyondHalfAreRefusedWhereverTheyAre)
+{
+    const stage_scene::Folder folder;
+    const std::string path = folder / "rows.exr";
+    OIIO::ImageSpec spec(64, 128, 2, OIIO::TypeFloat);
+    spec.channelnames = { "visibility", "sun" };
+    spec.tile_width = spec.tile_height = 64;
+    std::vector<float> rows(64 * 64 * 2, -65504.0f);
+    std::string error;
+    ExrOutput output(path, { "half", "zip" });
+    ASSERT_TRUE(output.open({ spec }, error)) << error;
+    ASSERT_TRUE(output.write_rows(0, 64, rows.data(), error)) << error;
+    rows[5001] = -65505;
+    EXPECT_FALSE(output.write_rows(64, 128, rows.data(), error));
+    EXPECT_EQ(error, "\"" + path + "\": channel sun reaches 65505, but the maximum of half is 65504: write float");
+    EXPECT_FALSE(OIIO::Filesystem::exists(path));
 }

@@ -61,7 +61,6 @@ std::string unreadable(const std::string& path, const std::vector<OIIO::ImageSpe
 
 std::string half_range_fault(const std::string& channel, float value)
 {
-    constexpr float kLargestHalf = 65504;
     return std::abs(value) <= kLargestHalf
         ? ""
         : format("channel {} reaches {:g}, but the maximum of half is 65504: write float", channel, std::abs(value));
@@ -145,11 +144,8 @@ bool ExrOutput::write_rows(int ybegin, int yend, const float* pixels, std::strin
     const OIIO::ImageSpec& spec = m_specs[0];
     if (m_params.format == "half")
         for (size_t i = 0; i < size_t(yend - ybegin) * size_t(spec.width) * size_t(spec.nchannels); ++i)
-            if (!std::isnan(pixels[i])) {
-                const std::string fault = half_range_fault(spec.channelnames[i % size_t(spec.nchannels)], pixels[i]);
-                if (!fault.empty())
-                    return fail(fault, error);
-            }
+            if (std::abs(pixels[i]) > kLargestHalf)
+                return fail(half_range_fault(spec.channelnames[i % size_t(spec.nchannels)], pixels[i]), error);
     return guard(
         [&] {
             const bool written = spec.tile_width

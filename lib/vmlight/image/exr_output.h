@@ -44,6 +44,8 @@ private:
     std::unique_ptr<OIIO::ImageOutput> m_out; // ends before the file
 };
 
+constexpr float kLargestHalf = 65504;
+
 /// Why a channel that reaches `value` cannot be stored as half, or "".
 std::string half_range_fault(const std::string& channel, float value);
 

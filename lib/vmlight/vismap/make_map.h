@@ -58,8 +58,8 @@ void count_baked(VismapReport& report, const BakeCounts& baked);
 /// make_vismap(), with the texels of `bake`.
 bool make_map(OIIO::ImageBuf& dst, const MapJob& job, const BakeTexels& bake, VismapReport* report);
 
-/// make_vismap(), bit for bit, without the whole map in memory, unless its margin is not MarginRows::is_narrow(). False,
-/// with the reason in `error`, also if `rows` returned it.
+/// make_vismap(), bit for bit, without the whole map in memory, unless its margin is not MarginRows::is_narrow().
+/// False, with the reason in `error`, also if `rows` returned it.
 bool stream_map(const MapRows& rows, const MapJob& job, VismapReport& report, std::string& error);
 
 } // namespace vmlight

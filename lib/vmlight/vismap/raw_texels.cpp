@@ -60,7 +60,7 @@ TileRow RawTexels::empty_row(int row) const
 
 void RawTexels::set_window(int first, int end)
 {
-    while (!m_rows.empty() && (m_first < first || first < m_first)) {
+    while (!m_rows.empty() && m_first != first) { // all of them if it moves up
         keep_before_drop(m_first);
         m_rows.pop_front();
         ++m_first;
