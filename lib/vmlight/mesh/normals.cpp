@@ -15,6 +15,21 @@ using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
 
+void take_vertices(Mesh& mesh, const std::vector<VertexKey>& vertices)
+{
+    const size_t count = vertices.size();
+    const bool has_uvs = !mesh.uvs.empty();
+    mesh.positions.resize(count);
+    mesh.normals.resize(count);
+    mesh.uvs.resize(has_uvs ? count : 0);
+    for (size_t v = 0; v < count; ++v) {
+        mesh.positions[v] = vertices[v].position;
+        mesh.normals[v] = vertices[v].normal;
+        if (has_uvs)
+            mesh.uvs[v] = vertices[v].uv;
+    }
+}
+
 // Rebuild the vertices from corners: corner_normal(t, triangle, k) is the normal of corner k of triangle t. At most
 // `most` will differ.
 template <class CornerNormal> void rebuild(Mesh& mesh, size_t most, const CornerNormal& corner_normal)
@@ -30,16 +45,7 @@ template <class CornerNormal> void rebuild(Mesh& mesh, size_t most, const Corner
             mesh.triangles[t][k] = vertices.index_of(vertex);
         }
     }
-    const size_t count = vertices.keys().size();
-    mesh.positions.resize(count);
-    mesh.normals.resize(count);
-    mesh.uvs.resize(has_uvs ? count : 0);
-    for (size_t v = 0; v < count; ++v) {
-        mesh.positions[v] = vertices.keys()[v].position;
-        mesh.normals[v] = vertices.keys()[v].normal;
-        if (has_uvs)
-            mesh.uvs[v] = vertices.keys()[v].uv;
-    }
+    take_vertices(mesh, vertices.keys());
 }
 
 double angle_between(const V3d& a, const V3d& b)
@@ -168,8 +174,20 @@ void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uin
 
 void merge_equal_vertices(Mesh& mesh)
 {
-    rebuild(mesh, mesh.positions.size(),
-            [&](size_t, const auto& triangle, int k) { return mesh.normals[triangle[k]]; });
+    constexpr uint32_t kNone = ~0u;
+    const size_t count = mesh.positions.size();
+    const bool has_uvs = !mesh.uvs.empty();
+    const size_t most = std::min(count, mesh.triangles.size() * 3);
+    UniqueIndex<VertexKey> vertices(most, most);
+    std::vector<uint32_t> numbers(count, kNone); // to look each up once, and not once a corner
+    for (auto& triangle : mesh.triangles)
+        for (uint32_t& vertex : triangle) {
+            const uint32_t v = vertex;
+            if (numbers[v] == kNone)
+                numbers[v] = vertices.index_of({ mesh.positions[v], mesh.normals[v], has_uvs ? mesh.uvs[v] : V2f(0) });
+            vertex = numbers[v];
+        }
+    take_vertices(mesh, vertices.keys());
 }
 
 } // namespace vmlight
