@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flat_mesh.h"
 
+#include <vmlight/uv/raster_edges.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
+#include <vector>
 
 using namespace vmlight;
 using namespace vmlight::flat_mesh;
+
+TEST(UvRaster, RoundsAsTheStandardLibrary)
+{
+    std::vector<double> numbers {
+        0.49999999999999994, 4503599627370495.5, 4503599627370497.5, 1e300, 1e16, 536870911.5
+    };
+    for (int i = 0; i < 2000; ++i)
+        numbers.insert(numbers.end(), { i * 0.25, std::nextafter(i * 0.25, 0), std::nextafter(i * 0.25, 1e9) });
+    for (const double magnitude : numbers)
+        for (const double number : { magnitude, -magnitude }) {
+            EXPECT_EQ(rounded(number), std::round(number)) << number;
+            if (magnitude < 4e15) {
+                EXPECT_EQ(rounded_subtexel(number), std::llround(number)) << number;
+            }
+        }
+    EXPECT_TRUE(std::isnan(rounded(NAN)));
+    EXPECT_EQ(rounded(-INFINITY), -INFINITY);
+}
 
 TEST(UvRaster, RowZeroIsTheTopOfTheTexture)
 {

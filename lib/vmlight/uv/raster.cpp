@@ -18,20 +18,6 @@ int64_t floor_divide(int64_t a, int64_t b)
     return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-// std::llround() of numbers below 2^52, which the standard library does not inline.
-int64_t rounded(double x)
-{
-    const auto whole = int64_t(x);
-    const double rest = x - double(whole);
-    return whole + (rest >= 0.5) - (rest <= -0.5);
-}
-
-// std::round() likewise, of any.
-double rounded_whole(double x)
-{
-    return std::abs(x) < double(int64_t(1) << 52) ? double(rounded(x)) : x;
-}
-
 // Is a corner outside every UDIM tile?
 bool reaches_beyond_udims(const Mesh& mesh, size_t triangle)
 {
@@ -65,7 +51,7 @@ bool UvRaster::corners(size_t triangle, std::array<UvCorner, 3>& dst) const
         const Imath::V2d position = corner_position(triangle, k);
         if (!(std::abs(position.x) <= kFarthest && std::abs(position.y) <= kFarthest))
             return false;
-        dst[k] = { rounded(position.x), rounded(position.y) };
+        dst[k] = { rounded_subtexel(position.x), rounded_subtexel(position.y) };
     }
     return true;
 }
@@ -109,7 +95,7 @@ UvRaster::Bounds UvRaster::bounds_of(size_t triangle) const
     std::array<double, 3> x, y;
     for (int k = 0; k < 3; ++k) {
         const Imath::V2d position = corner_position(triangle, k);
-        x[k] = rounded_whole(position.x), y[k] = rounded_whole(position.y);
+        x[k] = rounded(position.x), y[k] = rounded(position.y);
         if (!std::isfinite(position.x + position.y))
             return { position, position };
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -10,6 +11,20 @@ namespace vmlight {
 
 /// Texture coordinates are rounded to this many steps per texel.
 constexpr int64_t kSubtexels = 256;
+
+/// std::llround(), which the standard library does not inline, of numbers between -2^52 and 2^52.
+inline int64_t rounded_subtexel(double x)
+{
+    const auto whole = int64_t(x);
+    const double rest = x - double(whole);
+    return whole + (rest >= 0.5) - (rest <= -0.5);
+}
+
+/// std::round() likewise, of any number.
+inline double rounded(double x)
+{
+    return std::abs(x) < double(int64_t(1) << 52) ? double(rounded_subtexel(x)) : x;
+}
 
 struct UvCorner
 {
