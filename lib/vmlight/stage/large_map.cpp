@@ -11,8 +11,7 @@
 namespace vmlight {
 namespace {
 
-// Smaller maps are baked whole: beside the rest of the process it matters little, and no texel beyond a seam is traced
-// twice.
+// Smaller maps are baked whole, which is simpler: beside the rest of the process they matter little.
 constexpr double kLargeBytes = double(1 << 30);
 
 double whole_bytes(const OIIO::ImageSpec& spec, const VismapParams& params)

@@ -23,7 +23,7 @@ class MapFile
 public:
     MapFile(const std::string& path, const FileParams& params);
 
-    /// Writes them; `progress` stops it.
+    /// For one map: writes what it receives. `progress` is called with 0, and stops it by returning false.
     MapRows rows(const Progress& progress = {});
     bool commit(std::string& error) { return m_output.commit(error); }
 

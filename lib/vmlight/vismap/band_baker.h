@@ -33,7 +33,7 @@ public:
     const BakeCounts& counts() const { return m_counts; }
     const BandSeconds& seconds() const { return m_seconds; }
 
-    /// What it holds at once, in bytes.
+    /// What it holds at once, in bytes, besides texels beyond seams.
     static double held_bytes(const VismapParams& params, int channels, int nthreads);
 
 private:
