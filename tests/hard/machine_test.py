@@ -101,6 +101,10 @@ class Machine(HardCase):
         result = self.run_tool(*words, "--resolution", "4096", preexec_fn=limit)
         self.told(result, 1, "4096x4096 pixels of 4 channels need 1.1 GB of memory, ")
         self.assertIn("; with --reconstruct off it fits", result.stderr)
+        # A part is some rows of it, whatever its margin will be.
+        result = self.run_tool(*words, "--samples", "1", "--resolution", "16384x4096", "--part", "1/64", preexec_fn=limit)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        os.remove(self.path("x.part01of64.exr"))
         # With a narrow margin the map is written while it is baked.
         words = words[:-2]
         result = self.run_tool(*words, "--resolution", "32768x1024", "--basis=sh", "--order=8", preexec_fn=limit)

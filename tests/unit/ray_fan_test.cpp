@@ -160,7 +160,8 @@ TEST(RayFan, TheMeanOfCosineDirectionsIsTwoThirdsOfTheNormal)
 
 TEST(RayFan, PacketsLookNearlyOneWay)
 {
-    // Mean distance of a packet's directions from their mean; in random order it is 0.7.
+    // Mean distance of a packet's directions from their mean; in random order it is 0.7. The lattice's packets are
+    // narrower than those of a curve: 0.33, 0.16 and 0.08.
     std::mt19937 random(8);
     const V3f n = random_unit(random);
     for (const char* sampler : kSamplers)
@@ -179,7 +180,8 @@ TEST(RayFan, PacketsLookNearlyOneWay)
                         spread += (direction(fan, p * kPacketSize + k) - mean).length();
                 }
             }
-            EXPECT_LT(spread / (texels * count), most) << sampler << " " << count;
+            EXPECT_LT(spread / (texels * count), std::strcmp(sampler, "fibonacci") == 0 ? 0.6 * most : most)
+                << sampler << " " << count;
         }
 }
 

@@ -9,6 +9,14 @@ namespace vmlight {
 /// false to stop: the stage then fails with the message "interrupted".
 using Progress = std::function<bool(double done)>;
 
+/// Goes from `first` to `last` of `whole`, which must outlive it. Empty if nobody listens.
+inline Progress part_of(const Progress& whole, double first, double last)
+{
+    if (!whole)
+        return {};
+    return [&whole, first, last](double done) { return whole(first + (last - first) * done); };
+}
+
 /// Called when a step of the work begins that is not worth a Progress of its own, with its name. May be empty.
 using StepListener = std::function<void(const char* step)>;
 

@@ -21,14 +21,6 @@ int band_rows(int tiles_across, int nthreads)
     return std::max(kLeast, (kTilesEach * worker_count(nthreads) + tiles_across - 1) / tiles_across);
 }
 
-// Some of a whole.
-Progress within(const Progress& whole, double first, double last)
-{
-    if (!whole)
-        return {};
-    return [&whole, first, last](double done) { return whole(first + (last - first) * done); };
-}
-
 } // namespace
 
 struct BandBaker::Worker
@@ -113,12 +105,12 @@ bool BandBaker::bake(const MarginRows::TakeRows& take, const Progress& progress)
         const int end = std::min(rows, first + band), raw_end = m_reconstructs ? std::min(rows, end + 1) : end;
         Stopwatch timer;
         const double before = double(m_raw.end()) / rows, after = double(raw_end) / rows;
-        if (!bake_rows(raw_end, within(progress, before, after)))
+        if (!bake_rows(raw_end, part_of(progress, before, after)))
             return false;
         m_seconds.bake += timer.lap();
         std::vector<TileRow> done;
         if (m_reconstructs) {
-            if (!reconstruct_rows(done, first, end, within(progress, after, after)))
+            if (!reconstruct_rows(done, first, end, part_of(progress, after, after)))
                 return false;
             m_seconds.reconstruct += timer.lap();
             m_raw.set_window(end - 1, raw_end);

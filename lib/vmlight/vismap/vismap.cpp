@@ -36,7 +36,10 @@ std::string shortage_of(const MapJob& job)
     const OIIO::ImageSpec spec = describe_vismap("", job.params);
     if (!job.in_bands)
         return map_memory_shortage(spec, job.params);
-    const double bytes = BandBaker::held_bytes(job.params, spec.nchannels, job.nthreads);
+    VismapParams params = job.params;
+    if (!MarginRows::is_narrow(params.margin))
+        params.margin = 0; // of a part, whose margin is filled when it is joined
+    const double bytes = BandBaker::held_bytes(params, spec.nchannels, job.nthreads);
     const int64_t available = available_memory();
     return bytes <= double(available)
         ? ""
@@ -46,14 +49,6 @@ std::string shortage_of(const MapJob& job)
 
 // Of the progress of a bake that is reconstructed: about its share of the time at 64 rays.
 constexpr double kBakeShare = 0.95;
-
-// Goes from `first` to `last` of a whole.
-Progress part_of(const Progress& whole, double first, double last)
-{
-    if (!whole)
-        return {};
-    return [&whole, first, last](double done) { return whole(first + (last - first) * done); };
-}
 
 } // namespace
 
