@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes.h"
 
-#include <vmlight/base/unique_index.h>
 #include <vmlight/math/latlong.h>
 
 #include <gtest/gtest.h>
@@ -259,23 +258,4 @@ TEST(MeshHash, IsStableAndTellsMeshesApart)
     renamed.name = "other";
     renamed.triangle_materials[0] = 7;
     EXPECT_EQ(mesh_hash(renamed), hash); // neither is geometry
-}
-
-TEST(UniqueIndex, ElementsWithEqualKeysAreNumberedAlikeInTheOrderOfTheFirst)
-{
-    const std::vector<uint64_t> keys { 7, 3, 7, 9, 3, 7, 0 };
-    std::vector<uint32_t> first { 5 };
-    EXPECT_EQ(number_alike(
-                  keys.size(), [&](size_t i) { return keys[i]; }, first),
-              (std::vector<uint32_t> { 0, 1, 0, 2, 1, 0, 3 }));
-    EXPECT_EQ(first, (std::vector<uint32_t> { 0, 1, 3, 6 }));
-    EXPECT_TRUE(number_alike(
-                    0, [&](size_t i) { return keys[i]; }, first)
-                    .empty());
-    EXPECT_TRUE(first.empty());
-    // More than the fewest slots hold, each twice.
-    const std::vector<uint32_t> many = number_alike(
-        2000, [](size_t i) { return uint64_t(i % 1000); }, first);
-    for (uint32_t i = 0; i < 2000; ++i)
-        ASSERT_EQ(many[i], i % 1000);
 }

@@ -47,40 +47,4 @@ private:
     std::vector<Key> m_keys;
 };
 
-/// Numbers for `count` elements, those with bytewise equal keys alike: 0, 1, 2, ... in the order in which they first
-/// occur. As UniqueIndex, but keeps no keys.
-/// @param key_of   the key of an element; called again for those that it may equal
-/// @param first    set to the first element of each number
-template <class KeyOf>
-std::vector<uint32_t> number_alike(size_t count, const KeyOf& key_of, std::vector<uint32_t>& first)
-{
-    constexpr uint32_t kNone = ~0u;
-    size_t mask = 15;
-    while (mask < 2 * count)
-        mask = 2 * mask + 1;
-    std::vector<uint32_t> slots(mask + 1, kNone); // first elements
-    std::vector<uint32_t> numbers(count);
-    first.clear();
-    first.reserve(count);
-    for (size_t i = 0; i < count; ++i) {
-        const auto key = key_of(i);
-        const auto is_equal = [&](uint32_t element) {
-            const auto other = key_of(element);
-            return std::memcmp(&other, &key, sizeof(key)) == 0;
-        };
-        const char* bytes = reinterpret_cast<const char*>(&key);
-        size_t slot = OIIO::farmhash::Fingerprint64(bytes, sizeof(key)) & mask;
-        while (slots[slot] != kNone && !is_equal(slots[slot]))
-            slot = (slot + 1) & mask;
-        if (slots[slot] == kNone) {
-            slots[slot] = uint32_t(i);
-            numbers[i] = uint32_t(first.size());
-            first.push_back(uint32_t(i));
-        } else {
-            numbers[i] = numbers[slots[slot]];
-        }
-    }
-    return numbers;
-}
-
 } // namespace vmlight

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <vmlight/base/number_alike.h>
+#include <vmlight/base/picked.h>
 #include <vmlight/base/unique_index.h>
 #include <vmlight/math/latlong.h>
 #include <vmlight/mesh/mesh.h>
@@ -90,10 +92,10 @@ struct TriangleFans
 
     explicit TriangleFans(const Mesh& mesh)
     {
-        UniqueIndex<V3d> positions(mesh.positions.size());
-        for (const V3d& p : mesh.positions)
-            position_of_vertex.push_back(positions.index_of(p + V3d(0))); // -0 becomes 0
-        first_corner.assign(positions.keys().size() + 2, 0);
+        std::vector<uint32_t> first;
+        const auto position = [&](size_t vertex) { return mesh.positions[vertex] + V3d(0); }; // -0 becomes 0
+        position_of_vertex = number_alike(mesh.positions.size(), position, first);
+        first_corner.assign(first.size() + 2, 0);
         for (const auto& triangle : mesh.triangles)
             for (uint32_t vertex : triangle)
                 ++first_corner[position_of_vertex[vertex] + 2];
@@ -177,17 +179,24 @@ void merge_equal_vertices(Mesh& mesh)
     constexpr uint32_t kNone = ~0u;
     const size_t count = mesh.positions.size();
     const bool has_uvs = !mesh.uvs.empty();
-    const size_t most = std::min(count, mesh.triangles.size() * 3);
-    UniqueIndex<VertexKey> vertices(most, most);
-    std::vector<uint32_t> numbers(count, kNone); // to look each up once, and not once a corner
+    const std::vector<uint32_t> first = AlikeBuckets::first_alike(count, [&](size_t v) {
+        return VertexKey { mesh.positions[v], mesh.normals[v], has_uvs ? mesh.uvs[v] : V2f(0) };
+    });
+    std::vector<uint32_t> numbers(count, kNone), kept;
+    kept.reserve(count);
     for (auto& triangle : mesh.triangles)
         for (uint32_t& vertex : triangle) {
-            const uint32_t v = vertex;
-            if (numbers[v] == kNone)
-                numbers[v] = vertices.index_of({ mesh.positions[v], mesh.normals[v], has_uvs ? mesh.uvs[v] : V2f(0) });
-            vertex = numbers[v];
+            uint32_t& number = numbers[first[vertex]];
+            if (number == kNone) {
+                number = uint32_t(kept.size());
+                kept.push_back(first[vertex]);
+            }
+            vertex = number;
         }
-    take_vertices(mesh, vertices.keys());
+    mesh.positions = picked(mesh.positions, kept);
+    mesh.normals = picked(mesh.normals, kept);
+    if (has_uvs)
+        mesh.uvs = picked(mesh.uvs, kept);
 }
 
 } // namespace vmlight

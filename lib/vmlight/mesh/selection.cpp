@@ -2,6 +2,7 @@
 #include <vmlight/mesh/selection.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/picked.h>
 #include <vmlight/base/text_format.h>
 #include <vmlight/mesh/opacity.h>
 
@@ -116,18 +117,6 @@ void keep_marked(std::vector<bool>& triangles, const std::vector<uint32_t>& indi
 bool is_textured(const Mesh& mesh, const std::array<uint32_t, 3>& triangle)
 {
     return std::all_of(triangle.begin(), triangle.end(), [&](uint32_t vertex) { return has_uv(mesh, vertex); });
-}
-
-template <class Element>
-std::vector<Element> picked(const std::vector<Element>& from, const std::vector<size_t>& indices)
-{
-    std::vector<Element> to;
-    if (from.empty())
-        return to;
-    to.reserve(indices.size());
-    for (const size_t index : indices)
-        to.push_back(from[index]);
-    return to;
 }
 
 } // namespace

@@ -1,34 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uv/islands.h>
 
-#include <vmlight/base/unique_index.h>
+#include <vmlight/base/disjoint_sets.h>
+#include <vmlight/base/number_alike.h>
 
-#include <numeric>
+#include <atomic>
+#include <utility>
 
 namespace vmlight {
 namespace {
-
-/// Disjoint sets of numbers, each identified by one of them. Source: R. Tarjan, "Efficiency of a Good But Not Linear
-/// Set Union Algorithm", JACM 22(2), 1975; with path halving.
-class DisjointSets
-{
-public:
-    explicit DisjointSets(size_t count)
-        : m_parent(count)
-    {
-        std::iota(m_parent.begin(), m_parent.end(), 0u);
-    }
-    uint32_t find(uint32_t i)
-    {
-        while (m_parent[i] != i)
-            i = m_parent[i] = m_parent[m_parent[i]];
-        return i;
-    }
-    void join(uint32_t a, uint32_t b) { m_parent[find(a)] = find(b); }
-
-private:
-    std::vector<uint32_t> m_parent;
-};
 
 // Vertices with the same texture coordinates have the same number.
 std::vector<uint32_t> number_points(const Mesh& mesh, size_t& count)
@@ -40,56 +20,81 @@ std::vector<uint32_t> number_points(const Mesh& mesh, size_t& count)
     return point_of_vertex;
 }
 
-struct Island
+/// The islands that some triangles form.
+class Islands
 {
-    int64_t triangles = 0;
-    bool covers = false;
+public:
+    /// @param takes(triangle)   whether it is one of them; thread-safe
+    template <class Takes>
+    Islands(const Mesh& mesh, const Takes& takes)
+        : m_mesh(mesh)
+        , m_point_of_vertex(number_points(mesh, m_points))
+        , m_sets(m_points)
+    {
+        parallel_blocks(mesh.triangles.size(), [&](size_t begin, size_t end, size_t) {
+            for (size_t t = begin; t < end; ++t) {
+                if (!takes(uint32_t(t)))
+                    continue;
+                const auto& [a, b, c] = mesh.triangles[t];
+                m_sets.join(m_point_of_vertex[a], m_point_of_vertex[b]);
+                m_sets.join(m_point_of_vertex[a], m_point_of_vertex[c]);
+            }
+        });
+    }
+
+    /// Numbers of islands are below this.
+    size_t end() const { return m_points; }
+    uint32_t of_triangle(size_t triangle) { return m_sets.find(m_point_of_vertex[m_mesh.triangles[triangle][0]]); }
+
+private:
+    const Mesh& m_mesh;
+    size_t m_points = 0;
+    const std::vector<uint32_t> m_point_of_vertex;
+    DisjointSets m_sets;
 };
 
 } // namespace
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    size_t points = 0;
-    const std::vector<uint32_t> point_of_vertex = number_points(mesh, points);
-    DisjointSets sets(points);
-    std::vector<uint32_t> in_tile;
-    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!raster.is_in_tile(t))
-            continue;
-        in_tile.push_back(t);
-        for (int k = 1; k < 3; ++k)
-            sets.join(point_of_vertex[mesh.triangles[t][0]], point_of_vertex[mesh.triangles[t][k]]);
-    }
-    std::vector<Island> islands(points);
-    for (uint32_t t : in_tile) {
-        Island& island = islands[sets.find(point_of_vertex[mesh.triangles[t][0]])];
-        ++island.triangles;
-        island.covers = island.covers || raster.covers_any_texel(t);
-    }
+    Islands islands(mesh, [&](uint32_t triangle) { return raster.is_in_tile(triangle); });
+    std::vector<std::atomic<bool>> covers(islands.end());
+    std::vector<std::atomic<uint32_t>> triangles(islands.end());
+    parallel_blocks(mesh.triangles.size(), [&](size_t begin, size_t end, size_t) {
+        uint32_t island = 0, run = 0; // triangles of an island mostly follow each other
+        for (size_t t = begin; t < end; ++t) {
+            if (!raster.is_in_tile(t))
+                continue;
+            if (const uint32_t own = islands.of_triangle(t); own != island) {
+                triangles[island] += std::exchange(run, 0);
+                island = own;
+            }
+            ++run;
+            if (!covers[island] && raster.covers_any_texel(t))
+                covers[island] = true;
+        }
+        triangles[island] += run;
+    });
     report.islands = report.uncovered_islands = report.uncovered_triangles = 0;
-    for (const Island& island : islands) {
-        report.islands += island.triangles > 0;
-        report.uncovered_islands += island.triangles > 0 && !island.covers;
-        report.uncovered_triangles += island.covers ? 0 : island.triangles;
+    for (size_t i = 0; i < islands.end(); ++i) {
+        report.islands += triangles[i] > 0;
+        report.uncovered_islands += triangles[i] > 0 && !covers[i];
+        report.uncovered_triangles += covers[i] ? 0 : triangles[i].load();
     }
 }
 
 std::vector<uint32_t> islands_of_triangles(const Mesh& mesh)
 {
-    size_t points = 0;
-    const std::vector<uint32_t> point_of_vertex = number_points(mesh, points);
-    DisjointSets sets(points);
-    for (const auto& [a, b, c] : mesh.triangles)
-        if (has_uv(mesh, a) && has_uv(mesh, b) && has_uv(mesh, c)) {
-            sets.join(point_of_vertex[a], point_of_vertex[b]);
-            sets.join(point_of_vertex[a], point_of_vertex[c]);
-        }
-    std::vector<uint32_t> islands;
-    islands.reserve(mesh.triangles.size());
-    for (const auto& triangle : mesh.triangles)
-        islands.push_back(sets.find(point_of_vertex[triangle[0]]));
-    return islands;
+    Islands islands(mesh, [&](uint32_t triangle) {
+        const auto& [a, b, c] = mesh.triangles[triangle];
+        return has_uv(mesh, a) && has_uv(mesh, b) && has_uv(mesh, c);
+    });
+    std::vector<uint32_t> numbers(mesh.triangles.size());
+    parallel_blocks(numbers.size(), [&](size_t begin, size_t end, size_t) {
+        for (size_t t = begin; t < end; ++t)
+            numbers[t] = islands.of_triangle(t);
+    });
+    return numbers;
 }
 
 } // namespace vmlight

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/uv/raster.h>
 
+#include <vmlight/base/parallel_blocks.h>
 #include <vmlight/uv/raster_edges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 namespace vmlight {
 namespace {
@@ -103,14 +104,14 @@ UvRaster::Bounds UvRaster::bounds_of(size_t triangle) const
              { std::max({ x[0], x[1], x[2] }), std::max({ y[0], y[1], y[2] }) } };
 }
 
-void UvRaster::count_outside(size_t triangle)
+void UvRaster::count_outside(size_t triangle, UvReport& report) const
 {
     const Bounds bounds = bounds_of(triangle);
     const bool finite = bounds.is_finite(), outside = finite && bounds.reaches_out(size());
-    m_report.without_uv += !finite;
-    m_report.outside += outside;
-    m_report.fully_outside += finite && bounds.is_fully_outside(size());
-    m_report.beyond_udims += outside && reaches_beyond_udims(m_mesh, triangle);
+    report.without_uv += !finite;
+    report.outside += outside;
+    report.fully_outside += finite && bounds.is_fully_outside(size());
+    report.beyond_udims += outside && reaches_beyond_udims(m_mesh, triangle);
 }
 
 bool UvRaster::is_in_tile(size_t triangle) const
@@ -148,37 +149,73 @@ bool UvRaster::covers_any_texel(size_t triangle) const
     return false;
 }
 
+/// Consecutive triangles, which one thread sorts into tiles.
+struct UvRaster::Portion
+{
+    size_t begin, end; // triangles
+    UvReport report;
+    std::vector<uint32_t> kept; // those with area
+    std::vector<size_t> tiles; // of each tile: how many triangles, then the place of the next
+};
+
+void UvRaster::sort(Portion& portion) const
+{
+    std::array<UvCorner, 3> c;
+    UvReport& report = portion.report;
+    portion.tiles.assign(size_t(tiles_across()) * size_t(tiles_down()), 0);
+    for (size_t t = portion.begin; t < portion.end; ++t) {
+        count_outside(t, report);
+        if (!corners(t, c))
+            continue;
+        const int64_t area = doubled_area(c);
+        const double area_3d = triangle_area_normal(m_mesh, m_mesh.triangles[t]).length();
+        report.mirrored += area > 0;
+        report.degenerate_uv += area == 0;
+        report.degenerate_3d += !(area_3d > 0);
+        if (area == 0 || !(area_3d > 0))
+            continue;
+        portion.kept.push_back(uint32_t(t));
+        for_each_tile(c, [&](size_t tile) { ++portion.tiles[tile]; });
+    }
+}
+
 UvRaster::UvRaster(const Mesh& mesh, int width, int height, int udim)
     : m_mesh(mesh)
     , m_width(width)
     , m_height(height)
     , m_corner(udim_corner(udim))
 {
-    m_first.assign(size_t(tiles_across()) * tiles_down() + 2, 0);
-    std::vector<uint32_t> kept;
-    std::array<UvCorner, 3> c;
-    m_report.triangles = int64_t(mesh.triangles.size());
-    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        count_outside(t);
-        if (!corners(t, c))
-            continue;
-        const int64_t area = doubled_area(c);
-        const double area_3d = triangle_area_normal(mesh, mesh.triangles[t]).length();
-        m_report.mirrored += area > 0;
-        m_report.degenerate_uv += area == 0;
-        m_report.degenerate_3d += !(area_3d > 0);
-        if (area == 0 || !(area_3d > 0))
-            continue;
-        kept.push_back(t);
-        for_each_tile(c, [&](size_t tile) { ++m_first[tile + 2]; });
+    // Few, as each counts all tiles.
+    const size_t count = mesh.triangles.size();
+    std::vector<Portion> portions(count > kElementsOfBlock ? size_t(std::min(worker_count(0), 16)) : 1);
+    for (size_t i = 0; i < portions.size(); ++i)
+        portions[i] = { count * i / portions.size(), count * (i + 1) / portions.size(), {}, {}, {} };
+    const auto for_each_portion = [&](auto&& work) {
+        parallel_items(int64_t(portions.size()), portions.size() > 1 ? 0 : 1,
+                       [&](int64_t i, int) { work(portions[size_t(i)]); });
+    };
+    for_each_portion([&](Portion& portion) { sort(portion); });
+    size_t sum = 0;
+    for (size_t tile = 0; tile < portions[0].tiles.size(); ++tile) {
+        m_first.push_back(sum);
+        for (Portion& portion : portions)
+            sum += std::exchange(portion.tiles[tile], sum);
     }
-    std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
-    m_binned.resize(m_first.back());
-    for (uint32_t t : kept) {
-        corners(t, c);
-        for_each_tile(c, [&](size_t tile) { m_binned[m_first[tile + 1]++] = t; });
-    }
-    m_first.pop_back();
+    m_first.push_back(sum);
+    m_binned.resize(sum);
+    for_each_portion([&](Portion& portion) {
+        std::array<UvCorner, 3> c;
+        for (const uint32_t t : portion.kept) {
+            corners(t, c);
+            for_each_tile(c, [&](size_t tile) { m_binned[portion.tiles[tile]++] = t; });
+        }
+    });
+    m_report.triangles = int64_t(count);
+    for (const Portion& portion : portions)
+        for (const auto number :
+             { &UvReport::without_uv, &UvReport::outside, &UvReport::fully_outside, &UvReport::beyond_udims,
+               &UvReport::degenerate_uv, &UvReport::degenerate_3d, &UvReport::mirrored })
+            m_report.*number += portion.report.*number;
 }
 
 void UvRaster::cover(int tile, TileCover& dst) const

@@ -55,7 +55,9 @@ private:
     Imath::V2d size() const;
     Bounds bounds_of(size_t triangle) const;
     bool corners(size_t triangle, std::array<UvCorner, 3>& dst) const;
-    void count_outside(size_t triangle);
+    void count_outside(size_t triangle, UvReport& report) const;
+    struct Portion;
+    void sort(Portion& portion) const;
     template <class Visit> void for_each_tile(const std::array<UvCorner, 3>& corners, Visit&& visit) const;
 
     const Mesh& m_mesh;

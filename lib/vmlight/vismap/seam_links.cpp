@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/vismap/seam_links.h>
 
-#include <vmlight/base/unique_index.h>
+#include <vmlight/base/number_alike.h>
 #include <vmlight/uv/islands.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/vismap/neighbour_weights.h>
