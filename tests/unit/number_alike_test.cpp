@@ -14,7 +14,7 @@ using namespace vmlight;
 
 namespace {
 
-constexpr size_t kMany = 5 * kElementsOfBlock + 3; // several blocks, several buckets
+constexpr size_t kMany = 2 * kElementsOfBlock + 3; // several blocks, several buckets
 
 // Set the number of threads that parallel_blocks() uses.
 struct Threads

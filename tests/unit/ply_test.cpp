@@ -222,7 +222,7 @@ TEST_F(PlyFiles, PolygonsAreCut)
     EXPECT_EQ(mesh_hash(read("b.ply", replace(text, "\n", "\r\n", true))), mesh_hash(mesh));
 }
 
-TEST_F(PlyFiles, WhatCannotBeReadIsTold)
+TEST_F(PlyFiles, InvalidFilesAreRefused)
 {
     const std::string text = quad_text("property float s\nproperty float t\n", kFace + kRows + "4 0 1 2 3\n");
     const auto said = [&](const char* what, const char* instead) {

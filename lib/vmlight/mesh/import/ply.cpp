@@ -42,7 +42,7 @@ public:
     PlyAppender(MeshBuilder& dst, const ply::File& file)
         : m_dst(dst)
         , m_file(file)
-        , m_is_far(file.has_doubles && is_far_from_origin(file.positions))
+        , m_is_far(is_far_from_origin(file.exact_positions))
         , m_has_uvs(dst.params().uv_set == 0)
         , m_split(m_has_uvs ? file.corner_uvs.size() : 0)
     {
@@ -57,7 +57,7 @@ public:
     bool is_far() const { return m_is_far; }
     V3d position(size_t vertex) const
     {
-        return m_is_far ? m_file.positions[vertex] : V3d(m_file.rounded_positions[vertex]);
+        return m_is_far ? m_file.exact_positions[vertex] : V3d(m_file.positions[vertex]);
     }
 
     void add_triangle(size_t face, const std::array<uint32_t, 3>& corners)

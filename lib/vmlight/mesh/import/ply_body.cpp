@@ -69,16 +69,21 @@ Reading Body::read(const Type& type, TextNumber& number)
             number.rounded = nearest_float(number.value);
         return Reading::good;
     }
-    if (m_bytes.size() - m_at < type.bytes)
+    if (left() < type.bytes)
         return Reading::end;
+    number = number_at(type, 0);
+    skip(type.bytes);
+    return Reading::good;
+}
+
+TextNumber Body::number_at(const Type& type, size_t offset) const
+{
     char raw[8];
-    std::memcpy(raw, &m_bytes[m_at], type.bytes);
+    std::memcpy(raw, here() + offset, type.bytes);
     if (m_swapped)
         std::reverse(raw, raw + type.bytes);
-    m_at += type.bytes;
-    number.value = number_of(type, raw);
-    number.rounded = nearest_float(number.value);
-    return Reading::good;
+    const double value = number_of(type, raw);
+    return { value, nearest_float(value) };
 }
 
 bool Body::find_word()

@@ -27,6 +27,13 @@ public:
     bool next_element();
     Reading read(const Type& type, TextNumber& number);
 
+    // Of a binary file: the next byte, how many are left, and the number that begins `offset` bytes on, unchecked.
+    bool is_binary() const { return !m_ascii; }
+    const char* here() const { return m_bytes.data() + m_at; }
+    size_t left() const { return m_bytes.size() - m_at; }
+    TextNumber number_at(const Type& type, size_t offset) const;
+    void skip(size_t bytes) { m_at += bytes; }
+
 private:
     bool find_word();
 

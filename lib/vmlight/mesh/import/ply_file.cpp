@@ -3,13 +3,12 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
-#include <vmlight/mesh/import/ply_body.h>
+#include <vmlight/mesh/import/ply_rows.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <map>
+#include <optional>
 
 namespace vmlight::ply {
 namespace {
@@ -17,32 +16,6 @@ namespace {
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
-
-// What a number is, by the name of its property: of a vertex, an index into its eight numbers.
-enum Role
-{
-    kX,
-    kY,
-    kZ,
-    kNormalX,
-    kNormalY,
-    kNormalZ,
-    kU,
-    kV,
-    kCorners,
-    kUvs,
-    kTexture,
-    kNone
-};
-
-const std::map<std::string, Role> kVertexRoles {
-    { "x", kX }, { "y", kY },  { "z", kZ },         { "nx", kNormalX },  { "ny", kNormalY },  { "nz", kNormalZ },
-    { "u", kU }, { "s", kU },  { "tx", kU },        { "texture_u", kU }, { "texture_s", kU }, { "v", kV },
-    { "t", kV }, { "ty", kV }, { "texture_v", kV }, { "texture_t", kV },
-};
-const std::map<std::string, Role> kFaceRoles {
-    { "vertex_indices", kCorners }, { "vertex_index", kCorners }, { "texcoord", kUvs }, { "texnumber", kTexture }
-};
 
 class Parser
 {
@@ -62,9 +35,6 @@ public:
     std::string parse();
 
 private:
-    using Roles = std::vector<Role>; // of each property
-
-    static Roles roles_of(const Element& element);
     // Read the numbers of a property into m_numbers. Returns the error, or "".
     std::string read_property(const Element& element, const Property& property, size_t row);
     std::string read_element(const Element& element);
@@ -72,6 +42,8 @@ private:
     std::string begin_vertices(const Element& element, const Roles& roles);
     void add_vertex();
     void reserve_faces(const Element& element);
+    // Read an element as EvenRows. False, with nothing read, if it is not of these, or a corner is invalid.
+    bool read_even_rows(const Element& element, const Roles& roles);
     std::string add_corners(const Element& element, size_t row);
     std::string add_face(size_t row);
     void add_strips();
@@ -81,28 +53,13 @@ private:
     Body m_body;
     const size_t m_body_bytes;
     size_t m_vertex_count = 0;
-    bool m_has_normals = false, m_has_uvs = false;
+    VertexParts m_parts;
     std::vector<TextNumber> m_numbers; // of a property
     std::array<TextNumber, 8> m_vertex; // by role
     std::vector<int64_t> m_corners; // of a face or strip
     std::vector<float> m_uvs; // of a face
     int32_t m_texture = -1; // of a face
 };
-
-Parser::Roles Parser::roles_of(const Element& element)
-{
-    const bool is_vertex = element.name == "vertex";
-    const bool is_face = element.name == "face" || element.name == "tristrips";
-    Roles roles;
-    for (const Property& property : element.properties) {
-        const auto& known = is_vertex ? kVertexRoles : kFaceRoles;
-        const auto role = known.find(property.name);
-        const bool is_known = (is_vertex || is_face) && role != known.end();
-        const bool is_list = is_known && (role->second == kCorners || role->second == kUvs);
-        roles.push_back(is_known && is_list == bool(property.count) ? role->second : kNone);
-    }
-    return roles;
-}
 
 std::string Parser::read_property(const Element& element, const Property& property, size_t row)
 {
@@ -139,29 +96,26 @@ size_t Parser::rows_of(const Element& element) const
 
 std::string Parser::begin_vertices(const Element& element, const Roles& roles)
 {
-    const auto has = [&](Role role) { return std::find(roles.begin(), roles.end(), role) != roles.end(); };
-    if (!has(kX) || !has(kY)) // z is 0 in drawings
+    if (!has_role(roles, kX) || !has_role(roles, kY)) // z is 0 in drawings
         return "PLY vertices have no x and y";
-    m_has_normals = has(kNormalX) && has(kNormalY) && has(kNormalZ);
-    m_has_uvs = has(kU) && has(kV);
-    for (size_t i = 0; i < roles.size(); ++i)
-        m_file.has_doubles |= roles[i] <= kZ && element.properties[i].type->bytes == 8;
+    m_parts = VertexParts(element, roles);
     const size_t rows = rows_of(element);
     m_file.positions.reserve(rows);
-    m_file.rounded_positions.reserve(rows);
-    m_file.normals.reserve(m_has_normals ? rows : 0);
-    m_file.uvs.reserve(m_has_uvs ? rows : 0);
+    m_file.exact_positions.reserve(m_parts.has_doubles ? rows : 0);
+    m_file.normals.reserve(m_parts.has_normals ? rows : 0);
+    m_file.uvs.reserve(m_parts.has_uvs ? rows : 0);
     return "";
 }
 
 void Parser::add_vertex()
 {
     const auto& n = m_vertex;
-    m_file.positions.push_back(V3d(n[kX].value, n[kY].value, n[kZ].value));
-    m_file.rounded_positions.push_back(V3f(n[kX].rounded, n[kY].rounded, n[kZ].rounded));
-    if (m_has_normals)
+    m_file.positions.push_back(V3f(n[kX].rounded, n[kY].rounded, n[kZ].rounded));
+    if (m_parts.has_doubles)
+        m_file.exact_positions.push_back(V3d(n[kX].value, n[kY].value, n[kZ].value));
+    if (m_parts.has_normals)
         m_file.normals.push_back(V3f(n[kNormalX].rounded, n[kNormalY].rounded, n[kNormalZ].rounded));
-    if (m_has_uvs)
+    if (m_parts.has_uvs)
         m_file.uvs.push_back(V2f(n[kU].rounded, n[kV].rounded));
 }
 
@@ -180,7 +134,7 @@ std::string Parser::add_corners(const Element& element, size_t row)
     for (const TextNumber& number : m_numbers) {
         const double vertex = number.value;
         const bool is_restart = is_strip && vertex == -1;
-        if (!is_restart && !(vertex >= 0 && vertex < double(m_vertex_count) && vertex == std::floor(vertex)))
+        if (!is_restart && !is_vertex_index(vertex, m_vertex_count))
             return format("PLY {} {} uses vertex {}, but there are only {}", element.name, row, vertex, m_vertex_count);
         m_corners.push_back(int64_t(vertex));
     }
@@ -223,6 +177,19 @@ void Parser::add_strips()
     }
 }
 
+bool Parser::read_even_rows(const Element& element, const Roles& roles)
+{
+    if (element.name == "tristrips" || has_role(roles, kUvs) || has_role(roles, kTexture))
+        return false;
+    const std::optional<EvenRows> rows = EvenRows::find(element, m_body);
+    if (!rows || (element.name == "face" && !read_faces(m_file, *rows, roles, m_vertex_count)))
+        return false;
+    if (element.name == "vertex")
+        read_vertices(m_file, *rows, roles, m_parts);
+    m_body.skip(rows->bytes());
+    return true;
+}
+
 std::string Parser::read_element(const Element& element)
 {
     const Roles roles = roles_of(element);
@@ -230,6 +197,8 @@ std::string Parser::read_element(const Element& element)
     if (is_vertex && element.count > 0)
         if (const std::string error = begin_vertices(element, roles); !error.empty())
             return error;
+    if (read_even_rows(element, roles))
+        return "";
     for (size_t row = 0; row < element.count && !element.properties.empty(); ++row) {
         if (!m_body.next_element())
             return format("PLY ends before {} {} of {}", element.name, row, element.count);

@@ -12,9 +12,8 @@ namespace vmlight::ply {
 
 struct File
 {
-    std::vector<Imath::V3d> positions;
-    std::vector<Imath::V3f> rounded_positions; ///< see TextNumber::rounded
-    bool has_doubles = false; ///< a coordinate is of type `double`
+    std::vector<Imath::V3f> positions; ///< see TextNumber::rounded
+    std::vector<Imath::V3d> exact_positions; ///< empty unless a coordinate is of type `double`
     std::vector<Imath::V3f> normals; ///< of vertices; empty if there are none
     std::vector<Imath::V2f> uvs; ///< of vertices; empty if there are none
 
