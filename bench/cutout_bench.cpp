@@ -85,7 +85,7 @@ Mesh with_leaves(Mesh mesh, bool of_the_atlas)
     mesh.materials.resize(2);
     mesh.triangle_materials.resize(mesh.triangles.size());
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        mesh.triangle_materials[t] = is_leaf(mesh, t);
+        mesh.triangle_materials.set(t, is_leaf(mesh, t));
     mesh.opacity = opacity;
     return mesh;
 }

@@ -228,7 +228,8 @@ TEST(Cutouts, WhatIsAroundAHoleStaysTight)
         = { MaterialOpacity(),
             material(AlphaMode::mask, texture(9, 9, [](int x, int y) { return x == 4 && y == 4 ? 0.0f : 1.0f; })) };
     sheet.opacity = opacity;
-    sheet.triangle_materials[8] = sheet.triangle_materials[9] = 1;
+    for (const size_t triangle : { 8, 9 })
+        sheet.triangle_materials.set(triangle, 1);
     const CutTrace trace(sheet);
     EXPECT_EQ(trace.occluder.cutouts().triangles, 2);
     EXPECT_EQ(trace.occluder.cutouts().mixed, 2);

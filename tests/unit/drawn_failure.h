@@ -78,9 +78,13 @@ inline std::string shrunk(Drawn drawn, const std::function<bool(const Drawn&)>& 
         for (size_t t = drawn.scene.all_meshes()[i]->triangles.size(); t-- > 1;)
             fails_without([&](Drawn& less) {
                 Mesh& mesh = *less.scene.all_meshes()[i];
+                std::vector<size_t> kept;
+                for (size_t other = 0; other < mesh.triangles.size(); ++other)
+                    if (other != t)
+                        kept.push_back(other);
                 mesh.triangles.erase(mesh.triangles.begin() + std::ptrdiff_t(t));
                 if (mesh.triangle_materials.size() > t)
-                    mesh.triangle_materials.erase(mesh.triangle_materials.begin() + std::ptrdiff_t(t));
+                    mesh.triangle_materials = picked(mesh.triangle_materials, kept);
             });
     return text_of(drawn);
 }

@@ -51,9 +51,9 @@ inline void cut_out(Mesh& mesh, std::mt19937& random)
             material.textures[0].image = alpha(random);
     }
     mesh.materials.resize(3);
-    mesh.triangle_materials.resize(mesh.triangles.size());
-    for (uint32_t& material : mesh.triangle_materials)
-        material = uint32_t(one_of(random, 3));
+    mesh.triangle_materials.clear();
+    while (mesh.triangle_materials.size() < mesh.triangles.size())
+        mesh.triangle_materials.push_back(uint32_t(one_of(random, 3)));
     mesh.opacity = std::move(opacity);
 }
 

@@ -25,7 +25,7 @@ Mesh two_materials(const V3d& place = V3d(0), double scale = 1)
     mesh.materials[1].alpha_mode = AlphaMode::blend;
     mesh.materials[1].is_double_sided = true;
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        mesh.triangle_materials[t] = t / 7 % 2;
+        mesh.triangle_materials.set(t, t / 7 % 2);
     for (V3d& p : mesh.positions) // as files have them
         p = V3d(V3f(p)) * scale + place;
     for (V3f& n : mesh.normals)

@@ -256,6 +256,6 @@ TEST(MeshHash, IsStableAndTellsMeshesApart)
     expect_new([](Mesh& m) { m = Mesh(); });
     Mesh renamed = mesh;
     renamed.name = "other";
-    renamed.triangle_materials[0] = 7;
+    renamed.triangle_materials.set(0, 7);
     EXPECT_EQ(mesh_hash(renamed), hash); // neither is geometry
 }

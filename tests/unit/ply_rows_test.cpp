@@ -14,8 +14,8 @@ using namespace mesh_files;
 
 namespace {
 
-constexpr int kSide = 300; // vertices; more than one block of them
-static_assert(size_t(kSide) * kSide > kElementsOfBlock);
+constexpr int kGridSide = 300; // vertices; more than one block of them
+static_assert(size_t(kGridSide) * kGridSide > kElementsOfBlock);
 
 /// A file of a square grid, written row by row.
 class GridFile
@@ -30,33 +30,33 @@ public:
             + format(" 1.0\nelement vertex {}\nproperty double x\nproperty list uchar short tags\nproperty float z\n"
                      "property short y\nproperty float s\nproperty float t\nelement marks 2\nproperty int mark\n"
                      "element face {}\nproperty uchar red\nproperty list uchar int vertex_indices\nend_header\n",
-                     kSide * kSide, 2 * (kSide - 1) * (kSide - 1) - (has_quad ? 1 : 0));
+                     kGridSide * kGridSide, 2 * (kGridSide - 1) * (kGridSide - 1) - (has_quad ? 1 : 0));
     }
 
     /// @param tags         the length of a list in row 7; 2 elsewhere
     /// @param bad_vertex   instead of one in the last row but one
     std::string bytes(size_t tags = 2, int bad_vertex = 0)
     {
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const int x = i % kSide, y = i / kSide;
+        for (int i = 0; i < kGridSide * kGridSide; ++i) {
+            const int x = i % kGridSide, y = i / kGridSide;
             put(x + 0.1);
             put(uint8_t(i == 7 ? tags : 2));
             for (size_t k = 0; k < (i == 7 ? tags : 2); ++k)
                 put(int16_t(i));
             put(float(i % 3));
             put(int16_t(y));
-            put(float(x) / kSide);
-            put(float(y) / kSide);
+            put(float(x) / kGridSide);
+            put(float(y) / kGridSide);
             end_row();
         }
         for (const int mark : { 1, 2 }) {
             put(mark);
             end_row();
         }
-        for (int y = 0; y + 1 < kSide; ++y)
-            for (int x = 0; x + 1 < kSide; ++x) {
-                const int a = y * kSide + x, b = a + kSide;
-                const bool is_last = y + 2 == kSide && x + 2 == kSide;
+        for (int y = 0; y + 1 < kGridSide; ++y)
+            for (int x = 0; x + 1 < kGridSide; ++x) {
+                const int a = y * kGridSide + x, b = a + kGridSide;
+                const bool is_last = y + 2 == kGridSide && x + 2 == kGridSide;
                 if (is_last && m_has_quad) {
                     face({ a, a + 1, b + 1, b });
                 } else {
@@ -102,8 +102,8 @@ class PlyRows : public MeshFiles
 TEST_F(PlyRows, AreTheSameMeshInEachEncoding)
 {
     const Mesh expected = read("a.ply", GridFile("ascii").bytes()); // row by row
-    ASSERT_EQ(expected.positions.size(), size_t(kSide) * kSide);
-    EXPECT_EQ(expected.triangles.size(), size_t(2) * (kSide - 1) * (kSide - 1));
+    ASSERT_EQ(expected.positions.size(), size_t(kGridSide) * kGridSide);
+    EXPECT_EQ(expected.triangles.size(), size_t(2) * (kGridSide - 1) * (kGridSide - 1));
     const std::string hash = mesh_hash(expected);
     for (const char* name : { "binary_little_endian", "binary_big_endian" }) {
         EXPECT_EQ(mesh_hash(read("b.ply", GridFile(name).bytes())), hash) << name;
@@ -116,7 +116,7 @@ TEST_F(PlyRows, AreTheSameMeshInEachEncoding)
 TEST_F(PlyRows, AreRefusedAsRowByRow)
 {
     const std::string name = "binary_little_endian";
-    const int vertices = kSide * kSide, faces = 2 * (kSide - 1) * (kSide - 1);
+    const int vertices = kGridSide * kGridSide, faces = 2 * (kGridSide - 1) * (kGridSide - 1);
     for (const int vertex : { vertices, -1 })
         EXPECT_EQ(refusal(folder.write("a.ply", GridFile(name).bytes(2, vertex))),
                   format("PLY face {} uses vertex {}, but there are only {}", faces - 2, vertex, vertices));

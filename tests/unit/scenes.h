@@ -27,7 +27,7 @@ inline void add_quad(Mesh& mesh, V3d a, V3d b, V3d c, V3d d, V2f uv0 = V2f(NAN),
         mesh.uvs.push_back(uv);
     mesh.triangles.push_back({ first, first + 1, first + 2 });
     mesh.triangles.push_back({ first, first + 2, first + 3 });
-    mesh.triangle_materials.insert(mesh.triangle_materials.end(), 2, 0);
+    mesh.triangle_materials.resize(mesh.triangles.size());
 }
 
 /// A square of side 2 `half` around `centre` in the plane z = centre.z, facing +z, over the whole texture.
@@ -215,8 +215,8 @@ inline void append(Mesh& mesh, const Mesh& other)
     mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
     for (const auto& t : other.triangles)
         mesh.triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
-    mesh.triangle_materials.insert(mesh.triangle_materials.end(), other.triangle_materials.begin(),
-                                   other.triangle_materials.end());
+    for (const uint32_t material : other.triangle_materials)
+        mesh.triangle_materials.push_back(material);
 }
 
 } // namespace vmlight::scenes

@@ -66,7 +66,7 @@ double fade(const FrameSurface& surface, const V3d& position)
 // nullptr: white.
 const SurfaceMaterial* material_of(const SeenPoint& seen)
 {
-    const std::vector<uint32_t>& numbers = seen.surface->mesh->triangle_materials;
+    const TriangleIndices& numbers = seen.surface->mesh->triangle_materials;
     return seen.surface->materials.empty() || numbers.empty() ? nullptr
                                                               : &seen.surface->materials[numbers[seen.triangle]];
 }
@@ -81,7 +81,7 @@ bool has_color(const SurfaceMaterial& material)
 
 bool has_all_colors(const FrameSurface& surface)
 {
-    const std::vector<uint32_t>& numbers = surface.mesh->triangle_materials;
+    const TriangleIndices& numbers = surface.mesh->triangle_materials;
     return !surface.materials.empty() && !numbers.empty()
         && std::all_of(numbers.begin(), numbers.end(),
                        [&](uint32_t number) { return has_color(surface.materials[number]); });

@@ -5,6 +5,7 @@
 #include <vmlight/base/export.h>
 #include <vmlight/base/params.h>
 #include <vmlight/mesh/material.h>
+#include <vmlight/mesh/triangle_indices.h>
 
 #include <Imath/ImathVec.h>
 
@@ -61,9 +62,9 @@ struct Mesh
     std::vector<Imath::V2f> uvs;
     std::vector<std::array<uint32_t, 3>> triangles;
     /// For each triangle, an index into `materials`; empty if unknown.
-    std::vector<uint32_t> triangle_materials;
+    TriangleIndices triangle_materials;
     /// For each triangle, an index into `nodes`; empty if unknown.
-    std::vector<uint32_t> triangle_nodes;
+    TriangleIndices triangle_nodes;
     /// The file's materials, in its order. Triangles without one have a material without a name.
     std::vector<Material> materials;
     /// What of it is not opaque; nullptr: all is. Reading a file leaves it so: see read_cutouts() of the stages.
@@ -157,7 +158,7 @@ constexpr uint32_t kFlatGroup = 0;
 /// @param groups   a smoothing group for each triangle: normals are smooth across triangles of one group, and those of
 ///                 kFlatGroup flat; empty: all are of one group
 /// @param seam_angle   where triangles that meet differ in their uvs, edges sharper than this, in degrees, stay hard
-VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups = {},
+VMLIGHT_API void fill_missing_normals(Mesh& mesh, double crease_angle, const TriangleIndices& groups = {},
                                       double seam_angle = 180);
 
 /// Merge vertices whose position, normal and uv agree bit for bit, and order them by first use.

@@ -64,14 +64,14 @@ struct Corner
 /// Across which edges normals are smooth: see fill_missing_normals().
 struct Smoothing
 {
-    Smoothing(double crease_angle, double seam_angle, const std::vector<uint32_t>& triangle_groups)
+    Smoothing(double crease_angle, double seam_angle, const TriangleIndices& triangle_groups)
         : groups(triangle_groups)
         , least_cosine(least_cosine_of(crease_angle))
         , least_cosine_at_seams(least_cosine_of(seam_angle))
     {
     }
 
-    const std::vector<uint32_t>& groups;
+    const TriangleIndices& groups;
     double least_cosine, least_cosine_at_seams; // beyond any cosine: -2
 
 private:
@@ -118,7 +118,7 @@ struct TriangleFans
 
     V3f smooth_normal(const Mesh& mesh, uint32_t vertex, uint32_t triangle, const Smoothing& smoothing) const
     {
-        const std::vector<uint32_t>& groups = smoothing.groups;
+        const TriangleIndices& groups = smoothing.groups;
         if (!groups.empty() && groups[triangle] == kFlatGroup)
             return triangle_normals[triangle];
         const uint32_t position = position_of_vertex[vertex];
@@ -159,7 +159,7 @@ void make_smooth_normals(Mesh& mesh, double crease_angle)
     fill_missing_normals(mesh, crease_angle);
 }
 
-void fill_missing_normals(Mesh& mesh, double crease_angle, const std::vector<uint32_t>& groups, double seam_angle)
+void fill_missing_normals(Mesh& mesh, double crease_angle, const TriangleIndices& groups, double seam_angle)
 {
     if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_missing_normal)) {
         merge_equal_vertices(mesh);

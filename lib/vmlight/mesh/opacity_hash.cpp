@@ -35,7 +35,8 @@ std::string opacity_hash(const Mesh& mesh)
     }
     if (!mesh.opacity)
         return "";
-    std::vector<uint64_t> parts { fingerprint_of(mesh.triangle_materials) };
+    std::vector<uint64_t> parts { fingerprint_of(
+        std::vector<uint32_t>(mesh.triangle_materials.begin(), mesh.triangle_materials.end())) };
     std::vector<double> numbers;
     for (const MaterialOpacity& material : mesh.opacity->materials) {
         numbers.insert(numbers.end(), { double(material.mode), material.cutoff, material.factor });

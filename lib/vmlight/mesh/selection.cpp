@@ -108,7 +108,7 @@ bool mark_named(std::vector<bool>& dst, const std::vector<std::string>& names, c
 }
 
 // Take away the triangles whose index is not marked.
-void keep_marked(std::vector<bool>& triangles, const std::vector<uint32_t>& indices, const std::vector<bool>& marked)
+void keep_marked(std::vector<bool>& triangles, const TriangleIndices& indices, const std::vector<bool>& marked)
 {
     for (size_t t = 0; t < triangles.size(); ++t)
         triangles[t] = triangles[t] && t < indices.size() && indices[t] < marked.size() && marked[indices[t]];

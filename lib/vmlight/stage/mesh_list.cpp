@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kDeepestIndent = 32;
 
-std::vector<int64_t> count_by_index(const std::vector<uint32_t>& indices, size_t size)
+std::vector<int64_t> count_by_index(const TriangleIndices& indices, size_t size)
 {
     std::vector<int64_t> counts(size, 0);
     for (const uint32_t index : indices)

@@ -207,7 +207,8 @@ size_t BakeScene::bytes() const
     return (m_whole ? m_whole->bytes()
                     : 80 * size_t(m_triangles) - 12 * m_mesh->triangles.size() + size_t(kBytesOfSpan) * size_t(m_spans)
                     + 700 * size_t(m_occluder->instances().instances) + m_occluder->cutouts().bytes)
-        + 20 * m_mesh->triangles.size() + 48 * m_mesh->positions.size();
+        + 12 * m_mesh->triangles.size() + m_mesh->triangle_materials.bytes() + m_mesh->triangle_nodes.bytes()
+        + 48 * m_mesh->positions.size();
 }
 
 } // namespace vmlight

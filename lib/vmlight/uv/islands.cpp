@@ -57,13 +57,14 @@ private:
 
 void count_islands(UvReport& report, const Mesh& mesh, const UvRaster& raster)
 {
-    Islands islands(mesh, [&](uint32_t triangle) { return raster.is_in_tile(triangle); });
+    std::vector<uint8_t> is_in_tile(mesh.triangles.size());
+    Islands islands(mesh, [&](uint32_t triangle) { return is_in_tile[triangle] = raster.is_in_tile(triangle); });
     std::vector<std::atomic<bool>> covers(islands.end());
     std::vector<std::atomic<uint32_t>> triangles(islands.end());
     parallel_blocks(mesh.triangles.size(), [&](size_t begin, size_t end, size_t) {
         uint32_t island = 0, run = 0; // triangles of an island mostly follow each other
         for (size_t t = begin; t < end; ++t) {
-            if (!raster.is_in_tile(t))
+            if (!is_in_tile[t])
                 continue;
             if (const uint32_t own = islands.of_triangle(t); own != island) {
                 triangles[island] += std::exchange(run, 0);

@@ -114,11 +114,23 @@ void UvRaster::count_outside(size_t triangle, UvReport& report) const
     report.beyond_udims += outside && reaches_beyond_udims(m_mesh, triangle);
 }
 
+// As nearly all are: no other bounds need be looked at.
+bool UvRaster::lies_inside(const std::array<UvCorner, 3>& c) const
+{
+    return std::all_of(c.begin(), c.end(), [&](const UvCorner& corner) {
+        return corner.x >= 0 && corner.y >= 0 && corner.x <= m_width * kSubtexels && corner.y <= m_height * kSubtexels;
+    });
+}
+
 bool UvRaster::is_in_tile(size_t triangle) const
 {
-    const Bounds bounds = bounds_of(triangle);
-    return bounds.is_finite() && !bounds.is_fully_outside(size())
-        && triangle_area_normal(m_mesh, m_mesh.triangles[triangle]).length() > 0;
+    std::array<UvCorner, 3> c;
+    if (!corners(triangle, c) || !lies_inside(c)) {
+        const Bounds bounds = bounds_of(triangle);
+        if (!bounds.is_finite() || bounds.is_fully_outside(size()))
+            return false;
+    }
+    return triangle_area_normal(m_mesh, m_mesh.triangles[triangle]).length() > 0;
 }
 
 bool UvRaster::covers_any_texel(size_t triangle) const
@@ -164,8 +176,10 @@ void UvRaster::sort(Portion& portion) const
     UvReport& report = portion.report;
     portion.tiles.assign(size_t(tiles_across()) * size_t(tiles_down()), 0);
     for (size_t t = portion.begin; t < portion.end; ++t) {
-        count_outside(t, report);
-        if (!corners(t, c))
+        const bool is_near = corners(t, c);
+        if (!is_near || !lies_inside(c))
+            count_outside(t, report);
+        if (!is_near)
             continue;
         const int64_t area = doubled_area(c);
         const double area_3d = triangle_area_normal(m_mesh, m_mesh.triangles[t]).length();

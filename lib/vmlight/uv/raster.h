@@ -56,6 +56,7 @@ private:
     Bounds bounds_of(size_t triangle) const;
     bool corners(size_t triangle, std::array<UvCorner, 3>& dst) const;
     void count_outside(size_t triangle, UvReport& report) const;
+    bool lies_inside(const std::array<UvCorner, 3>& corners) const;
     struct Portion;
     void sort(Portion& portion) const;
     template <class Visit> void for_each_tile(const std::array<UvCorner, 3>& corners, Visit&& visit) const;

@@ -101,7 +101,7 @@ private:
     size_t m_first = 0; // vertex of the part
     uint32_t m_node = 0;
     double m_seam_angle = 180;
-    std::vector<uint32_t> m_groups; // of each triangle, unique across parts
+    TriangleIndices m_groups; // of each triangle, unique across parts
     std::map<std::pair<size_t, uint32_t>, uint32_t> m_group_numbers; // by first vertex of the part and its group
 };
 
