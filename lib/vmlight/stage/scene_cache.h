@@ -2,30 +2,11 @@
 /// Ray-tracing scenes of vismap recipes, shared by all maps of one mesh that the process makes or has open.
 #pragma once
 
-#include <vmlight/stage/recipe/recipe.h>
-#include <vmlight/trace/bake_scene.h>
+#include <vmlight/stage/scene_files.h>
 
 #include <string>
-#include <vector>
 
 namespace vmlight {
-
-/// Fingerprints of the files that a scene is built from.
-struct SceneStamps
-{
-    /// stamp_file() of the mesh, then of each occluder.
-    std::vector<std::string> files;
-    /// Equal keys, equal scenes of whole meshes.
-    std::string key;
-};
-
-/// False if a file is missing: `at` is the recipe key that names it, `error` the reason.
-bool stamp_scene(SceneStamps& dst, const VismapRecipe& recipe, std::string& at, std::string& error);
-
-/// Read file `index` of a recipe with its cut-outs: the mesh if 0, else an occluder. Notes all that it opens in
-/// `files`. False if it has changed since `stamps` or cannot be read: `at` and `error` as for stamp_scene().
-bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecipe& recipe, const SceneStamps& stamps,
-                     size_t index, const StepListener& at_step, std::string& at, std::string& error);
 
 /// Get the scene of a recipe whose paths contain no "<UDIM>": shared while anyone holds it, whatever their UDIM tile,
 /// samples and, unless the mesh is unwrapped, resolution; otherwise read and built. Callable from any thread;
@@ -39,8 +20,7 @@ bool read_scene_file(Mesh& dst, std::vector<FileStamp>& files, const VismapRecip
 /// @param built    nullptr, or set to the seconds spent building, without reading files; 0 if the scene was shared
 /// @param at_step  hears of steps by their names
 /// @returns false if a file has changed since, or cannot be used, the selection chooses nothing, or memory runs out:
-/// `at` and `error` as for
-///          stamp_scene(). The next call tries again.
+///          `at` and `error` as for stamp_scene(). The next call tries again.
 bool share_scene(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneStamps& stamps, int nthreads,
                  double* built, std::string& at, std::string& error, const StepListener& at_step = {});
 
