@@ -179,7 +179,7 @@ void merge_equal_vertices(Mesh& mesh)
     constexpr uint32_t kNone = ~0u;
     const size_t count = mesh.positions.size();
     const bool has_uvs = !mesh.uvs.empty();
-    const std::vector<uint32_t> first = AlikeBuckets::first_alike(count, [&](size_t v) {
+    const std::vector<uint32_t> first = first_alike(count, [&](size_t v) {
         return VertexKey { mesh.positions[v], mesh.normals[v], has_uvs ? mesh.uvs[v] : V2f(0) };
     });
     std::vector<uint32_t> numbers(count, kNone), kept;

@@ -10,15 +10,19 @@
 namespace vmlight {
 namespace {
 
-// Vertices with the same texture coordinates have the same number.
-std::vector<uint32_t> number_points(const Mesh& mesh, size_t& count)
+/// Vertices with the same texture coordinates are one point.
+struct UvPoints
 {
-    std::vector<uint32_t> first;
-    const auto point = [&](size_t vertex) { return mesh.uvs[vertex] + Imath::V2f(0); }; // -0 becomes 0
-    std::vector<uint32_t> point_of_vertex = number_alike(mesh.uvs.size(), point, first);
-    count = first.size();
-    return point_of_vertex;
-}
+    explicit UvPoints(const Mesh& mesh)
+    {
+        const auto point = [&](size_t vertex) { return mesh.uvs[vertex] + Imath::V2f(0); }; // -0 becomes 0
+        std::vector<uint32_t> first;
+        of_vertex = number_alike(mesh.uvs.size(), point, first);
+        count = first.size();
+    }
+    std::vector<uint32_t> of_vertex;
+    size_t count;
+};
 
 /// The islands that some triangles form.
 class Islands
@@ -28,28 +32,27 @@ public:
     template <class Takes>
     Islands(const Mesh& mesh, const Takes& takes)
         : m_mesh(mesh)
-        , m_point_of_vertex(number_points(mesh, m_points))
-        , m_sets(m_points)
+        , m_points(mesh)
+        , m_sets(m_points.count)
     {
         parallel_blocks(mesh.triangles.size(), [&](size_t begin, size_t end, size_t) {
             for (size_t t = begin; t < end; ++t) {
                 if (!takes(uint32_t(t)))
                     continue;
                 const auto& [a, b, c] = mesh.triangles[t];
-                m_sets.join(m_point_of_vertex[a], m_point_of_vertex[b]);
-                m_sets.join(m_point_of_vertex[a], m_point_of_vertex[c]);
+                m_sets.join(m_points.of_vertex[a], m_points.of_vertex[b]);
+                m_sets.join(m_points.of_vertex[a], m_points.of_vertex[c]);
             }
         });
     }
 
     /// Numbers of islands are below this.
-    size_t end() const { return m_points; }
-    uint32_t of_triangle(size_t triangle) { return m_sets.find(m_point_of_vertex[m_mesh.triangles[triangle][0]]); }
+    size_t end() const { return m_points.count; }
+    uint32_t of_triangle(size_t triangle) { return m_sets.find(m_points.of_vertex[m_mesh.triangles[triangle][0]]); }
 
 private:
     const Mesh& m_mesh;
-    size_t m_points = 0;
-    const std::vector<uint32_t> m_point_of_vertex;
+    const UvPoints m_points;
     DisjointSets m_sets;
 };
 
