@@ -58,7 +58,8 @@ VismapPilot::VismapPilot(const BakeScene& scene, const NormalMap* normal_map, co
 {
 }
 
-bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open, int64_t most, int64_t least_step)
+bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open, int64_t most, int64_t least_step,
+                       int64_t neighbours)
 {
     struct Worker
     {
@@ -81,11 +82,17 @@ bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open, int64_
     m_covered = before.back();
     m_texels.resize(size_t(std::min((m_covered + least_step - 1) / least_step, most)));
 
-    // A random one of each run of equal length: equal steps might all fall into one column.
-    std::vector<int64_t> ranks(m_texels.size());
-    const double run = double(m_covered) / double(std::max<int64_t>(1, texels()));
-    for (size_t i = 0; i < ranks.size(); ++i)
-        ranks[i] = std::min(m_covered - 1, int64_t((double(i) + texel_hash(uint32_t(i), 0, 0).u * 0x1p-32) * run));
+    // A random place in each run of equal length: equal steps might all fall into one column.
+    const int64_t together = texels() < m_covered ? neighbours : 1;
+    std::vector<int64_t> ranks;
+    const double run = double(m_covered) / double(std::max<int64_t>(1, texels() / together));
+    for (int64_t i = 0; i < texels() / together; ++i) {
+        int64_t first = int64_t((double(i) + texel_hash(uint32_t(i), 0, 0).u * 0x1p-32) * run);
+        if (together > 1)
+            first = std::min(first, int64_t(double(i + 1) * run) - together);
+        for (int64_t k = 0; k < together; ++k)
+            ranks.push_back(std::min(m_covered - 1, first + k));
+    }
     const auto take = [&](int64_t tile, int worker) {
         auto rank = std::lower_bound(ranks.begin(), ranks.end(), before[size_t(tile)]);
         if (rank == ranks.end() || *rank >= before[size_t(tile) + 1])

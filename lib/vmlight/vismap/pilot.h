@@ -49,7 +49,9 @@ public:
 
     /// Pick covered texels evenly over the map, at most `most` and one of `least_step`. A function of coverage alone.
     /// False if stopped.
-    bool pick(const UvRaster& raster, const OpenTriangles& open, int64_t most = kTexels, int64_t least_step = 1);
+    /// @param neighbours   so many that follow each other in a tile are picked together; divides `most`
+    bool pick(const UvRaster& raster, const OpenTriangles& open, int64_t most = kTexels, int64_t least_step = 1,
+              int64_t neighbours = 1);
 
     // After pick().
     /// Covered texels of the whole map, and picked ones.
