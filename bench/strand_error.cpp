@@ -4,6 +4,8 @@
 // pixel of the sky. Skies are reduced to 512x256, for models and rays alike.
 // `+suns` are the same models of a sky whose suns are split off, and traced.
 //     strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...
+#include "strand_texels.h"
+
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/cfem.h>
 #include <vmlight/cfem/radiance.h>
@@ -12,10 +14,6 @@
 #include <vmlight/lightmap/lightmap.h>
 #include <vmlight/lightmap/sun_light.h>
 #include <vmlight/math/latlong.h>
-#include <vmlight/mesh/import/read_mesh.h>
-#include <vmlight/mesh/import/strands/read_strands.h>
-#include <vmlight/mesh/strand_curve.h>
-#include <vmlight/vismap/strand_map.h>
 #include <vmlight/vismap/strand_suns.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -108,13 +106,6 @@ double traced(const StrandScene& scene, const std::vector<Pixel>& pixels, const 
     return sum;
 }
 
-struct Texel
-{
-    int x, y;
-    int64_t strand;
-    CurvePoint point;
-};
-
 OIIO::ImageBuf bake(const Strands& strands, const StrandScene& scene, const StrandLayout& layout, int order,
                     int rays_each)
 {
@@ -143,19 +134,12 @@ int main(int argc, const char** argv)
     if (argc < 7)
         fail("usage: strand_error HAIR RADIUS OCCLUDER STEP RAYS SKY...");
     std::string error;
-    Strands strands;
-    std::vector<Mesh> occluders(1);
-    StrandScene scene;
-    StrandLayout layout;
-    if (!read_strands(strands, argv[1], {}, argv[2], error) || !read_mesh(occluders[0], argv[3], {}, error)
-        || !scene.build(strands, occluders, 0, error) || !StrandLayout::make(layout, strands.count(), 16, error))
+    StrandTexels some;
+    if (!some.read(argv[1], argv[2], argv[3], std::atoi(argv[4]), error))
         fail(error);
-    std::vector<Texel> texels;
-    for (int64_t i = 0; i < layout.strands * layout.texels; i += std::atoi(argv[4])) {
-        const int64_t strand = i / layout.texels;
-        const int x = int(strand / layout.rows) * layout.texels + int(i % layout.texels), y = int(strand % layout.rows);
-        texels.push_back({ x, y, strand, StrandCurve(strands, size_t(strand)).at(layout.share_at(x)) });
-    }
+    const Strands& strands = some.strands;
+    const StrandScene& scene = some.scene;
+    const StrandLayout& layout = some.layout;
     struct Model
     {
         const char* name;
@@ -168,7 +152,7 @@ int main(int argc, const char** argv)
             model.map = bake(strands, scene, layout, model.order, std::atoi(argv[5]));
     models[1].map = models[0].map; // both read V and B
     std::printf("%zu texels; relative RMSE of ao, lobe and sh with 4, 5 and 8 bands, each without and with suns\n",
-                texels.size());
+                some.texels.size());
     for (int k = 6; k < argc; ++k) {
         OIIO::ImageBuf sky;
         oiio::resize(sky, OIIO::ImageBuf(argv[k]), OIIO::ROI(0, kWidth, 0, kHeight, 0, 1, 0, 3), 0, "box");
@@ -217,7 +201,7 @@ int main(int argc, const char** argv)
         }
         std::vector<double> squares(lit.size());
         double mean = 0, noise = 0;
-        for (const Texel& texel : texels) {
+        for (const StrandTexels::Texel& texel : some.texels) {
             // Two truths of their own noise: the product of the errors against them has none, on average.
             const double first = traced(scene, pixels, texel.point, texel.strand, uint32_t(2 * texel.strand + 1)),
                          second = traced(scene, pixels, texel.point, texel.strand, uint32_t(2 * texel.strand + 2));
@@ -229,7 +213,7 @@ int main(int argc, const char** argv)
                 squares[m] += (grey(rgb) - first) * (grey(rgb) - second);
             }
         }
-        const double count = double(texels.size());
+        const double count = double(some.texels.size());
         mean /= count;
         std::printf("%-28s", OIIO::Filesystem::filename(argv[k]).c_str());
         for (const double square : squares)

@@ -3,15 +3,13 @@
 // that scatter as Kajiya and Kay's diffuse term does, the light at every STEP-th texel that has met another strand
 // before, by path tracing. Bodies are black. Skies are reduced to 512x256.
 //     strand_scattering HAIR RADIUS OCCLUDER STEP PATHS SKY...
+#include "strand_texels.h"
+
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/math/latlong.h>
-#include <vmlight/mesh/import/read_mesh.h>
-#include <vmlight/mesh/import/strands/read_strands.h>
-#include <vmlight/mesh/strand_curve.h>
 #include <vmlight/trace/curves.h>
 #include <vmlight/trace/embree_scene.h>
 #include <vmlight/trace/strand_scene.h>
-#include <vmlight/vismap/strand_map.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -236,22 +234,15 @@ int main(int argc, const char** argv)
     if (argc < 7)
         fail("usage: strand_scattering HAIR RADIUS OCCLUDER STEP PATHS SKY...");
     std::string error;
-    Strands strands;
-    std::vector<Mesh> bodies(1);
-    StrandScene scene;
-    StrandLayout layout;
-    if (!read_strands(strands, argv[1], {}, argv[2], error) || !read_mesh(bodies[0], argv[3], {}, error)
-        || !scene.build(strands, bodies, 0, error) || !StrandLayout::make(layout, strands.count(), 16, error))
+    StrandTexels some;
+    if (!some.read(argv[1], argv[2], argv[3], std::atoi(argv[4]), error))
         fail(error);
-    const Hits hits(strands, bodies[0], scene.frame());
+    const StrandScene& scene = some.scene;
+    const Hits hits(some.strands, some.bodies[0], scene.frame());
     std::vector<Place> places;
-    for (int64_t i = 0; i < layout.strands * layout.texels; i += std::atoi(argv[4])) {
-        const int64_t strand = i / layout.texels;
-        const int x = int(strand / layout.rows) * layout.texels + int(i % layout.texels);
-        const CurvePoint point = StrandCurve(strands, size_t(strand)).at(layout.share_at(x));
+    for (const auto& [x, y, strand, point] : some.texels)
         places.push_back({ scene.frame().to_scene(point.position), point.tangent,
                            float(point.radius * scene.frame().scale), uint32_t(strand) });
-    }
     std::printf("%zu texels; for each albedo the share of light that single scattering lacks, and the relative RMSE of "
                 "the rest scaled by it\n",
                 places.size());

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "thread_count.h"
+
 #include <vmlight/base/disjoint_sets.h>
 #include <vmlight/base/number_alike.h>
 
 #include <gtest/gtest.h>
 
-#include <OpenImageIO/imageio.h>
-
+#include <array>
 #include <map>
 #include <numeric>
 #include <random>
@@ -15,14 +16,6 @@ using namespace vmlight;
 namespace {
 
 constexpr size_t kMany = 2 * kElementsOfBlock + 3; // several blocks, several buckets
-
-// Set the number of threads that parallel_blocks() uses.
-struct Threads
-{
-    explicit Threads(int count) { OIIO::attribute("threads", count); }
-    ~Threads() { OIIO::attribute("threads", before); }
-    const int before = OIIO::get_int_attribute("threads");
-};
 
 std::vector<uint64_t> drawn_keys(size_t count, uint64_t most)
 {
@@ -49,7 +42,7 @@ TEST(NumberAlike, ElementsWithEqualKeysInTheOrderOfTheFirst)
 TEST(NumberAlike, ManyElementsAsAMapDoes)
 {
     for (const int threads : { 1, 3 }) {
-        const Threads scope(threads);
+        const ThreadCount scope(threads);
         for (const uint64_t most : { uint64_t(1), uint64_t(1000), uint64_t(1) << 20 }) {
             const std::vector<uint64_t> keys = drawn_keys(kMany, most);
             std::map<uint64_t, uint32_t> known;
@@ -66,6 +59,25 @@ TEST(NumberAlike, ManyElementsAsAMapDoes)
             EXPECT_EQ(first, expected_first);
         }
     }
+}
+
+TEST(NumberAlike, KeysDecideWhereHashesAreEqual)
+{
+    std::map<uint32_t, uint64_t> known;
+    int pairs = 0;
+    for (uint64_t key = 0; key < 400000; ++key) {
+        const auto hash = uint32_t(OIIO::farmhash::Fingerprint64(reinterpret_cast<const char*>(&key), sizeof(key)));
+        const auto [place, is_new] = known.emplace(hash, key);
+        if (is_new)
+            continue;
+        const std::array<uint64_t, 3> keys { place->second, key, place->second };
+        std::vector<uint32_t> first;
+        EXPECT_EQ(number_alike(
+                      keys.size(), [&](size_t i) { return keys[i]; }, first),
+                  (std::vector<uint32_t> { 0, 1, 0 }));
+        ++pairs;
+    }
+    EXPECT_GT(pairs, 0) << "of 400,000, some 19 share the half of the hash that is kept";
 }
 
 TEST(DisjointSets, AreKnownByTheirLeastHoweverTheyAreJoined)
@@ -86,7 +98,7 @@ TEST(DisjointSets, AreKnownByTheirLeastHoweverTheyAreJoined)
             }
     }
     for (const int threads : { 1, 4 }) {
-        const Threads scope(threads);
+        const ThreadCount scope(threads);
         DisjointSets sets(kMany);
         parallel_blocks(pairs.size(), [&](size_t begin, size_t end, size_t) {
             for (size_t i = begin; i < end; ++i)

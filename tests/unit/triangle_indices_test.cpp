@@ -25,6 +25,15 @@ TEST(TriangleIndices, HoldNoneOfManyThatAreEqual)
     EXPECT_EQ(indices[1000], 4u);
 }
 
+TEST(TriangleIndices, OfWhichManyAreExpectedDoNotMove)
+{
+    TriangleIndices indices;
+    indices.reserve(1000);
+    for (uint32_t i = 0; i < 1000; ++i)
+        indices.push_back(i / 500);
+    EXPECT_EQ(indices.bytes(), 1000 * sizeof(uint32_t)) << "vectors that grow hold up to twice as many";
+}
+
 TEST(TriangleIndices, AreAVector)
 {
     for (uint32_t seed = 0; seed < 200; ++seed) {

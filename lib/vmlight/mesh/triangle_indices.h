@@ -55,8 +55,8 @@ public:
     {
     }
 
-    size_t size() const { return m_each.empty() ? m_count : m_each.size(); }
-    bool empty() const { return size() == 0; }
+    size_t size() const { return m_count; }
+    bool empty() const { return m_count == 0; }
     /// Not checked: that the triangle is below size().
     uint32_t operator[](size_t triangle) const { return m_each.empty() ? m_all : m_each[triangle]; }
     const_iterator begin() const { return { *this, 0 }; }
@@ -75,13 +75,14 @@ public:
     {
         if (empty())
             m_all = index;
-        if (m_each.empty() && index == m_all) {
-            ++m_count;
-            return;
+        if (!m_each.empty() || index != m_all) {
+            hold_each();
+            m_each.push_back(index);
         }
-        hold_each();
-        m_each.push_back(index);
+        ++m_count;
     }
+    /// How many there will be: of so many that differ, memory is allocated once.
+    void reserve(size_t triangles) { m_expected = triangles; }
     void assign(size_t count, uint32_t index)
     {
         m_each.clear();
@@ -107,12 +108,14 @@ public:
 private:
     void hold_each()
     {
-        if (m_each.empty())
-            m_each.assign(m_count, m_all);
+        if (!m_each.empty())
+            return;
+        m_each.reserve(m_expected);
+        m_each.assign(m_count, m_all);
     }
 
-    size_t m_count = 0; // if m_each is empty
-    uint32_t m_all = 0;
+    size_t m_count = 0, m_expected = 0;
+    uint32_t m_all = 0; // while m_each is empty
     std::vector<uint32_t> m_each;
 };
 

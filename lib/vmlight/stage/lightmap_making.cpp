@@ -7,6 +7,7 @@
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/light_effects.h>
+#include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/stored_image.h>
 #include <vmlight/stage/sun_choice.h>

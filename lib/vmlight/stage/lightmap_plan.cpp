@@ -6,10 +6,12 @@
 #include <vmlight/cfem/stack.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/lightmap/lightmap.h>
+#include <vmlight/lightmap/shader.h>
 #include <vmlight/lightmap/vismap_check.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/bounce_shading.h>
 #include <vmlight/stage/light_effects.h>
+#include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/sun_choice.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -69,6 +71,7 @@ std::string LightmapPlan::no_suns_text() const
         ? ""
         : why_no_suns(m_recipe, m_images.vismap->spec(), OIIO::Filesystem::filename(m_recipe.vismap));
 }
+
 ImageRange LightmapPlan::images_of_use() const
 {
     const int images = m_images.cfem->subimages();

@@ -6,10 +6,12 @@
 #include <vmlight/lightmap/vismap_check.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/bounce_shading.h>
+#include <vmlight/stage/light_effects.h>
 #include <vmlight/stage/lightmap_making.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/udim.h>
 #include <vmlight/stage/source_cache.h>
+#include <vmlight/stage/stored_image.h>
 #include <vmlight/stage/sun_shading.h>
 #include <vmlight/stage/whole_light.h>
 

@@ -9,6 +9,7 @@
 #include <vmlight/stage/cutouts.h>
 #include <vmlight/stage/normal_map_file.h>
 #include <vmlight/stage/pose_report.h>
+#include <vmlight/stage/recipe/chain.h>
 #include <vmlight/stage/recipe/recipe_effects.h>
 #include <vmlight/stage/vismap_metadata.h>
 #include <vmlight/vismap/bake_parts.h>
@@ -119,14 +120,9 @@ bool VismapBake::report_plan(const MakeOptions& options, std::string& error) con
     const std::clock_t begin = std::clock();
     TimeTaken taken;
     BakeScenePointer scene;
-    std::string at;
-    if (!share_scene(scene, m_recipe, m_stamps, options.threads, nullptr, at, error, options.steps())) {
-        error = with_location(m_recipe, at, options.chain, error);
+    if (!read_scene(scene, nullptr, options, error))
         return false;
-    }
     taken.read = timer();
-    if (options.scene)
-        *options.scene = scene;
     NormalMapPointer normal_map;
     std::vector<std::string> ignored;
     BakeForecast forecast;
@@ -138,15 +134,22 @@ bool VismapBake::report_plan(const MakeOptions& options, std::string& error) con
     return true;
 }
 
-bool VismapBake::read_inputs(Inputs& dst, const MakeOptions& options, std::string& error) const
+bool VismapBake::read_scene(BakeScenePointer& dst, double* built, const MakeOptions& options, std::string& error) const
 {
     std::string at;
-    if (!share_scene(dst.scene, m_recipe, m_stamps, options.threads, &dst.build_seconds, at, error, options.steps())) {
+    if (!share_scene(dst, m_recipe, m_stamps, options.threads, built, at, error, options.steps())) {
         error = with_location(m_recipe, at, options.chain, error);
         return false;
     }
     if (options.scene)
-        *options.scene = dst.scene;
+        *options.scene = dst;
+    return true;
+}
+
+bool VismapBake::read_inputs(Inputs& dst, const MakeOptions& options, std::string& error) const
+{
+    if (!read_scene(dst.scene, &dst.build_seconds, options, error))
+        return false;
     std::vector<std::string> notes, warnings;
     if (!read_normal_map(dst.normal_map, m_recipe, mesh_of(dst.scene), options.threads, notes, warnings, error)) {
         error = with_location(m_recipe, m_recipe.material_normals ? "material_normals" : "normal_map", options.chain,

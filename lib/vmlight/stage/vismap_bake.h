@@ -44,6 +44,7 @@ public:
 
 private:
     struct Inputs;
+    bool read_scene(BakeScenePointer& dst, double* built, const MakeOptions& options, std::string& error) const;
     bool read_inputs(Inputs& dst, const MakeOptions& options, std::string& error) const;
     MapJob job_of(const Inputs& inputs, const MakeOptions& options) const;
     void tag(OIIO::ImageSpec& map, const BakeScene& scene) const;

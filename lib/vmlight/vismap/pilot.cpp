@@ -84,6 +84,7 @@ bool VismapPilot::pick(const UvRaster& raster, const OpenTriangles& open, int64_
 
     // A random place in each run of equal length: equal steps might all fall into one column.
     const int64_t together = texels() < m_covered ? neighbours : 1;
+    m_texels.resize(size_t(texels() / together * together));
     std::vector<int64_t> ranks;
     const double run = double(m_covered) / double(std::max<int64_t>(1, texels() / together));
     for (int64_t i = 0; i < texels() / together; ++i) {

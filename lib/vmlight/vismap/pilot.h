@@ -49,7 +49,7 @@ public:
 
     /// Pick covered texels evenly over the map, at most `most` and one of `least_step`. A function of coverage alone.
     /// False if stopped.
-    /// @param neighbours   so many that follow each other in a tile are picked together; divides `most`
+    /// @param neighbours   so many that follow each other, by tile and row, are picked together
     bool pick(const UvRaster& raster, const OpenTriangles& open, int64_t most = kTexels, int64_t least_step = 1,
               int64_t neighbours = 1);
 

@@ -101,6 +101,9 @@ void MeshBuilder::reserve(size_t vertices, size_t triangles)
     m_mesh.normals.reserve(vertices);
     m_mesh.uvs.reserve(vertices);
     m_mesh.triangles.reserve(triangles);
+    m_mesh.triangle_materials.reserve(triangles);
+    m_mesh.triangle_nodes.reserve(triangles);
+    m_groups.reserve(triangles);
 }
 
 void MeshBuilder::warn(const std::string& sentence)
