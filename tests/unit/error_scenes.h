@@ -62,6 +62,14 @@ inline VismapParams error_params(int side, int samples, const std::string& sampl
     return params;
 }
 
+/// The same, each texel averaged with its neighbours.
+inline VismapParams reconstruct_params(int side, int samples)
+{
+    VismapParams params = error_params(side, samples);
+    params.reconstruct = "auto";
+    return params;
+}
+
 /// Root mean square over the covered texels of `texel`, which is given V, the channel error, and the place.
 inline double rms(const BakedMap& map, const std::function<double(const float* texel, int x, int y)>& value)
 {

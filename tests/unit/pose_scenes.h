@@ -162,6 +162,9 @@ inline BakeScenePointer scene_of(const Mesh& mesh, const std::vector<Mesh>& occl
     return scene;
 }
 
+/// Of V, that poses of a sequence may be off by.
+constexpr double kSequenceError = 0.01;
+
 /// The next pose.
 inline std::unique_ptr<PoseMap> bake_pose(PoseSequence& sequence, const BakeScenePointer& scene,
                                           const VismapParams& params, const std::string& name, int nthreads = 0)

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strands in the view, alone and beside a mesh: their light and their pictures against those of frames.
+// Pictures of strands in the view, alone and beside a mesh, against those of frames.
+#include "strand_view.h"
 #include "view_pictures.h"
 
-#include "strand_files.h"
-#include "temporary_folder.h"
-#include "vmview/render/lighting.h"
-#include "vmview/render/picture.h"
-
 #include <vmlight/base/format.h>
-#include <vmlight/frame/lit_strands.h>
+#include <vmlight/frame/render.h>
+#include <vmlight/frame/strand_specular.h>
+
+#include <OpenImageIO/imagebuf.h>
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 
 using namespace vmlight;
 using namespace vmlight::view;
@@ -21,41 +22,8 @@ using namespace vmlight::strand_files;
 
 namespace {
 
-constexpr const char* kRadius = "0.006:0.002";
-
-class StrandView : public DrawingTest
-{
-protected:
-    void SetUp() override
-    {
-        DrawingTest::SetUp();
-        groom = folder.write("curls.tfx", tfx_of(curls(120, 1)));
-    }
-
-    Request request_for(const std::string& mesh, const std::string& environment, bool is_beside = false) const
-    {
-        Request request;
-        request.mesh.mesh = mesh;
-        if (is_beside)
-            request.view.object = { groom };
-        request.environment = data_path(environment);
-        request.mesh.strand_params.radius = kRadius;
-        request.mesh.vismap_params.resolution = { 64, 64 };
-        request.mesh.vismap_params.samples = 16;
-        request.view.background = "environment";
-        request.view.strand_color = { 0.9, 0.5, 0.25 };
-        request.render.size = { 120, 90 };
-        request.render.spp = 4;
-        request.render.sampling = "all"; // as vmview samples
-        return request;
-    }
-
-    const TemporaryFolder folder;
-    std::string groom;
-};
-
 // Pictures that bring a context of their own.
-class StrandPicture : public StrandView
+class StrandPicture : public StrandViewTest
 {
 protected:
     void SetUp() override
@@ -67,38 +35,6 @@ protected:
     }
     void TearDown() override { }
 };
-
-// All objects as vmframes lights them, each with a map of its own bake.
-std::vector<std::unique_ptr<FrameObject>> lit_objects(const Assets& assets, const Request& request)
-{
-    std::vector<std::unique_ptr<FrameObject>> objects;
-    std::vector<FrameSurface> surfaces;
-    std::string error;
-    LightmapParams light;
-    EXPECT_TRUE(light_params(light, request.light, 0, error)) << error;
-    std::vector<std::string> paths { request.mesh.mesh };
-    paths.insert(paths.end(), request.view.object.begin(), request.view.object.end());
-    for (const std::string& path : paths) {
-        ObjectRecipe recipe;
-        recipe.map = request.mesh;
-        recipe.map.mesh = path;
-        recipe.trace = request.trace;
-        objects.push_back(make_frame_object(recipe));
-        FrameObject& object = *objects.back();
-        EXPECT_TRUE(object.open(recipe, {}, error) && object.read_materials(assets.light->light.space, "", {}, error))
-            << error;
-        if (object.surface().strands)
-            object.surface().strand_color = { 0.9f, 0.5f, 0.25f };
-        surfaces.push_back(object.surface());
-    }
-    for (size_t i = 0; i < objects.size(); ++i) {
-        std::vector<FrameSurface> others = surfaces;
-        others.erase(others.begin() + std::ptrdiff_t(i));
-        objects[i]->set_occluders(std::move(others));
-        EXPECT_TRUE(objects[i]->light(assets.light->light, light, {}, {}, error)) << error;
-    }
-    return objects;
-}
 
 OIIO::ImageBuf traced_objects(const Assets& assets, const Request& request)
 {
@@ -149,14 +85,6 @@ double share_apart(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b, double tole
     for (; !x.done(); ++x, ++y)
         apart += std::abs(double(x[1]) - double(y[1])) > tolerance * (double(y[1]) + sum / count) ? 1 : 0;
     return apart / count;
-}
-
-double mean_alpha(const OIIO::ImageBuf& image)
-{
-    double sum = 0;
-    for (OIIO::ImageBuf::ConstIterator<float> pixel(image); !pixel.done(); ++pixel)
-        sum += double(pixel[3]);
-    return sum / double(image.spec().image_pixels());
 }
 
 } // namespace
@@ -238,77 +166,6 @@ TEST_F(StrandPicture, SunsAreTraced)
         EXPECT_LT(relative_rmse(drawn(assets, request), traced_objects(assets, request)), 0.03) << mesh;
         EXPECT_GT(relative_rmse(drawn(assets, request), without), 0.02) << mesh;
     }
-}
-
-// On the graphics card as by make_lightmap().
-TEST_F(StrandView, IsLitAsInFrames)
-{
-    Request request = request_for(groom, "kloppenheim_05.hdr");
-    request.light.rotate = { 20, 130, -70 };
-    const Assets assets = loaded(request);
-    for (const char* model : { "ao", "lobe", "sh" }) {
-        request.light.model = model;
-        Renderer renderer;
-        ASSERT_NO_FATAL_FAILURE(show_lit(renderer, assets, request));
-        const auto objects = lit_objects(assets, request);
-        const OIIO::ImageBuf& lightmap = objects[0]->lightmaps().at(1001);
-        std::vector<float> wanted, rgb;
-        const std::vector<float> texels = renderer.read_texture(0);
-        for (OIIO::ImageBuf::ConstIterator<float> texel(lightmap); !texel.done(); ++texel)
-            wanted.insert(wanted.end(), { texel[0], texel[1], texel[2] });
-        for (size_t i = 0; i < texels.size(); i += 4)
-            rgb.insert(rgb.end(), { texels[i], texels[i + 1], texels[i + 2] });
-        EXPECT_LT(largest_difference(rgb, wanted), 1e-5) << model;
-    }
-}
-
-// However thin strands are, one quick sample shows as many of their pixels as they cover of all: but for chance, of the
-// few pixels that the thinnest have, a quarter of which 16 samples leave.
-TEST_F(StrandView, QuickKeepsTheirShareOfPixels)
-{
-    for (const char* radius : { "0.02", "0.004", "0.001", "0.0002" }) { // from 3 pixels to a thirtieth of one
-        Request request = request_for(groom, "studio_small_03.hdr");
-        request.mesh.strand_params.radius = radius;
-        const Assets assets = loaded(request);
-        Renderer renderer;
-        ASSERT_NO_FATAL_FAILURE(show_lit(renderer, assets, request));
-        PictureParams params;
-        params.view.camera = place_camera(request.camera, assets.mesh->subject, 4.0 / 3, false);
-        RenderParams render = request.render;
-        render.spp = 64;
-        OIIO::ImageBuf exact;
-        std::string error;
-        ASSERT_TRUE(render_picture(exact, renderer, params, render, error)) << error;
-        for (const int spp : { 1, 16 }) {
-            PictureSum sum;
-            sum.start(120, 90, spp, "box");
-            while (!sum.is_complete())
-                sum.add(renderer, params);
-            const OIIO::ImageBuf quick = read_image_of(sum.mean_framebuffer());
-            const double share = mean_alpha(quick) / mean_alpha(exact);
-            EXPECT_NEAR(share, 1, spp == 1 ? 0.25 : 0.1) << radius << " " << spp;
-        }
-    }
-}
-
-// What is not strands is no strands beside a mesh; and strands need the whole light.
-TEST_F(StrandView, WhatItCannotShowIsRefused)
-{
-    const auto refusal = [](const Request& request) {
-        Assets assets;
-        std::string error;
-        EXPECT_FALSE(load_assets(assets, request, {}, error));
-        return error;
-    };
-    Request request = request_for(groom, "studio_small_03.hdr");
-    request.view.object = { data_path("spot.obj") };
-    EXPECT_THAT(refusal(request), testing::HasSubstr("is no file of strands; only they can be beside MESH"));
-    request.view.object.clear();
-    request.vismap = folder.write("hero.vismap", "mesh = \"" + data_path("cases/box.obj") + "\"\nsamples = 1\n");
-    EXPECT_THAT(refusal(request), testing::HasSubstr("a visibility map of a mesh, not of strands"));
-    request.vismap.clear();
-    request.mesh.strand_params.radius.clear();
-    EXPECT_THAT(refusal(request), testing::HasSubstr("--radius ROOT:TIP"));
 }
 
 TEST_F(StrandPicture, WhatItCannotBeLitByIsRefused)
