@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of the library include what they use, so that they compile without the precompiled headers, which would hide
-one that is missing: each name of the tables below needs its header, in the file or in a header of vmlight that it
-includes, however far.
+"""Files of the library include what they use, so that they compile without the precompiled headers and outside a unity
+build, which would hide one that is missing: each name of the tables below, and each function that a header of vmlight
+declares at namespace scope, needs its header, in the file or in a header of vmlight that it includes, however far.
 
 Run as: includes_test.py"""
+import collections
 import functools
 import os
 import re
@@ -79,6 +80,16 @@ BRINGS = {
 WORDS = {name: header for header, names in STANDARD.items() for name in names.split()}
 STANDARD_NAME = re.compile(r"\bstd::(\w+)")
 
+# As clang-format lays them out: what is at namespace scope starts a line, members are indented.
+FUNCTION = re.compile(
+    r"^(?!(?:using|namespace|class|struct|return|static_assert|typedef|enum)\b)[A-Za-z_][\w:<>,&*\s\[\]]*?[\s&*>]"
+    r"([a-z_]\w*)\((?!\*)|^#\s*define\b.*[\s&*>]([a-z_]\w*)\(", re.MULTILINE)
+MEMBER = re.compile(r"^[ \t]+(?!(?:return|else|throw|case)\b)(?:[\w:<>,&*\[\]]+[ ]+)+[&*]*([a-z_]\w*)\(", re.MULTILINE)
+# Variables, parameters and lambdas: where they are declared, and where they are used as objects.
+VARIABLE = re.compile(r"[\w>&*\]][ &*]+([a-z_]\w*)(?= ?[={;,)\[])|(?:\.|->)([a-z_]\w*)\b(?!\()|\b([a-z_]\w*)[.\[]")
+USING = re.compile(r"\busing\b[^;=]*;")
+CALL = re.compile(r"(?<![\w.>:])(?:(?:\w+::)*(\w+)::)?([a-z_]\w*)\(")
+
 
 def without_comments(text):
     text = re.sub(r'"(?:\\.|[^"\\\n])*"', '""', text)
@@ -123,17 +134,58 @@ def include_faults(path, text):
         yield f"{path}: uses what is in <{header}> and does not include it"
 
 
+def first_groups(pattern, text):
+    return {name for found in pattern.findall(text) for name in ((found,) if isinstance(found, str) else found) if name}
+
+
+def called_functions(text):
+    """Names of functions at namespace scope that a file calls and that are not its own."""
+    code = without_comments(text)
+    own = {"static_assert"}.union(*(first_groups(pattern, code) for pattern in (FUNCTION, MEMBER, VARIABLE)))
+    own |= {name for line in USING.findall(code) for name in re.findall(r"::(\w+)(?=[,;])", line)}
+    # Of OIIO's namespaces and of classes, which begin with a capital, and of std.
+    return {name for space, name in CALL.findall(code)
+            if name not in own and space not in ("std", "OIIO") and not space[:1].isupper()}
+
+
+def files():
+    for root in ROOTS:
+        for folder, _, names in os.walk(root):
+            for name in sorted(names):
+                if name.endswith((".h", ".cpp")):
+                    yield os.path.normpath(os.path.join(folder, name))
+
+
+@functools.lru_cache(maxsize=None)
+def declared_functions():
+    """{name: headers}, without names that some class has for a member too."""
+    headers, members = collections.defaultdict(set), set()
+    for path in files():
+        if path.endswith(".h"):
+            code = without_comments(file_text(path))
+            members |= first_groups(MEMBER, code)
+            for name in first_groups(FUNCTION, code):
+                headers[name].add(path)
+    return {name: paths for name, paths in headers.items() if name not in members}
+
+
+def function_faults(path, text):
+    included = included_headers(text, os.path.dirname(path))
+    declared = declared_functions()
+    for name in sorted(called_functions(text)):
+        if name in declared and not name.startswith("__") and path not in declared[name] and not declared[name] & included:
+            header = " or ".join(sorted(os.path.relpath(header, SOURCE) for header in declared[name]))
+            yield f"{path}: calls {name}() and does not include {header}"
+
+
 class Includes(unittest.TestCase):
     maxDiff = None
 
     def test_files_include_what_they_use(self):
         faults = []
-        for root in ROOTS:
-            for folder, _, names in os.walk(root):
-                for name in sorted(names):
-                    if name.endswith((".h", ".cpp")):
-                        path = os.path.join(folder, name)
-                        faults += include_faults(path, file_text(path))
+        for path in files():
+            faults += include_faults(path, file_text(path))
+            faults += function_faults(path, file_text(path))
         self.assertEqual(faults, [])
 
     def test_a_missing_header_is_found(self):
@@ -142,6 +194,16 @@ class Includes(unittest.TestCase):
                             ("// std::vector\n", 0), ('f("std::vector");\n', 0),
                             ("#include <vmlight/base/params.h>\nstd::string a;\n", 0)]:
             self.assertEqual(len(list(include_faults("a.cpp", text))), count, text)
+
+    def test_a_function_without_its_header_is_found(self):
+        self.assertGreater(len(declared_functions()), 500)
+        for text, count in [("int a = parallel_items(1, 1, f);\n", 1),
+                            ("#include <vmlight/base/parallel.h>\nint a = parallel_items(1, 1, f);\n", 0),
+                            ("int a = vmlight::parallel_items(1, 1, f);\n", 1), ("other.parallel_items(1);\n", 0),
+                            ("int a = OIIO::parallel_items(1);\n", 0), ("int parallel_items(int);\n", 0),
+                            ("    const auto parallel_items = [] {};\n    parallel_items();\n", 0),
+                            ("// parallel_items(1)\n", 0)]:
+            self.assertEqual(len(list(function_faults("a.cpp", text))), count, text)
 
 
 if __name__ == "__main__":

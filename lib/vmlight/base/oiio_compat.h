@@ -41,7 +41,7 @@ inline std::string error_line()
 /// OIIO's `reason` for `path`, prefixed with the path in quotes, which OIIO may have named already.
 inline std::string with_path(const std::string& path, std::string reason)
 {
-    using namespace OIIO::Strutil;
+    using OIIO::Strutil::replace, OIIO::Strutil::starts_with;
     const std::string quoted = "\"" + path + "\"", prefix = "Invalid image file " + quoted + ": ";
     if (starts_with(reason, prefix))
         reason.erase(0, prefix.size());

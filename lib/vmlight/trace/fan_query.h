@@ -4,6 +4,7 @@
 
 #include <vmlight/math/ray_fan.h>
 #include <vmlight/trace/embree.h>
+#include <vmlight/trace/embree_scene.h>
 
 #include <cstring>
 

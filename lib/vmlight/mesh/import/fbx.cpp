@@ -76,7 +76,7 @@ private:
 
 bool is_fbx(const FileHead& head)
 {
-    using namespace OIIO::Strutil;
+    using OIIO::Strutil::icontains, OIIO::Strutil::istarts_with, OIIO::Strutil::starts_with;
     const OIIO::string_view text = first_text(head);
     return starts_with(text, kFbxMagic) || istarts_with(text, "FBXHeaderExtension")
         || (starts_with(text, ";") && icontains(text.substr(0, 200), "fbx"));
