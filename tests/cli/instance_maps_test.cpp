@@ -68,7 +68,8 @@ TEST_F(InstanceMaps, ThoseOfOneNameAreRefused)
 TEST_F(InstanceMaps, WhatItCannotStandForIsRefused)
 {
     refused(1,
-            "\"quad.obj\": no instances, which scene lists and glTF have, so that <INSTANCE> in -o stands for nothing",
+            "\"quad.obj\": no instances, which scene lists, glTF and Alembic have, so that <INSTANCE> in -o stands for "
+            "nothing",
             "makevismap quad.obj -o 'vm_<INSTANCE>.exr'" + small);
     refused(2, "give one of <MATERIAL> and <INSTANCE>", "makevismap village.toml -o 'vm_<INSTANCE>_<MATERIAL>.exr'");
     refused(2, "<INSTANCE> is for the maps, not for the recipe", "makevismap village.toml -o 'vm_<INSTANCE>.vismap'");

@@ -2,6 +2,7 @@
 // Alembic objects: where they are, what is hidden, their materials.
 #include "alembic_file.h"
 
+#include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/selection.h>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 using namespace mesh_files;
 using namespace alembic_files;
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 namespace {
 
@@ -27,6 +29,14 @@ void expect_corners(const Mesh& mesh, const std::vector<V3d>& expected)
         EXPECT_TRUE(std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const V3d& p) {
             return (p - point).length() < 1e-6;
         })) << point;
+}
+
+Mesh read_caster(const std::string& path, const MeshParams& params = {})
+{
+    Mesh mesh;
+    std::string error;
+    EXPECT_TRUE(read_instanced_mesh(mesh, path, params, error)) << error;
+    return mesh;
 }
 
 } // namespace
@@ -84,6 +94,70 @@ TEST_F(MeshFiles, AlembicInstancesAreMeshesOfTheirOwn)
         for (const V3f& point : quad().points)
             expected.push_back(V3d(point) + at);
     expect_corners(mesh, expected);
+}
+
+// Three copies of a quad, one of them hidden, and a mesh that is there once; a material for one of them.
+std::string shared_quads(const std::string& path)
+{
+    Archive archive(path);
+    Abc::OXform source = Archive::add_xform(archive.top(), "source", { Archive::translation(V3d(0, 0, 1)) });
+    Abc::OPolyMesh leaf = Archive::add_mesh(source, "leaf", { quad() });
+    leaf.getSchema().createFaceSet("Leaf").getSchema().set(
+        Abc::OFaceSetSchema::Sample(Abc::Int32ArraySample(kept(std::vector<int32_t> { 0 }))));
+    Abc::XformSample mirror;
+    mirror.setScale(V3d(-2, 1, 1));
+    Archive::add_xform(archive.top(), "mirror", { mirror }).addChildInstance(source, "copy");
+    Abc::OXform moving = Archive::add_xform(archive.top(), "moving",
+                                            { Archive::translation(V3d(0)), Archive::translation(V3d(9, 0, 0)) });
+    moving.addChildInstance(leaf, "shape"); // of the mesh itself
+    Abc::OXform hidden = Archive::add_xform(archive.top(), "hidden", { {} });
+    Abc::CreateVisibilityProperty(hidden, 0).set(int8_t(Abc::kVisibilityHidden));
+    hidden.addChildInstance(leaf, "shape");
+    Archive::add_mesh(archive.top(), "once", { moved(quad(), V3f(0, 0, -1)) });
+    return path;
+}
+
+TEST_F(MeshFiles, AlembicInstancesOfAnOccluderAreHeldOnce)
+{
+    const std::string path = shared_quads(folder / "instances.abc");
+    const Mesh whole = read(path), caster = read_caster(path);
+    EXPECT_EQ(whole.triangles.size(), 8u);
+    EXPECT_FALSE(whole.instances);
+    EXPECT_EQ(caster.triangles.size(), 2u) << "shown once: not an instance";
+    EXPECT_EQ(caster.warnings, whole.warnings);
+    ASSERT_TRUE(caster.instances);
+    ASSERT_EQ(caster.instances->meshes.size(), 1u);
+    ASSERT_EQ(caster.instances->places.size(), 3u);
+    ASSERT_EQ(caster.instances->meshes[0].materials.size(), 1u);
+    EXPECT_EQ(caster.instances->meshes[0].materials[0].name, "Leaf");
+    for (size_t i = 0; i < 3; ++i) {
+        const Mesh copy = placed_mesh(caster.instances->meshes[0], caster.instances->places[i].to_object);
+        for (size_t t = 0; t < 2; ++t)
+            for (size_t k = 0; k < 3; ++k)
+                EXPECT_EQ(copy.positions[copy.triangles[t][k]], whole.positions[whole.triangles[2 * i + t][k]]);
+    }
+    MeshParams later;
+    later.frame = 2;
+    EXPECT_EQ(read_caster(path, later).instances->places[2].to_object[3][0], 9) << "at its moment";
+}
+
+TEST_F(MeshFiles, AnAlembicMeshAloneBelowItsTransformIsAnInstanceByThatName)
+{
+    const std::string path = folder / "a.abc";
+    Polygons textured = quad();
+    textured.uvs = uvs({ V2f(0, 0), V2f(1, 0), V2f(1, 1), V2f(0, 1) }, Abc::kFacevaryingScope);
+    {
+        Archive archive(path);
+        Abc::OXform house = Archive::add_xform(archive.top(), "house", { {} });
+        Archive::add_mesh(house, "shape", { textured });
+        Archive::add_xform(archive.top(), "street", { {} }).addChildInstance(house, "copy");
+        Abc::OXform pair = Archive::add_xform(archive.top(), "pair", { {} });
+        Archive::add_mesh(pair, "left", { textured });
+        Archive::add_mesh(pair, "right", { textured });
+        Archive::add_mesh(archive.top(), "top", { textured });
+    }
+    EXPECT_THAT(baked_instances(read(path)), ElementsAre("house", "copy", "left", "right", "top"));
+    EXPECT_THAT(baked_instances(read(mesh_file(folder / "bare.abc", { quad() }))), IsEmpty()) << "without UVs";
 }
 
 TEST_F(MeshFiles, HiddenAlembicObjectsAreLeftOut)

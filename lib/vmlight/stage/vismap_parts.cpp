@@ -82,7 +82,7 @@ bool vismap_instances(std::vector<std::string>& dst, const VismapRecipe& recipe,
                       std::string& error)
 {
     return mesh_part_names(dst, baked_instances,
-                           "no instances, which scene lists and glTF have, so that <INSTANCE> in -o stands for nothing",
+                           "no instances, which scene lists, glTF and Alembic have, so that <INSTANCE> in -o stands for nothing",
                            recipe, options, error);
 }
 

@@ -46,8 +46,8 @@ VMLIGHT_API bool read_mesh(Mesh& dst, const std::string& path, const MeshParams&
                            const std::function<void(const std::string& path)>& before_open = {});
 
 /// As read_mesh(), of what only casts: a mesh that a glTF shows in several places (nodes that share it, or
-/// EXT_mesh_gpu_instancing) is in Mesh::instances, once, and not among the triangles; skinned ones are. So is all of a
-/// scene list that is not baked, as by read_mesh().
+/// EXT_mesh_gpu_instancing) or an Alembic file (instances) is in Mesh::instances, once, and not among the triangles;
+/// skinned ones are. So is all of a scene list that is not baked, as by read_mesh().
 VMLIGHT_API bool read_instanced_mesh(Mesh& dst, const std::string& path, const MeshParams& params, std::string& error,
                                      const std::function<void(const std::string& path)>& before_open = {});
 

@@ -50,7 +50,9 @@ bool Hierarchy::visit_object(const Object& object, const std::string& name, cons
     const auto properties = object.reader->getProperties();
     const Transform transform = read_transform(properties, m_moment);
     Place here;
-    here.parent = enter(name, place.parent);
+    here.node = enter(name, place.node);
+    here.named_node = place.children == 1 ? place.node : here.node;
+    here.children = transform.exists ? object.reader->getNumChildren() : 0;
     here.to_object = transform.matrix * (transform.inherits ? place.to_object : m_root);
     here.is_visible = is_visible(properties, place.is_visible);
     return show(object, name, here) && visit_children(object, here, enter, show);

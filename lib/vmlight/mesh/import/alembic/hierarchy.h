@@ -7,6 +7,7 @@
 
 #include <Imath/ImathMatrix.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -15,7 +16,11 @@ namespace vmlight::alembic {
 /// Where an object appears.
 struct Place
 {
-    int parent = -1; ///< what `enter` returned for it
+    int node = -1; ///< what `enter` returned for it
+    /// The one that users know it by: that of the transform above, if this is the only object there, as programs write
+    /// meshes; else its own.
+    int named_node = -1;
+    size_t children = 0; ///< of a transform
     Imath::M44d to_object; ///< from its own space
     bool is_visible = true;
 };

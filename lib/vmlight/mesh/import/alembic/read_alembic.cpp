@@ -2,19 +2,17 @@
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/text_format.h>
-#include <vmlight/base/unique_index.h>
 #include <vmlight/mesh/import/alembic.h>
 #include <vmlight/mesh/import/alembic/error.h>
 #include <vmlight/mesh/import/alembic/hierarchy.h>
+#include <vmlight/mesh/import/alembic/mesh_parts.h>
 #include <vmlight/mesh/import/alembic/poly_mesh.h>
-#include <vmlight/mesh/import/polygons.h>
 
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,14 +20,11 @@ namespace vmlight {
 namespace {
 
 using namespace alembic;
-using Imath::V2f;
-using Imath::V3d;
 
-struct Triangle
+bool is_mesh(const Object& object)
 {
-    uint32_t face;
-    std::array<uint32_t, 3> corners;
-};
+    return is_poly_mesh(object.reader->getHeader()) || is_subdivision_surface(object.reader->getHeader());
+}
 
 std::string quoted_list(const std::vector<std::string>& names)
 {
@@ -45,10 +40,13 @@ std::string quoted_list(const std::vector<std::string>& names)
 class Walk
 {
 public:
-    Walk(MeshBuilder& dst, const std::string& path)
+    Walk(MeshBuilder& dst, const ImportRequest& request)
         : m_dst(dst)
-        , m_hierarchy(path, dst.params(), dst.root_transform(false))
+        , m_parts(dst)
+        , m_hierarchy(request.path, dst.params(), dst.root_transform(false))
     {
+        if (request.keeps_instances)
+            count_shown();
     }
 
     void append_all()
@@ -68,115 +66,86 @@ public:
 private:
     void append(const Object& object, const std::string& name, const Place& place)
     {
-        const bool is_subdivided = is_subdivision_surface(object.reader->getHeader());
-        if (!is_subdivided && !is_poly_mesh(object.reader->getHeader()))
+        if (!is_mesh(object))
             return;
         if (!place.is_visible)
             m_hidden.push_back(object.reader->getFullName());
-        else if (is_subdivided)
+        else if (is_subdivision_surface(object.reader->getHeader()))
             m_subdivided.push_back(object.reader->getFullName());
-        if (place.is_visible)
-            append_mesh(object, name, place);
+        if (!place.is_visible)
+            return;
+        m_dst.mark_instance(uint32_t(place.named_node));
+        append_mesh(object, name, place);
     }
 
     void append_mesh(const Object& object, const std::string& name, const Place& place)
     {
+        if (const auto shown = m_shown.find(object.group); shown != m_shown.end() && shown->second > 1) {
+            m_dst.add_place(distinct_mesh(object), place.to_object);
+            return;
+        }
         if (m_last_group != object.group) { // instances mostly follow each other
             m_last_group = 0;
             m_last = read_mesh(object);
             m_last_group = object.group;
         }
-        const PolyMesh& mesh = m_last;
+        check_memory(object, m_last.polygons);
+        m_parts.append(m_last, name, place.to_object, uint32_t(place.node));
+    }
+
+    // How often each mesh is shown.
+    void count_shown()
+    {
+        m_hierarchy.visit([](const std::string&, int) { return -1; },
+                          [this](const Object& object, const std::string&, const Place& place) {
+                              if (place.is_visible && is_mesh(object))
+                                  ++m_shown[object.group];
+                              return true;
+                          });
+    }
+
+    // The number of a mesh that is shown in several places, to be held once.
+    uint32_t distinct_mesh(const Object& object)
+    {
+        const auto [known, is_new] = m_distinct.emplace(object.group, 0);
+        if (is_new) {
+            const TriangulatedMesh mesh = read_mesh(object);
+            check_memory(object, mesh.polygons);
+            Mesh distinct;
+            distinct.name = object.reader->getName();
+            MeshBuilder own(distinct, m_dst.params());
+            MeshParts(own).append(mesh, distinct.name, Imath::M44d(), own.add_node(distinct.name, -1));
+            std::string error;
+            if (!mesh.triangles.empty() && !own.finish(error))
+                throw Error(error);
+            for (const std::string& warning : distinct.warnings)
+                m_dst.warn(warning);
+            known->second = m_dst.add_distinct(std::move(distinct));
+        }
+        return known->second;
+    }
+
+    // A short file may ask for a large mesh a million times.
+    void check_memory(const Object& object, const PolyMesh& mesh)
+    {
         m_vertices += mesh.faces.corners.size();
         const double bytes = double(mesh.positions.size()) * 44 + double(mesh.faces.ends.size()) * 24; // of Mesh
         if (m_vertices > UINT32_MAX || bytes > double(available_memory()))
             throw Error(format("\"{}\" is too large: with it there are {} corners, and {:.3g} GB of memory are left",
                                object.reader->getFullName(), m_vertices, double(available_memory()) * 1e-9));
-        append_polygons(mesh, name, place);
     }
 
-    PolyMesh read_mesh(const Object& object)
+    TriangulatedMesh read_mesh(const Object& object)
     {
         const std::string& path = object.reader->getFullName();
         try {
-            PolyMesh mesh = read_poly_mesh(*object.reader, m_hierarchy.moment(), m_dst.params().uv_set);
-            m_last_triangles = triangles_of(mesh);
-            for (const std::string& fault : mesh.faults)
+            TriangulatedMesh mesh(read_poly_mesh(*object.reader, m_hierarchy.moment(), m_dst.params().uv_set));
+            for (const std::string& fault : mesh.polygons.faults)
                 m_dst.warn(format("\"{}\": {}", path, fault));
             return mesh;
         } catch (const alembic::Error& error) {
             throw Error(format("\"{}\": {}", path, error.what()));
         }
-    }
-
-    void append_polygons(const PolyMesh& mesh, const std::string& name, const Place& place)
-    {
-        struct Corner
-        {
-            uint32_t vertex, uv, normal;
-        };
-        UniqueIndex<Corner> vertices(mesh.faces.corners.size());
-        size_t count = 0;
-        m_dst.begin_part(name, place.to_object, uint32_t(place.parent));
-        const auto vertex_of = [&](uint32_t corner) {
-            const uint32_t vertex = mesh.faces.corners[corner];
-            const uint32_t uv = mesh.uvs.exists() ? mesh.uvs.values[corner] : 0;
-            const uint32_t normal = mesh.normals.exists() ? mesh.normals.values[corner] : 0;
-            const uint32_t index = vertices.index_of({ vertex, uv, normal });
-            if (index == count) {
-                ++count;
-                const float* n = mesh.normals.exists() ? &mesh.normals.numbers[3 * size_t(normal)] : nullptr;
-                const float* t = mesh.uvs.exists() ? &mesh.uvs.numbers[2 * size_t(uv)] : nullptr;
-                const V2f coordinates = t ? V2f(t[0], t[1]) : V2f(0);
-                m_dst.add_vertex(mesh.positions[vertex], n ? V3d(n[0], n[1], n[2]) : V3d(0),
-                                 t ? &coordinates : nullptr);
-            }
-            return index;
-        };
-        const std::vector<uint32_t> materials = materials_of(mesh);
-        for (const Triangle& triangle : m_last_triangles) {
-            const uint32_t a = vertex_of(triangle.corners[0]), b = vertex_of(triangle.corners[1]),
-                           c = vertex_of(triangle.corners[2]);
-            m_dst.add_triangle({ a, b, c }, materials[size_t(mesh.face_set[triangle.face] + 1)]);
-        }
-    }
-
-    static std::vector<Triangle> triangles_of(const PolyMesh& mesh)
-    {
-        std::vector<Triangle> triangles;
-        std::string error;
-        const auto add = [&](size_t face, const std::array<uint32_t, 3>& corners) {
-            if (mesh.is_hole.empty() || !mesh.is_hole[face])
-                triangles.push_back({ uint32_t(face), corners });
-        };
-        if (!visit_triangles(
-                mesh.faces.ends, [&](uint32_t corner) { return mesh.positions[mesh.faces.corners[corner]]; }, false,
-                add, error))
-            throw Error(error);
-        return triangles;
-    }
-
-    // The material of faces without a face set, then those of the face sets: everywhere the same for one name.
-    std::vector<uint32_t> materials_of(const PolyMesh& mesh)
-    {
-        std::vector<std::string> names { "" };
-        names.insert(names.end(), mesh.face_sets.begin(), mesh.face_sets.end());
-        std::vector<bool> used(names.size(), false);
-        for (const int set : mesh.face_set)
-            used[size_t(set + 1)] = true;
-        std::vector<uint32_t> materials(names.size(), 0);
-        for (size_t i = 0; i < names.size(); ++i) {
-            if (!used[i])
-                continue;
-            auto known = m_materials.find(names[i]);
-            if (known == m_materials.end()) {
-                Material material;
-                material.name = names[i];
-                known = m_materials.emplace(names[i], m_dst.add_material(std::move(material))).first;
-            }
-            materials[i] = known->second;
-        }
-        return materials;
     }
 
     void warn_of_frame()
@@ -196,13 +165,15 @@ private:
     }
 
     MeshBuilder& m_dst;
+    MeshParts m_parts;
     Hierarchy m_hierarchy;
     uint64_t m_vertices = 0;
-    std::map<std::string, uint32_t> m_materials;
     std::vector<std::string> m_hidden, m_subdivided;
     uint64_t m_last_group = 0;
-    PolyMesh m_last;
-    std::vector<Triangle> m_last_triangles;
+    TriangulatedMesh m_last;
+    // By their groups: empty, or what count_shown() found; and the numbers of distinct meshes.
+    std::unordered_map<uint64_t, size_t> m_shown;
+    std::unordered_map<uint64_t, uint32_t> m_distinct;
 };
 
 } // namespace
@@ -214,7 +185,7 @@ bool read_alembic(MeshBuilder& dst, const ImportRequest& request, std::string& e
         return false;
     if (request.before_open)
         request.before_open(request.path);
-    return without_errors(error, [&] { Walk(dst, request.path).append_all(); });
+    return without_errors(error, [&] { Walk(dst, request).append_all(); });
 }
 
 } // namespace vmlight

@@ -121,6 +121,7 @@ Transform read_transform(const AbcA::CompoundPropertyReaderPtr& properties, Mome
 {
     Transform transform;
     const auto xform = find_compound(properties, ".xform");
+    transform.exists = xform != nullptr;
     transform.matrix = read_matrix(xform, moment);
     if (const auto inherits = find_scalar(xform, ".inherits")) {
         const std::vector<uint8_t> flag = read_scalar<uint8_t>(*inherits, samples_at(*inherits, moment).first);

@@ -11,6 +11,7 @@ namespace vmlight::alembic {
 struct Transform
 {
     Imath::M44d matrix; ///< for row vectors, as everywhere in Imath
+    bool exists = false;
     bool inherits = true; ///< false: from the top of the file, whatever the parents do
 };
 
