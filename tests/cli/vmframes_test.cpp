@@ -58,11 +58,11 @@ TEST_F(Vmframes, FramesTurnOnceAround)
     done(line + "'a.##.exr' --turntable --contact-sheet sheet.png");
     EXPECT_THAT(names("a."), ElementsAre("a.01.exr", "a.02.exr", "a.03.exr", "a.04.exr"));
     EXPECT_TRUE(exists("sheet.png"));
+    done(line + "'d.##.exr' --turntable --rotate 0,90,0");
+    expect_same_pixels("a.02.exr", "d.01.exr", 1e-3f);
     // Turning the object by a quarter is seen by a camera that goes a quarter the other way, in light turned along.
     done("vmframes " + kSpot + " " + kSky + small + " --azimuth -90 --env-rotate 0,-90,0 -o b.exr");
     done("vmframes " + kSpot + " " + kSky + small + " --rotate 0,90,0 -o c.exr");
-    const Pixels second = pixels("a.02.exr"), other = pixels("c.exr");
-    ASSERT_EQ(second.values.size(), other.values.size());
     expect_same_pixels("b.exr", "c.exr", 1e-3f);
     done(line + "film.gif --turn-environment");
     EXPECT_EQ(image_count(path("film.gif")), 4);

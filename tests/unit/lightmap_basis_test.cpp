@@ -133,10 +133,8 @@ TEST(LightmapBasis, TheObjectTurnsAgainstTheEnvironment)
         }
     const std::vector<ImageBuf> stack = filtered_stack(env), other = filtered_stack(rolled);
     LightmapParams turned = model("paper");
-    turned.rotate = { 0, 90, 0 };
+    turned.rotate = { 0, -90, 0 };
     const ImageBuf plain = random_vismap(8, 8);
-    if (difference(lit(plain, other, model("paper")), lit(plain, stack, turned)) > 1e-4f)
-        turned.rotate = { 0, -90, 0 };
     ASSERT_LT(difference(lit(plain, other, model("paper")), lit(plain, stack, turned)), 1e-4f);
     for (const char* name : kModels) {
         turned.model = name;

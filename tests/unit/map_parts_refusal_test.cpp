@@ -146,9 +146,10 @@ TEST(PartNumbers, AreReadAndWritten)
     ASSERT_TRUE(parse_parts(parts, count, "7,1-4,3/9999", error)) << error;
     EXPECT_EQ(parts, (std::vector<int> { 1, 2, 3, 4, 7 }));
     EXPECT_EQ(count, 9999);
-    for (const char* text : { "", "3", "/16", "3/", "3/x", "3/16/2", "1-9x2/16", "3/1-4", "a/b", "1,2", "3 / 16" })
+    for (const char* text : { "", "3", "/16", "3/", "3/x", "3/16/2", "1-9x2/16", "3/1-4", "a/b", "1,2", "3 / 16" }) {
         EXPECT_FALSE(parse_parts(parts, count, text, error)) << text;
-    EXPECT_THAT(error, HasSubstr("is not a part; expected something like 3/16 or 1-4,7/16"));
+        EXPECT_THAT(error, HasSubstr("is not a part; expected something like 3/16 or 1-4,7/16")) << text;
+    }
     for (const char* text : { "0/16", "17/16", "1-17/16" }) {
         EXPECT_FALSE(parse_parts(parts, count, text, error)) << text;
         EXPECT_THAT(error, HasSubstr("parts are numbered from 1 to 16"));

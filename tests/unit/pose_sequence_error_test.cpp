@@ -104,6 +104,7 @@ TEST(PoseSequence, DrawnScenesStayWithinTheError)
             PoseSequence sequence(error);
             bake_pose(sequence, before, params, "a");
             const auto pose = bake_pose(sequence, after, params, "b");
+            ASSERT_GT(pose->pose.covered, 0) << seed; // what is beyond the error counts by it
             const double off = share_beyond(*pose, *whole, error == 0 ? 0 : kSequenceError + 1e-6);
             if (error == 0) {
                 more += off * double(pose->pose.covered);

@@ -43,13 +43,6 @@ Mesh halves(double slope = 0, bool meets = true, float right_tile = 0)
     return mesh;
 }
 
-VismapParams smooth_params(int samples)
-{
-    VismapParams params = error_params(kSeamSide, samples);
-    params.reconstruct = "auto";
-    return params;
-}
-
 bool have_same_bytes(const OIIO::ImageBuf& a, const OIIO::ImageBuf& b)
 {
     return a.spec().image_bytes() == b.spec().image_bytes()
@@ -90,12 +83,12 @@ TEST(ReconstructSeams, TexelsBesideASeamGainAsMuchAsOthers)
 {
     const std::vector<Mesh> ball { sphere(V3d(0.2, 0.1, 0.7), 0.4, 24) };
     for (const int samples : { 16, 64 }) {
-        VismapParams truth = smooth_params(64 * samples);
+        VismapParams truth = reconstruct_params(kSeamSide, 64 * samples);
         truth.reconstruct = "off";
         truth.seed = 77;
         const BakedMap reference(halves(), ball, truth);
-        const BakedMap linked(halves(), ball, smooth_params(samples)),
-            apart(halves(0, false), ball, smooth_params(samples));
+        const BakedMap linked(halves(), ball, reconstruct_params(kSeamSide, samples)),
+            apart(halves(0, false), ball, reconstruct_params(kSeamSide, samples));
         const auto error_beside = [&](const BakedMap& map) {
             double squares = 0;
             map.each([&](const Texel& t, int x, int y) {
@@ -113,19 +106,21 @@ TEST(ReconstructSeams, NothingPassesOverACrease)
 {
     const std::vector<Mesh> ball { sphere(V3d(-0.2, 0.1, 0.7), 0.4, 24) };
     for (const double slope : { 1.0, 4.0, -1.0 }) {
-        const BakedMap linked(halves(slope), ball, smooth_params(16));
-        EXPECT_TRUE(have_same_bytes(linked.image(), BakedMap(halves(slope, false), ball, smooth_params(16)).image()));
+        const BakedMap linked(halves(slope), ball, reconstruct_params(kSeamSide, 16));
+        EXPECT_TRUE(have_same_bytes(linked.image(),
+                                    BakedMap(halves(slope, false), ball, reconstruct_params(kSeamSide, 16)).image()));
     }
-    EXPECT_FALSE(have_same_bytes(BakedMap(halves(), ball, smooth_params(16)).image(),
-                                 BakedMap(halves(0, false), ball, smooth_params(16)).image()));
+    EXPECT_FALSE(have_same_bytes(BakedMap(halves(), ball, reconstruct_params(kSeamSide, 16)).image(),
+                                 BakedMap(halves(0, false), ball, reconstruct_params(kSeamSide, 16)).image()));
 }
 
 TEST(ReconstructSeams, AnotherUdimTileChangesNoByte)
 {
     const std::vector<Mesh> ball { sphere(V3d(0.2, 0.1, 0.7), 0.4, 24) };
-    const BakedMap next(halves(0, true, 1), ball, smooth_params(16)), far(halves(0, true, 4), ball, smooth_params(16));
+    const BakedMap next(halves(0, true, 1), ball, reconstruct_params(kSeamSide, 16)),
+        far(halves(0, true, 4), ball, reconstruct_params(kSeamSide, 16));
     EXPECT_TRUE(have_same_bytes(next.image(), far.image()));
-    VismapParams second = smooth_params(16);
+    VismapParams second = reconstruct_params(kSeamSide, 16);
     second.udim = kFirstUdim + 1;
     EXPECT_TRUE(have_same_bytes(BakedMap(halves(0, true, 1), ball, second).image(),
                                 BakedMap(halves(0, false, 1), ball, second).image()));
@@ -134,8 +129,8 @@ TEST(ReconstructSeams, AnotherUdimTileChangesNoByte)
 TEST(ReconstructSeams, TheSameBytesForAnyThreads)
 {
     const std::vector<Mesh> ball { sphere(V3d(0.2, 0.1, 0.7), 0.4, 24) };
-    EXPECT_TRUE(have_same_bytes(BakedMap(halves(), ball, smooth_params(16), 1).image(),
-                                BakedMap(halves(), ball, smooth_params(16), 5).image()));
+    EXPECT_TRUE(have_same_bytes(BakedMap(halves(), ball, reconstruct_params(kSeamSide, 16), 1).image(),
+                                BakedMap(halves(), ball, reconstruct_params(kSeamSide, 16), 5).image()));
 }
 
 TEST(ReconstructSeams, AWallOverTheGroundStaysExact)
@@ -171,7 +166,7 @@ TEST(ReconstructSeams, AHalfTransparentCardLetsHalfPass)
 TEST(ReconstructSeams, ItsProgressGrowsToOneAndStopsIt)
 {
     const BakeInput scene = spot_on_the_ground();
-    const VismapParams params = smooth_params(4);
+    const VismapParams params = reconstruct_params(kSeamSide, 4);
     double last = 0;
     OIIO::ImageBuf map;
     const auto grows = [&](double done) {

@@ -140,7 +140,9 @@ TEST(StrandOccluder, SendsNoBouncedLight)
     const Strands wide = straight({ { V3d(-10, 0, .5), V3d(10, 0, .5) } }, .2, 65);
     const scenes::Bounced lit(scenes::floor_facing_z(.5), { occluder_of(wide) }, scenes::bounce_map_of(8));
     EXPECT_LT(lit.visibility[36], .8f);
-    for (const float light : lit.gather(1, [](const LightPoint&) { return 1.f; }))
+    const auto gathered = lit.gather(1, [](const LightPoint&) { return 1.f; });
+    ASSERT_EQ(gathered.size(), 3 * lit.visibility.size());
+    for (const float light : gathered)
         EXPECT_EQ(light, 0);
 }
 
