@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What cut-outs cost, and what opacity micromaps save:
-///     cutout_bench LEAVES.obj [resolution samples threads]
-/// LEAVES.obj is that of bench/scenes.py: its quads of a quarter of a unit are leaves, each of which gets the
-/// same alpha texture, 512 texels wide, in uvs of its own or in those of the atlas. The rays of a bake are traced
-/// through the same scene, first opaque, then with micromaps, with the texture in memory at every hit, and with
-/// OpenImageIO's texture system at every hit. All take turns; ratios of medians are printed, and whether the same rays
-/// are open.
+///     cutout_bench LEAVES.obj [resolution samples threads width textures]
+/// LEAVES.obj is that of bench/scenes.py: its quads of a quarter of a unit are leaves, each of which gets one of
+/// several equal alpha textures (1, 512 texels wide), in uvs of its own or in those of the atlas. The rays of a bake
+/// are traced through the same scene, first opaque, then with micromaps, with the texture in memory at every hit, and
+/// with OpenImageIO's texture system at every hit. All take turns; ratios of medians are printed, and whether the same
+/// rays are open.
 #include "texture_system_scene.h"
 
 #include <vmlight/base/parallel.h>
@@ -29,7 +29,9 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 using namespace vmlight;
 using Imath::V2f;
@@ -38,18 +40,19 @@ using Imath::V3f;
 
 namespace {
 
-constexpr int kSide = 512;
+int g_side = 512; // of a texture
+int g_textures = 1;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 /// An ellipse with teeth, of which about three fifths of the card are opaque.
 std::vector<float> leaf_texels()
 {
     std::vector<float> texels;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const double s = (x + 0.5) / kSide * 2 - 1, t = (y + 0.5) / kSide * 2 - 1;
+    for (int y = 0; y < g_side; ++y)
+        for (int x = 0; x < g_side; ++x) {
+            const double s = (x + 0.5) / g_side * 2 - 1, t = (y + 0.5) / g_side * 2 - 1;
             const double r = std::hypot(s, t * 1.2) + 0.05 * std::sin(24 * std::atan2(t, s));
-            texels.push_back(float(std::min(1.0, std::max(0.0, (0.95 - r) * kSide / 8 + 0.5))));
+            texels.push_back(float(std::min(1.0, std::max(0.0, (0.95 - r) * g_side / 8 + 0.5))));
         }
     return texels;
 }
@@ -77,15 +80,17 @@ std::vector<V2f> leaf_uvs(const Mesh& mesh, bool of_the_atlas)
 Mesh with_leaves(Mesh mesh, bool of_the_atlas)
 {
     auto opacity = std::make_shared<MeshOpacity>();
-    opacity->materials.resize(2);
-    opacity->materials[1].mode = AlphaMode::mask;
-    opacity->materials[1].textures[0].image
-        = std::make_shared<AlphaTexture>(kSide, kSide, leaf_texels(), TextureWrap::clamp, TextureWrap::clamp);
+    opacity->materials.resize(size_t(1 + g_textures));
+    for (int i = 1; i <= g_textures; ++i) {
+        opacity->materials[size_t(i)].mode = AlphaMode::mask;
+        opacity->materials[size_t(i)].textures[0].image
+            = std::make_shared<AlphaTexture>(g_side, g_side, leaf_texels(), TextureWrap::clamp, TextureWrap::clamp);
+    }
     opacity->uvs = { leaf_uvs(mesh, of_the_atlas) };
-    mesh.materials.resize(2);
+    mesh.materials.resize(size_t(1 + g_textures));
     mesh.triangle_materials.resize(mesh.triangles.size());
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        mesh.triangle_materials.set(t, is_leaf(mesh, t));
+        mesh.triangle_materials.set(t, is_leaf(mesh, t) ? uint32_t(1 + t / 2 % size_t(g_textures)) : 0);
     mesh.opacity = opacity;
     return mesh;
 }
@@ -162,23 +167,29 @@ int64_t differing(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b)
 int main(int argc, const char** argv)
 {
     if (argc < 2) {
-        std::printf("usage: cutout_bench LEAVES.obj [resolution samples threads]\n");
+        std::printf("usage: cutout_bench LEAVES.obj [resolution samples threads width textures]\n");
         return 2;
     }
     const int resolution = argc > 2 ? std::atoi(argv[2]) : 512, samples = argc > 3 ? std::atoi(argv[3]) : 64;
     const int threads = argc > 4 ? std::atoi(argv[4]) : 1;
+    g_side = argc > 5 ? std::atoi(argv[5]) : g_side;
+    g_textures = argc > 6 ? std::atoi(argv[6]) : g_textures;
     Mesh leaves;
     std::string error;
     if (!read_mesh(leaves, argv[1], {}, error)) {
         std::printf("%s\n", error.c_str());
         return 1;
     }
-    const std::string texture = std::filesystem::temp_directory_path() / "cutout_bench_leaf.exr";
-    OIIO::ImageSpec spec(kSide, kSide, 1, OIIO::TypeFloat);
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    std::vector<std::string> textures;
+    OIIO::ImageSpec spec(g_side, g_side, 1, OIIO::TypeFloat);
     std::vector<float> texels = leaf_texels();
     OIIO::ImageBuf image(spec, texels.data());
     image.set_write_tiles(64, 64);
-    image.write(texture);
+    for (int i = 0; i < g_textures; ++i) {
+        textures.push_back(folder / ("cutout_bench_leaf" + std::to_string(i) + ".exr"));
+        image.write(textures.back());
+    }
 
     const SceneFrame frame = SceneFrame::around(leaves);
     const UvRaster raster(leaves, resolution, resolution);
@@ -196,7 +207,7 @@ int main(int argc, const char** argv)
             std::printf("%s\n", error.c_str());
             return 1;
         }
-        const TextureSystemScene system(cut, frame, texture);
+        const TextureSystemScene system(cut, frame, textures);
         const auto by = [](const Occluder& occluder) {
             return [&](RayFan& fan, const SurfacePoint& point) {
                 occluder.clear_blocked(fan, point.origin, kFar, point.is_near);
@@ -232,6 +243,7 @@ int main(int argc, const char** argv)
                         way.name, way.median() / rays * 1e9, way.median() / ways[0].median(),
                         way.median() / ways[1].median(), (long long)differing(way.open, ways[1].open), rays);
     }
-    std::filesystem::remove(texture);
+    for (const std::string& texture : textures)
+        std::filesystem::remove(texture);
     return 0;
 }

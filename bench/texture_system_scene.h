@@ -22,19 +22,20 @@
 
 namespace vmlight {
 
-/// A scene of triangles of two materials: 0 is opaque, of 1 OpenImageIO's texture system says at every hit whether it
-/// is.
+/// A scene of triangles of several materials: 0 is opaque, of the others OpenImageIO's texture system says at every hit
+/// whether they are.
 struct TextureSystemScene
 {
     /// @param mesh     whose MeshOpacity has one set of uvs, for the first texture of its materials
-    /// @param texture  a file: alpha, cut at one half
-    TextureSystemScene(const Mesh& mesh, const SceneFrame& frame, const std::string& texture)
+    /// @param textures  a file for each material but 0: alpha, cut at one half
+    TextureSystemScene(const Mesh& mesh, const SceneFrame& frame, const std::vector<std::string>& textures)
         : system(oiio::private_texture_system())
-        , handle(system->get_texture_handle(OIIO::ustring(texture)))
         , uvs(&mesh.opacity->uvs[0])
         , device(rtcNewDevice("set_affinity=0"))
         , scene(rtcNewScene(device))
     {
+        for (const std::string& texture : textures)
+            handles.push_back(system->get_texture_handle(OIIO::ustring(texture)));
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
         for (int part = 0; part < 2; ++part) {
             RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -44,10 +45,10 @@ struct TextureSystemScene
                 vertices[v] = frame.to_scene(mesh.positions[v]);
             std::vector<std::array<uint32_t, 3>> triangles;
             for (size_t t = 0; t < mesh.triangles.size(); ++t)
-                if (int(mesh.triangle_materials[t]) == part) {
+                if ((mesh.triangle_materials[t] > 0) == (part > 0)) {
                     triangles.push_back(mesh.triangles[t]);
                     if (part)
-                        leaves.push_back(t);
+                        leaves.push_back({ t, mesh.triangle_materials[t] - 1 });
                 }
             std::memcpy(
                 rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles.size()),
@@ -80,10 +81,12 @@ struct TextureSystemScene
             if (!arguments->valid[i])
                 continue;
             const float u = RTCHitN_u(arguments->hit, n, i), v = RTCHitN_v(arguments->hit, n, i);
-            const Imath::V2f* uvs = &(*self.uvs)[3 * self.leaves[RTCHitN_primID(arguments->hit, n, i)]];
+            const Leaf& leaf = self.leaves[RTCHitN_primID(arguments->hit, n, i)];
+            const Imath::V2f* uvs = &(*self.uvs)[3 * leaf.triangle];
             const Imath::V2f st = uvs[0] + (uvs[1] - uvs[0]) * u + (uvs[2] - uvs[0]) * v;
             float alpha = 1;
-            if (!self.system->texture(self.handle, thread, options, st.x, 1 - st.y, 0, 0, 0, 0, 1, &alpha)) {
+            if (!self.system->texture(self.handles[leaf.texture], thread, options, st.x, 1 - st.y, 0, 0, 0, 0, 1,
+                                      &alpha)) {
                 std::printf("%s\n", self.system->geterror().c_str());
                 std::exit(1);
             }
@@ -117,9 +120,14 @@ struct TextureSystemScene
     }
 
     std::shared_ptr<OIIO::TextureSystem> system;
-    OIIO::TextureSystem::TextureHandle* handle;
+    std::vector<OIIO::TextureSystem::TextureHandle*> handles;
     const std::vector<Imath::V2f>* uvs;
-    std::vector<size_t> leaves;
+    struct Leaf
+    {
+        size_t triangle;
+        uint32_t texture;
+    };
+    std::vector<Leaf> leaves;
     RTCDevice device;
     RTCScene scene;
 };

@@ -114,12 +114,16 @@ void Cutouts::sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, in
     };
     std::vector<int> levels(count, 0);
     std::vector<OpacityMicromap> maps(count);
-    if (mode == CutoutMode::micromaps) {
-        in_portions(count, nthreads, [&](size_t key) { levels[key] = micromap_level(triangle(key)); });
-        const int deepest = deepest_level(levels);
-        in_portions(count, nthreads,
-                    [&](size_t key) { maps[key] = make_micromap(triangle(key), std::min(levels[key], deepest)); });
-    }
+    in_portions(count, nthreads, [&](size_t key) { levels[key] = micromap_level(triangle(key)); });
+    const int deepest = deepest_level(levels);
+    in_portions(count, nthreads, [&](size_t key) {
+        maps[key] = make_micromap(triangle(key), std::min(levels[key], deepest));
+        if (mode == CutoutMode::every_hit) { // but the same pieces of triangles are traced
+            OpacityMicromap asked;
+            asked.stopping = maps[key].stopping;
+            maps[key] = asked;
+        }
+    });
     std::vector<size_t> first_word(count, 0);
     for (size_t key = 0; key < count; ++key) {
         if (maps[key].whole != CellState::unknown)
@@ -147,7 +151,7 @@ void Cutouts::sort(const Mesh& mesh, const std::vector<uint32_t>& candidates, in
             m_counts.cells += map.grid.count();
             m_counts.unknown += map.cells.empty() ? map.grid.count() : map.unknown;
             m_mixed.push_back(uint32_t(t));
-            m_maps.push_back({ first_word[key], map.grid });
+            m_maps.push_back({ first_word[key], map.grid, map.stopping });
             m_material_of.push_back(keys.keys()[key].material);
             m_uvs.push_back(keys.keys()[key].uvs);
         }

@@ -38,7 +38,7 @@ struct CutoutWork
 enum class CutoutMode
 {
     micromaps,
-    every_hit ///< no micromaps: ask the texture at every hit. The same result, for tests and benchmarks
+    every_hit ///< ask the texture at every hit. The same result, for tests and benchmarks
 };
 
 /// The cut-outs of one mesh. Thread-safe once made.
@@ -55,6 +55,9 @@ public:
     /// The triangles that stop all light, in the mesh's order, and those that must be asked.
     const std::vector<uint32_t>& opaque() const { return m_opaque; }
     const std::vector<uint32_t>& mixed() const { return m_mixed; }
+
+    /// Weights of the points of one of mixed() that are not transparent.
+    const WeightRange& stopping(uint32_t mixed) const { return m_maps[mixed].stopping; }
 
     /// Opacity at a hit, from 0 to 1.
     ///
@@ -85,6 +88,7 @@ private:
     {
         size_t first_word; ///< into m_cells
         MicromapGrid grid;
+        WeightRange stopping;
     };
 
     CellState state(const Map& map, size_t cell) const

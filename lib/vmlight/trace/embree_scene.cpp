@@ -43,31 +43,17 @@ uint64_t ray_bits(const V3f& origin, const V3f& direction)
 
 namespace {
 
-std::vector<float> longest_edges(const Buffers& buffers)
-{
-    std::vector<float> result;
-    for (size_t t = 0; t < buffers.triangle_count; ++t) {
-        const auto& corners = buffers.triangles[t];
-        float longest = 0;
-        for (size_t k = 0; k < 3; ++k)
-            longest
-                = std::max(longest, (buffers.vertices[corners[k]] - buffers.vertices[corners[(k + 1) % 3]]).length());
-        result.push_back(longest);
-    }
-    return result;
-}
-
 // Opacity at a hit, exactly: Embree's own u and v differ in their last bits from one instruction set to another.
-double opacity_at_hit(const Buffers& buffers, unsigned triangle, const ExactHit& hit, CutoutWork& work)
+double opacity_at_hit(const Buffers& buffers, const ExactHit& hit, CutoutWork& work)
 {
-    const V3d origin(hit.origin), direction(hit.direction), &a = hit.corners[0];
-    const V3d side1 = hit.corners[1] - a, side2 = hit.corners[2] - a;
-    const V3d p = direction.cross(side2), s = origin - a, q = s.cross(side1);
-    const double scale = 1 / side1.dot(p);
-    const double u = s.dot(p) * scale, v = direction.dot(q) * scale;
-    const double inside_u = u > 0 ? std::min(u, 1.0) : 0; // not a number: 0
-    const double inside_v = v > 0 ? std::min(v, 1 - inside_u) : 0;
-    return buffers.cutouts->opacity(triangle, inside_u, inside_v, work);
+    if (hit.is_beyond) {
+        ++work.hits;
+        return 0;
+    }
+    const Imath::V2d at = hit.weights();
+    const double inside_u = at.x > 0 ? std::min(at.x, 1.0) : 0; // not a number: 0
+    const double inside_v = at.y > 0 ? std::min(at.y, 1 - inside_u) : 0;
+    return buffers.cutouts->opacity(hit.triangle, inside_u, inside_v, work);
 }
 
 // What the micromap says of a hit by Embree's own u and v; within an instance their error is not known.
@@ -80,8 +66,18 @@ CellState known_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments
     const unsigned n = arguments.N, triangle = RTCHitN_primID(hit, n, i);
     const V3f along(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
     const V3f normal(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
-    const float error = weight_error(RTCRayN_tfar(ray, n, i), buffers.longest_edges[triangle], normal.dot(along));
-    return buffers.cutouts->known(triangle, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i), error);
+    const TrimmedPiece& piece = buffers.pieces[triangle];
+    const float error = piece.error_scale
+        * weight_error(RTCRayN_tfar(ray, n, i) + piece.slack, piece.longest_edge, normal.dot(along));
+    const float u = RTCHitN_u(hit, n, i), v = RTCHitN_v(hit, n, i);
+    const auto lies_around = [error](const Imath::V2f& at) {
+        return std::min({ at.x, at.y, 1 - at.x - at.y }) > -error;
+    };
+    const Imath::V2f at = piece.own.at(u, v);
+    if (piece.partner == TrimmedPiece::kAlone || lies_around(at))
+        return buffers.cutouts->known(triangle, at.x, at.y, error);
+    const Imath::V2f beside = piece.of_partner.at(u, v);
+    return lies_around(beside) ? buffers.cutouts->known(piece.partner, beside.x, beside.y, error) : CellState::unknown;
 }
 
 } // namespace
@@ -98,12 +94,11 @@ void reject_open_hits(const RTCFilterFunctionNArguments* arguments)
             arguments->valid[i] = known == CellState::opaque ? -1 : 0;
             continue;
         }
-        const unsigned triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
         const ExactHit hit(buffers, *arguments, i);
-        const double opacity = opacity_at_hit(buffers, triangle, hit, work);
+        const double opacity = opacity_at_hit(buffers, hit, work);
         if (opacity <= 0
             || (opacity < 1
-                && buffers.cutouts->passes(triangle, opacity, ray_bits(hit.origin, hit.direction) ^ hit.bits)))
+                && buffers.cutouts->passes(hit.triangle, opacity, ray_bits(hit.origin, hit.direction) ^ hit.bits)))
             arguments->valid[i] = 0;
     }
 }
@@ -151,6 +146,9 @@ void Scene::Part::release()
     if (scene)
         rtcReleaseScene(scene);
     scene = nullptr;
+    for (RTCBuffer buffer : vertices)
+        rtcReleaseBuffer(buffer);
+    vertices.clear();
 }
 
 void Scene::start(Part& part, bool is_compact)
@@ -192,9 +190,9 @@ bool Scene::attach(Part& part, const Mesh& mesh, unsigned id, bool is_lasting)
     return good;
 }
 
-bool Scene::attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& triangles,
-                        const Cutouts* cutouts, unsigned id)
+bool Scene::attach_opaque(Part& part, RTCBuffer vertices, const Mesh& mesh, const Cutouts& cutouts, unsigned id)
 {
+    const std::vector<uint32_t>& triangles = cutouts.opaque();
     if (triangles.empty())
         return true;
     RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -205,15 +203,8 @@ bool Scene::attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const 
     if (indices) {
         for (size_t i = 0; i < triangles.size(); ++i)
             indices[i] = mesh.triangles[triangles[i]];
-        part.buffers.push_back(
-            { static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, triangles.size(), cutouts });
-        if (cutouts)
-            part.buffers.back().longest_edges = longest_edges(part.buffers.back());
+        part.buffers.push_back({ static_cast<const V3f*>(rtcGetBufferData(vertices)), indices, triangles.size() });
         rtcSetGeometryUserData(geometry, &part.buffers.back());
-        if (cutouts) {
-            rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);
-            rtcSetGeometryIntersectFilterFunction(geometry, reject_open_hits);
-        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(part.scene, geometry, id);
     }
@@ -221,7 +212,44 @@ bool Scene::attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const 
     return indices != nullptr;
 }
 
-// Transparent triangles are in neither geometry. The two share their vertices.
+// Each has vertices of its own: those of neighbours are trimmed in other ways.
+bool Scene::attach_mixed(Part& part, const V3f* vertices, const Mesh& mesh, const Cutouts& cutouts, unsigned id)
+{
+    const std::vector<uint32_t>& triangles = cutouts.mixed();
+    if (triangles.empty())
+        return true;
+    RTCGeometry geometry = rtcNewGeometry(m_device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corners = static_cast<std::array<V3f, 3>*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(V3f), 3 * triangles.size()));
+    auto* indices = static_cast<std::array<uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles.size()));
+    const bool good = corners && indices;
+    if (good) {
+        part.buffers.push_back({ vertices, nullptr, triangles.size(), &cutouts });
+        Buffers& buffers = part.buffers.back();
+        std::vector<std::array<V3f, 3>> pieces;
+        std::vector<WeightRange> stopping;
+        for (size_t i = 0; i < triangles.size(); ++i) {
+            const auto& whole = buffers.whole_triangles.emplace_back(mesh.triangles[triangles[i]]);
+            pieces.push_back({ vertices[whole[0]], vertices[whole[1]], vertices[whole[2]] });
+            stopping.push_back(cutouts.stopping(uint32_t(i)));
+            for (size_t k = 0; k < 3; ++k)
+                indices[i][k] = uint32_t(3 * i + k);
+        }
+        buffers.pieces = trim_triangles(pieces, buffers.whole_triangles, stopping);
+        std::copy(pieces.begin(), pieces.end(), corners);
+        buffers.triangles = buffers.whole_triangles.data();
+        rtcSetGeometryUserData(geometry, &buffers);
+        rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);
+        rtcSetGeometryIntersectFilterFunction(geometry, reject_open_hits);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(part.scene, geometry, id);
+    }
+    rtcReleaseGeometry(geometry);
+    return good;
+}
+
+// Transparent triangles are in neither geometry.
 bool Scene::attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, unsigned id, unsigned mixed_id)
 {
     // Embree reads four floats of each vertex.
@@ -229,12 +257,10 @@ bool Scene::attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, 
     auto* positions = vertices ? static_cast<V3f*>(rtcGetBufferData(vertices)) : nullptr;
     if (!positions)
         return false;
+    part.vertices.push_back(vertices);
     for (size_t v = 0; v < mesh.positions.size(); ++v)
         positions[v] = part.frame.to_scene(mesh.positions[v]);
-    const bool good = attach_part(part, vertices, mesh, cutouts.opaque(), nullptr, id)
-        && attach_part(part, vertices, mesh, cutouts.mixed(), &cutouts, mixed_id);
-    rtcReleaseBuffer(vertices);
-    return good;
+    return attach_opaque(part, vertices, mesh, cutouts, id) && attach_mixed(part, positions, mesh, cutouts, mixed_id);
 }
 
 std::unique_ptr<Scene> Scene::build(const std::vector<const Mesh*>& meshes, const SceneFrame& frame, int nthreads,

@@ -8,6 +8,7 @@
 #include <vmlight/trace/cutouts.h>
 #include <vmlight/trace/embree.h>
 #include <vmlight/trace/occluder.h>
+#include <vmlight/trace/trimmed_pieces.h>
 
 #include <array>
 #include <cmath>
@@ -27,8 +28,9 @@ struct Buffers
     size_t triangle_count;
     /// Of what cut-outs the triangles are the mixed ones, or nullptr.
     const Cutouts* cutouts = nullptr;
-    /// The longest edge of each of those.
-    std::vector<float> longest_edges {};
+    /// What Embree has in place of each of those: its vertices are others than `vertices`.
+    std::vector<TrimmedPiece> pieces {};
+    std::vector<std::array<uint32_t, 3>> whole_triangles {}; ///< what `triangles` points to, of mixed ones
     size_t mesh = 0; ///< its place among those that Scene::build() was given
     uint64_t bits = 0; ///< as those of Placements, of a copy
     bool is_mirrored = false; ///< of a copy: its winding is that before the mirror
@@ -108,13 +110,14 @@ private:
         RTCScene scene = nullptr;
         SceneFrame frame;
         std::deque<Buffers> buffers; // Embree keeps pointers to its elements
+        std::vector<RTCBuffer> vertices; // that geometries share
     };
     void start(Part& part, bool is_compact);
     bool attach_strands(const Strands& strands, unsigned id, std::string& error);
     bool attach(Part& part, const Mesh& mesh, unsigned id, bool is_lasting = false);
     bool attach_sorted(Part& part, const Mesh& mesh, const Cutouts& cutouts, unsigned id, unsigned mixed_id);
-    bool attach_part(Part& part, RTCBuffer vertices, const Mesh& mesh, const std::vector<uint32_t>& triangles,
-                     const Cutouts* cutouts, unsigned id);
+    bool attach_opaque(Part& part, RTCBuffer vertices, const Mesh& mesh, const Cutouts& cutouts, unsigned id);
+    bool attach_mixed(Part& part, const Imath::V3f* vertices, const Mesh& mesh, const Cutouts& cutouts, unsigned id);
     bool attach_placed(const std::vector<PlacedMeshes>& placed, unsigned next_id, std::string& error);
     bool attach_copy(const PlacedMeshes& placed, size_t place, unsigned& next_id);
     void attach_instance(const Part& distinct, const InstanceTransform& transform, unsigned id);

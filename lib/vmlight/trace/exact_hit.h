@@ -36,15 +36,24 @@ private:
     std::vector<Placement> m_all;
 };
 
-/// A triangle and the ray that meets it, in the scene: of the floats that are traced.
+/// A triangle and the ray that meets it, in the scene: of the floats that are traced. Of a piece of a cut-out one, the
+/// triangle that the ray meets.
 struct ExactHit
 {
     /// @param lane     of the filter's hits
     ExactHit(const Buffers& buffers, const RTCFilterFunctionNArguments& arguments, unsigned lane);
 
+    unsigned triangle; ///< of the buffers
+    bool is_beyond = false; ///< the ray meets the piece, and no triangle
     std::array<Imath::V3d, 3> corners;
     Imath::V3f origin, direction;
     uint64_t bits; ///< of the place of its mesh
+
+    /// The weights of the second and third corners, where the ray meets the triangle's plane.
+    Imath::V2d weights() const;
+
+private:
+    void find_triangle(const Buffers& buffers, const Placements::Placement* placement, unsigned number);
 };
 
 /// The instance of a lane's hit, or nullptr.

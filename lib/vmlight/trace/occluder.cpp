@@ -289,10 +289,17 @@ void Occluder::find_nearest(const V3f* origins, const V3f* directions, const flo
             hit.normal *= copy.is_mirrored ? -1.0f : 1.0f;
         } else {
             hit.mesh = geometry % meshes;
-            const Cutouts* cutouts = m_cutouts[hit.mesh].get();
-            hit.triangle = !cutouts ? triangle
-                : geometry < meshes ? cutouts->opaque()[triangle]
-                                    : cutouts->mixed()[triangle];
+            hit.triangle = triangle;
+            if (const Cutouts* cutouts = m_cutouts[hit.mesh].get(); cutouts && geometry < meshes) {
+                hit.triangle = cutouts->opaque()[triangle];
+            } else if (cutouts) {
+                const auto [mixed, weights] = m_scene->buffers_of(geometry).pieces[triangle].whole(
+                    triangle, rays.hit.u[lane], rays.hit.v[lane]);
+                hit.triangle = cutouts->mixed()[mixed];
+                hit.u = weights.x;
+                hit.v = weights.y;
+                continue;
+            }
         }
         hit.u = rays.hit.u[lane];
         hit.v = rays.hit.v[lane];

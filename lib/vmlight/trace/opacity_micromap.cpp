@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/trace/opacity_micromap.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -33,6 +34,8 @@ public:
             known = state_of(m_triangle.range(corners(level, i, j, is_upper)));
         if (level == m_dst.grid.level) {
             set(m_dst.grid.index(i, j, is_upper), known);
+            if (known != CellState::transparent)
+                add_stopping({ (1 << level) - 1 - i - j - is_upper, i, j });
             return;
         }
         const int x = 2 * i, y = 2 * j;
@@ -51,6 +54,8 @@ public:
 
     // Cells of each state.
     std::array<int64_t, 3> counts {};
+    // Weights of the points of cells that are not transparent.
+    WeightRange stopping { { 1, 1, 1 }, { 0, 0, 0 } };
 
 private:
     static std::array<V2d, 3> corners(int level, int i, int j, bool is_upper)
@@ -59,6 +64,14 @@ private:
         const double low = j * side, high = (j + 1) * side;
         const V2d third = is_upper ? V2d(right, high) : V2d(left, low);
         return { V2d(right, low), V2d(left, high), third };
+    }
+    // A cell's least weights, in edges of cells.
+    void add_stopping(const std::array<int, 3>& least)
+    {
+        for (size_t k = 0; k < 3; ++k) {
+            stopping.least[k] = std::min(stopping.least[k], std::ldexp(float(least[k]), -m_dst.grid.level));
+            stopping.most[k] = std::max(stopping.most[k], std::ldexp(float(least[k] + 1), -m_dst.grid.level));
+        }
     }
     void set(int64_t cell, CellState state)
     {
@@ -102,6 +115,8 @@ OpacityMicromap make_micromap(const TriangleOpacity& triangle, int level)
             result.whole = state;
             result.cells.clear();
         }
+    if (result.whole == CellState::unknown)
+        result.stopping = sorter.stopping;
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vmlight/mesh/opacity.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -64,6 +65,12 @@ struct MicromapGrid
     }
 };
 
+/// The least and the greatest weight of each corner of a triangle.
+struct WeightRange
+{
+    std::array<float, 3> least { 0, 0, 0 }, most { 1, 1, 1 };
+};
+
 /// What is known of a triangle's opacity. No cell ever disagrees with TriangleOpacity::at().
 struct OpacityMicromap
 {
@@ -73,6 +80,8 @@ struct OpacityMicromap
     /// Two bits a cell, 32 cells a word; empty unless `whole` is unknown.
     std::vector<uint64_t> cells;
     int64_t unknown = 0; ///< cells
+    /// Of the points of all cells that are not transparent; the whole range if all or no cells are.
+    WeightRange stopping;
 
     CellState state(int64_t cell) const { return CellState(cells[size_t(cell / 32)] >> (2 * (cell % 32)) & 3); }
 };
