@@ -67,8 +67,10 @@ CellState known_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments
     const V3f along(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
     const V3f normal(RTCHitN_Ng_x(hit, n, i), RTCHitN_Ng_y(hit, n, i), RTCHitN_Ng_z(hit, n, i));
     const TrimmedPiece& piece = buffers.pieces[triangle];
-    const float error = piece.error_scale
-        * weight_error(RTCRayN_tfar(ray, n, i) + piece.slack, piece.longest_edge, normal.dot(along));
+    constexpr float kMapped = 5e-7f; // what rounding from the weights of a piece adds
+    const float error = kMapped
+        + piece.error_scale
+            * weight_error(RTCRayN_tfar(ray, n, i) + piece.slack, piece.longest_edge, normal.dot(along));
     const float u = RTCHitN_u(hit, n, i), v = RTCHitN_v(hit, n, i);
     const auto lies_around = [error](const Imath::V2f& at) {
         return std::min({ at.x, at.y, 1 - at.x - at.y }) > -error;
