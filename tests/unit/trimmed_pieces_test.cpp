@@ -77,7 +77,12 @@ struct Pieces
             ranges.push_back(range);
         }
         trimmed = whole;
-        pieces = trim_triangles(trimmed, triangles, ranges);
+        trim();
+    }
+
+    void trim()
+    {
+        pieces = trim_triangles(trimmed.data(), triangles, [this](size_t i) { return ranges[i]; });
     }
 
     // The area of both pieces, of the triangles' area.
@@ -181,7 +186,8 @@ TEST(TrimmedPieces, TrianglesThatAreNoCardAreTrimmedAlone)
     std::swap(over.ranges[1].least[0], over.ranges[1].least[1]);
     std::swap(over.ranges[1].most[0], over.ranges[1].most[1]);
     over.trimmed = over.whole;
-    EXPECT_EQ(trim_triangles(over.trimmed, over.triangles, over.ranges)[0].partner, TrimmedPiece::kAlone);
+    over.trim();
+    EXPECT_EQ(over.pieces[0].partner, TrimmedPiece::kAlone);
 }
 
 TEST(TrimmedPieces, WhatDoesNotPayOrHasNoAreaStaysAsItIs)
@@ -196,8 +202,7 @@ TEST(TrimmedPieces, WhatDoesNotPayOrHasNoAreaStaysAsItIs)
             EXPECT_EQ(std::memcmp(&all.trimmed[i], &all.whole[i], sizeof(Corners)), 0);
             EXPECT_EQ(all.pieces[i].whole(uint32_t(i), 0.3f, 0.4f), std::pair(uint32_t(i), V2f(0.3f, 0.4f)));
         }
-    std::vector<Corners> none;
-    EXPECT_TRUE(trim_triangles(none, {}, {}).empty());
+    EXPECT_TRUE(trim_triangles(nullptr, {}, {}).empty());
 }
 
 // Against the card itself, in double.

@@ -81,9 +81,10 @@ bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& recipe,
 bool vismap_instances(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
                       std::string& error)
 {
-    return mesh_part_names(dst, baked_instances,
-                           "no instances, which scene lists, glTF and Alembic have, so that <INSTANCE> in -o stands for nothing",
-                           recipe, options, error);
+    return mesh_part_names(
+        dst, baked_instances,
+        "no instances, which scene lists, glTF and Alembic have, so that <INSTANCE> in -o stands for nothing", recipe,
+        options, error);
 }
 
 } // namespace vmlight

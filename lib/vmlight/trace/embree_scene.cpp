@@ -229,17 +229,16 @@ bool Scene::attach_mixed(Part& part, const V3f* vertices, const Mesh& mesh, cons
     if (good) {
         part.buffers.push_back({ vertices, nullptr, triangles.size(), &cutouts });
         Buffers& buffers = part.buffers.back();
-        std::vector<std::array<V3f, 3>> pieces;
-        std::vector<WeightRange> stopping;
+        buffers.whole_triangles.reserve(triangles.size());
         for (size_t i = 0; i < triangles.size(); ++i) {
             const auto& whole = buffers.whole_triangles.emplace_back(mesh.triangles[triangles[i]]);
-            pieces.push_back({ vertices[whole[0]], vertices[whole[1]], vertices[whole[2]] });
-            stopping.push_back(cutouts.stopping(uint32_t(i)));
-            for (size_t k = 0; k < 3; ++k)
+            for (size_t k = 0; k < 3; ++k) {
+                corners[i][k] = vertices[whole[k]];
                 indices[i][k] = uint32_t(3 * i + k);
+            }
         }
-        buffers.pieces = trim_triangles(pieces, buffers.whole_triangles, stopping);
-        std::copy(pieces.begin(), pieces.end(), corners);
+        buffers.pieces
+            = trim_triangles(corners, buffers.whole_triangles, [&](size_t i) { return cutouts.stopping(uint32_t(i)); });
         buffers.triangles = buffers.whole_triangles.data();
         rtcSetGeometryUserData(geometry, &buffers);
         rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);

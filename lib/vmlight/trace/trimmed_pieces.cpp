@@ -79,7 +79,7 @@ void set_piece(TrimmedPiece& dst, std::array<V3f, 3>& corners, const Piece& piec
     dst.slack = float(reach / 2);
     const V3d a = whole[1] - whole[0], b = whole[2] - whole[0];
     const double longest = std::max({ a.length(), b.length(), (a - b).length() });
-    dst.tolerance = kOutwards / 4 * (1 + reach) * longest / a.cross(b).length();
+    dst.tolerance = float(kOutwards / 4 * (1 + reach) * longest / a.cross(b).length());
 }
 
 // A triangle alone: the smallest of its own shape.
@@ -226,9 +226,9 @@ std::pair<uint32_t, V2f> TrimmedPiece::whole(uint32_t triangle, float piece_u, f
     return { triangle, at };
 }
 
-std::vector<TrimmedPiece> trim_triangles(std::vector<std::array<V3f, 3>>& corners,
+std::vector<TrimmedPiece> trim_triangles(std::array<V3f, 3>* corners,
                                          const std::vector<std::array<uint32_t, 3>>& triangles,
-                                         const std::vector<WeightRange>& stopping)
+                                         const std::function<WeightRange(size_t triangle)>& stopping)
 {
     std::vector<TrimmedPiece> pieces(triangles.size());
     const auto trim_pair = [&](size_t i, double area_alone) {
@@ -240,7 +240,7 @@ std::vector<TrimmedPiece> trim_triangles(std::vector<std::array<V3f, 3>>& corner
         const double reach = std::max(reach_of(card.corners), reach_of(card.other_corners));
         if (!is_parallelogram(card, reach))
             return false;
-        const auto [x, y] = spans_of(card, stopping[i], stopping[i + 1]);
+        const auto [x, y] = spans_of(card, stopping(i), stopping(i + 1));
         // Not a number: it has no area. Boxes around a parallelogram are smaller than around two triangles.
         constexpr double kAsGood = 1.05;
         if (!(x.size() * y.size() <= std::min(kLargest, kAsGood * area_alone)))
@@ -252,9 +252,9 @@ std::vector<TrimmedPiece> trim_triangles(std::vector<std::array<V3f, 3>>& corner
     };
     for (size_t i = 0; i < triangles.size(); ++i) {
         const Corners whole = in_double(corners[i]);
-        const Shrunk alone = shrunk(whole, stopping[i]);
+        const Shrunk alone = shrunk(whole, stopping(i));
         if (i + 1 < triangles.size()) {
-            const Shrunk next = shrunk(in_double(corners[i + 1]), stopping[i + 1]);
+            const Shrunk next = shrunk(in_double(corners[i + 1]), stopping(i + 1));
             if (trim_pair(i, (alone.area() + next.area()) / 2)) {
                 ++i;
                 continue;

@@ -8,7 +8,9 @@
 #include <Imath/ImathVec.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -40,7 +42,7 @@ struct TrimmedPiece
     float slack = 0;
     /// Weights this far beyond an edge are still in the triangle, so that no ray slips through between it and an opaque
     /// neighbour, whose edge Embree tests in floats.
-    double tolerance = 0;
+    float tolerance = 0;
 
     /// The triangle that a point of the piece is in, or nearest to, and the weights there.
     /// @param triangle     the piece's own
@@ -53,8 +55,8 @@ struct TrimmedPiece
 /// @param corners      of each triangle; set to those of its piece
 /// @param triangles    their vertices. Two that follow each other and share an edge can be partners
 /// @param stopping     of each: the weights of the points that stop light
-std::vector<TrimmedPiece> trim_triangles(std::vector<std::array<Imath::V3f, 3>>& corners,
+std::vector<TrimmedPiece> trim_triangles(std::array<Imath::V3f, 3>* corners,
                                          const std::vector<std::array<uint32_t, 3>>& triangles,
-                                         const std::vector<WeightRange>& stopping);
+                                         const std::function<WeightRange(size_t triangle)>& stopping);
 
 } // namespace vmlight
