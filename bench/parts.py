@@ -56,7 +56,7 @@ def main():
         sys.exit(__doc__)
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    print(f"| {PARTS} parts of {RESOLUTION}x{RESOLUTION} {' '.join(FLAGS)} | whole | sum of parts | dearest part | join | efficiency |")
+    print(f"| {PARTS} parts of {RESOLUTION}x{RESOLUTION} {' '.join(FLAGS)} | whole | sum of parts | slowest part | join | efficiency |")
     print("|---|---|---|---|---|---|")
     for word in sys.argv[2:]:
         mesh = mesh_file(word, folder)

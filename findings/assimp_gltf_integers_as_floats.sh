@@ -9,7 +9,7 @@
 # fix this was open in assimp's repository in August 2026.
 #
 # Needs apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary folder.
-# Exits with 1 if the values come out in another way than written here.
+# Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -10,7 +10,7 @@
 # hides it. The source of OpenEXR 3.4.16 has the same weights (not run here).
 #
 # Needs apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary folder. Takes
-# up to two minutes. Exits with 1 if the values come out in another way than written here.
+# up to two minutes. Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -9,7 +9,7 @@
 # the domain. Here LUTs that return what they are given make -0.5, 0.375 and 0.625 of 0.5.
 #
 # Needs apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary folder.
-# Exits with 1 if the values come out in another way than written here.
+# Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -9,7 +9,7 @@
 #   bits are cut to their lower 8.
 # three.js reads these OBJ files as meant.
 #
-# Needs npm. Exits with 1 if the attributes are read in another way than written here.
+# Needs npm. Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -11,7 +11,7 @@
 # the reader whether the object is black or culled, or occlusion is baked on its inside. glTF-Transform swaps.
 #
 # Needs npm, and apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary
-# folder. Exits with 1 if the meshes come out in another way than written here.
+# folder. Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

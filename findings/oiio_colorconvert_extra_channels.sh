@@ -8,7 +8,7 @@
 # branch of August 2026 (not run here).
 #
 # Needs apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary folder.
-# Exits with 1 if the channels come out in another way than written here.
+# Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

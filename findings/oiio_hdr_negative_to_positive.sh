@@ -9,7 +9,7 @@
 # than about 1/256 of the largest channel, or in pixels without a positive one, become 0. --clamp:min=0 before -o helps.
 #
 # Needs apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary folder.
-# Exits with 1 if the values come out in another way than written here.
+# Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -8,7 +8,7 @@
 # or infinite. X and Z stay exact, so that a look at one channel finds nothing. P.x, P.y, P.z are all exact.
 #
 # Needs apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary folder.
-# Exits with 1 if the channels come out in another way than written here.
+# Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

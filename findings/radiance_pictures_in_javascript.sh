@@ -9,7 +9,7 @@
 #   pixels by three.js and Babylon: the picture is scrambled, and three.js returns fewer pixels than it says.
 # - three.js takes a picture in XYZ (FORMAT=32-bit_rle_xyze) for RGB. The other two refuse it, as hdrify does old runs.
 #
-# Needs npm. Exits with 1 if the readers read the files in another way than written here.
+# Needs npm. Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -8,7 +8,7 @@
 # setType(FloatType) entries are kept as they are. What the loader reads as domainMin and domainMax, LUTPass and the node
 # lut3D do not use: inputs are looked up as if the domain were [0, 1].
 #
-# Needs npm. Exits with 1 if the entries are read in another way than written here.
+# Needs npm. Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -8,7 +8,7 @@
 # Fixed in tinyexr's repository in 2025.
 #
 # Needs g++, and apt-get with the archive of Debian 12 on amd64; installs nothing: unpacks the packages in a temporary
-# folder. Exits with 1 if the rows come out in another way than written here.
+# folder. Exits with 1 if the results differ from these.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

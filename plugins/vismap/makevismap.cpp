@@ -115,6 +115,15 @@ int main(int argc, const char** argv)
     });
 
     stage.check([&] {
+        const MeshPartPattern* const of_output = mesh_part_pattern(stage.output());
+        const MeshPartPattern* const pattern = of_output ? of_output : mesh_part_pattern(write_path);
+        return !write_path.empty() && pattern
+            ? format("--write-mesh writes one mesh: not with {}; bake and write each {} with {} NAME", pattern->text,
+                     pattern->noun, pattern->flag)
+            : std::string();
+    });
+
+    stage.check([&] {
         return recipe.unwrap && (poses.count() > 1 || !poses.compared(recipe).empty())
             ? "--unwrap would give each pose UVs of its own: unwrap the first with --write-mesh, give its UVs to all, "
               "and "
@@ -126,10 +135,11 @@ int main(int argc, const char** argv)
         const char* const flag = explain                           ? "--explain"
             : stage.is_dry_run()                                   ? "--dry-run"
             : poses.count() > 1 || !poses.compared(recipe).empty() ? "--frames and --pose"
+            : parts.is_given()                                     ? "--part and --resume"
             : has_udim_pattern(stage.output()) || mesh_part_pattern(stage.output())
             ? "-o with <UDIM>, <MATERIAL> or <INSTANCE>"
             : "";
-        return *flag && bakes_strands(recipe) ? format("\"{}\": {}: not of strands, only of meshes", recipe.mesh, flag)
+        return *flag && bakes_strands(recipe) ? format("\"{}\" has strands: {} only work for meshes", recipe.mesh, flag)
                                               : std::string();
     });
 

@@ -67,10 +67,11 @@ TEST_F(InstanceMaps, ThoseOfOneNameAreRefused)
 
 TEST_F(InstanceMaps, WhatItCannotStandForIsRefused)
 {
-    refused(1,
-            "\"quad.obj\": no instances, which scene lists, glTF and Alembic have, so that <INSTANCE> in -o stands for "
-            "nothing",
-            "makevismap quad.obj -o 'vm_<INSTANCE>.exr'" + small);
+    refused(
+        1, "\"quad.obj\": no instances, which only scene lists, glTF and Alembic files have: remove <INSTANCE> from -o",
+        "makevismap quad.obj -o 'vm_<INSTANCE>.exr'" + small);
+    refused(2, "--write-mesh writes one mesh: not with <INSTANCE>; bake and write each instance with --node NAME",
+            "makevismap village.toml -o 'vm_<INSTANCE>.exr' --write-mesh 'vm_<INSTANCE>.glb'" + small);
     refused(2, "give one of <MATERIAL> and <INSTANCE>", "makevismap village.toml -o 'vm_<INSTANCE>_<MATERIAL>.exr'");
     refused(2, "<INSTANCE> is for the maps, not for the recipe", "makevismap village.toml -o 'vm_<INSTANCE>.vismap'");
     make_sky({ 1, 1, 1 });

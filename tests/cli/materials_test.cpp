@@ -219,7 +219,7 @@ TEST_F(Materials, CutOutsAreReportedOrSwitchedOff)
               + "usemtl Glass\nv -9 -9 1\nv 9 -9 1\nv 9 9 1\nv -9 9 1\nf 5/1/1 6/2/1 7/3/1 8/4/1\n");
     const std::string bake = "makevismap card.obj --material Stone" + small;
     EXPECT_THAT(done(bake + "-o auto.exr"),
-                HasSubstr("cut-outs: 2 triangles, 0 opaque, 0 transparent, 2 in part: 100 % of their cells ask the "
+                HasSubstr("cut-outs: 2 triangles, 0 opaque, 0 transparent, 2 in part: 100 % of their cells need the "
                           "texture"));
     EXPECT_EQ(attribute("auto.exr", "vmlight:cutouts"), "auto");
     const Pixels seen = visibility("auto.exr");

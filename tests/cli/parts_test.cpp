@@ -83,6 +83,15 @@ TEST_F(MapFiles, WhateverIsBaked)
     expect_same("card.obj", size + "--material Stone");
 }
 
+TEST_F(MapFiles, StrandsAreBakedWhole)
+{
+    write("hair.obj", "v 0 0 0\nv 0 1 .5\nv 0 3 0\nl 1 2 3\n");
+    for (const char* flag : { "--part 1/4", "--part 1-4/4", "--resume" })
+        refused(2, "\"hair.obj\" has strands: --part and --resume only work for meshes",
+                std::string("makevismap hair.obj --radius .1 -o a.exr ") + flag);
+    EXPECT_THAT(names("a."), ElementsAre());
+}
+
 TEST_F(MapFiles, HalfIsForTheWhole)
 {
     done(bake + "-o whole.exr --format half");

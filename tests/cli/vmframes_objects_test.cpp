@@ -63,7 +63,7 @@ TEST_F(Vmframes, MeshesMayHaveAFileForEachFrame)
     expect_same_pixels("given.2.exr", "one.exr", 0);
     // A map of the first frame alone is one of another mesh in the second.
     EXPECT_EQ(count(done("vmframes lean.#.obj" + lit + given + " --vismap vm.1.exr --frames 1-2 -o given.#.exr"),
-                    "\"vm.1.exr\": was baked of another mesh than \"lean.2.obj\""),
+                    "\"vm.1.exr\": was baked from another mesh than \"lean.2.obj\""),
               1u);
     refused(1, "\"roof.4.obj\": ", quad + " --object roof.#.obj --frames 4 -o x.#.exr");
     const std::string reason = ": no such file, and no frames: a sequence needs --frames, such as 1-48";

@@ -112,7 +112,7 @@ TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
     done("vmframes " + kSpot + " --texture live.lightmap?cfem_resolution=16 --size 16 --spp 4 -o f.exr");
     expect_same_pixels("c.exr", "f.exr", 1e-3f);
     EXPECT_THAT(done("vmframes quad.obj " + kSky + few + " --vismap kept/spot_vismap.exr -o g.png"),
-                HasSubstr("was baked of another mesh than \"quad.obj\""));
+                HasSubstr("was baked from another mesh than \"quad.obj\""));
     write("bare.obj", kQuadWithoutUv);
     EXPECT_THAT(done("vmframes bare.obj sky.exr --keep made -o d.png" + small), HasSubstr("no UVs; "));
     EXPECT_THAT(names("", "made"), testing::Contains("bare_unwrapped.glb"));

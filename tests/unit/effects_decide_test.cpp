@@ -45,7 +45,7 @@ TEST(EffectsDecide, ReasonsHaveTheNumbers)
               "something rises above 750 of 1000 triangles; the rest, 25 % of the UV area, trace no ray");
     EXPECT_EQ(find(on, "occluders"), "500 triangles, 2 away, may rise above the horizon of a texel");
     EXPECT_EQ(find(on, "cut-outs"),
-              "12 triangles: 0 opaque, 0 transparent, 12 in part, where 10 % of the cells ask the texture");
+              "12 triangles: 0 opaque, 0 transparent, 12 in part, where 10 % of the cells need the texture");
     EXPECT_EQ(find(on, "max-distance"), "rays end after 3, and the scene is 10 across");
     EXPECT_EQ(find(on, "poses"), "24 poses; texels are traced again where V may change by more than 0.01");
     const auto off = decided("vismap", nothing());

@@ -278,6 +278,7 @@ void StageMain::say(const std::string& line) const
 void StageMain::answer(const std::string& line) const
 {
     std::printf("%s\n", line.c_str());
+    std::fflush(stdout); // in a pipe or log, warnings keep their place among these lines
 }
 
 void StageMain::warn(const std::string& line) const

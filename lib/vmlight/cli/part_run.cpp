@@ -63,8 +63,8 @@ PartRun::PartRun(StageMain& stage, const VismapRecipe& recipe, const PoseList& p
     stage.option("resume", "",
                  "Keep finished parts beside -o until the map is whole, and do not bake again those that are there",
                  [&](auto, auto&) { return m_resumes = true; });
-    stage.form("join", "PART.exr", "Join the parts of a map, the same bytes as if it was baked whole",
-               "the parts are baked already: --join takes -o, --format, --threads and --quiet");
+    stage.form("join", "PART.exr", "Join the parts of a map: byte for byte the file of one bake",
+               "the parts are baked already: --join takes -o, --format, --compression, --threads and --quiet");
     stage.check([&] { return fault(); });
 }
 

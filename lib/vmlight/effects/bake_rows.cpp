@@ -116,7 +116,7 @@ void decide_cutouts(std::vector<EffectDecision>& dst, const Effect& effect, cons
                      : cutouts.opaque == cutouts.triangles
                      ? format("{}, opaque wherever a texture covers them",
                               count_text(cutouts.triangles, "triangle", "triangles"))
-                     : format("{}: {} opaque, {} transparent, {} in part, where {} of the cells ask the texture",
+                     : format("{}: {} opaque, {} transparent, {} in part, where {} of the cells need the texture",
                               count_text(cutouts.triangles, "triangle", "triangles"), cutouts.opaque,
                               cutouts.transparent, cutouts.mixed, percent_text(unknown)),
                  cutouts.mixed > 0 ? tracing(facts.bake) * (kAsking + kTexture * unknown) : 0));

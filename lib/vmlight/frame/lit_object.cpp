@@ -89,7 +89,7 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
         // Of a mesh that was changed since, a map may still be meant.
         const std::string hash = images[0].spec().get_string_attribute("vmlight:meshHash");
         if (!hash.empty() && hash != mesh_hash(mesh()))
-            options.report_warning(format("\"{}\": was baked of another mesh than \"{}\", or of another part of it",
+            options.report_warning(format("\"{}\": was baked from another mesh than \"{}\", or of another part of it",
                                           recipe.vismap, mesh().path));
         m_maps[""][udim] = std::move(images[0]);
     }

@@ -154,7 +154,7 @@ std::string cutout_line(const CutoutCounts& counts)
     if (counts.triangles == 0)
         return "";
     const double share = counts.cells ? 100.0 * double(counts.unknown) / double(counts.cells) : 0;
-    return format("cut-outs: {}, {} opaque, {} transparent, {} in part: {:.3g} % of their cells ask the texture; "
+    return format("cut-outs: {}, {} opaque, {} transparent, {} in part: {:.3g} % of their cells need the texture; "
                   "{:.1f} MB",
                   count_text(counts.triangles, "triangle", "triangles"), counts.opaque, counts.transparent,
                   counts.mixed, share, double(counts.bytes) * 1e-6);

@@ -74,8 +74,7 @@ bool mesh_part_names(std::vector<std::string>& dst, std::vector<std::string> (*f
 bool vismap_materials(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
                       std::string& error)
 {
-    return mesh_part_names(dst, baked_materials, "no materials, so that <MATERIAL> in -o stands for nothing", recipe,
-                           options, error);
+    return mesh_part_names(dst, baked_materials, "no materials: remove <MATERIAL> from -o", recipe, options, error);
 }
 
 bool vismap_instances(std::vector<std::string>& dst, const VismapRecipe& recipe, const MakeOptions& options,
@@ -83,8 +82,8 @@ bool vismap_instances(std::vector<std::string>& dst, const VismapRecipe& recipe,
 {
     return mesh_part_names(
         dst, baked_instances,
-        "no instances, which scene lists, glTF and Alembic have, so that <INSTANCE> in -o stands for nothing", recipe,
-        options, error);
+        "no instances, which only scene lists, glTF and Alembic files have: remove <INSTANCE> from -o", recipe, options,
+        error);
 }
 
 } // namespace vmlight

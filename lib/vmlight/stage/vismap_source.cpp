@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/stage/make_stage.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/stage/bake_switches.h>
 #include <vmlight/stage/large_map.h>
 #include <vmlight/stage/normal_map_file.h>
@@ -144,27 +145,36 @@ PixelSourcePointer open_source(const VismapRecipe& given, std::string& error, co
     return source && shared ? keep_source(source) : source;
 }
 
-bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
+namespace {
+
+// Of a recipe with a mesh: nullptr, with the reason in `error`, for strands.
+std::shared_ptr<VismapSource> open_mesh_bake(const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
     const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
     if (source && !vismap)
-        error = "--dry-run: only bakes of meshes are forecast, not of strands";
+        error = format("\"{}\" has strands: parts and forecasts only work for meshes", recipe.mesh);
+    return vismap;
+}
+
+} // namespace
+
+bool forecast_vismap(const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
+{
+    const auto vismap = open_mesh_bake(recipe, options, error);
     return vismap && vismap->bake().report_plan(options, error);
 }
 
 bool make_vismap_parts(const VismapRecipe& recipe, const PartRequest& request, const MakeOptions& options,
                        std::string& error)
 {
-    const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
-    const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
+    const auto vismap = open_mesh_bake(recipe, options, error);
     return vismap && vismap->bake().make_parts(request, options, error);
 }
 
 bool stream_vismap(const MapRows& rows, const VismapRecipe& recipe, const MakeOptions& options, std::string& error)
 {
-    const PixelSourcePointer source = open_source(recipe, error, options.chain, Sharing::none);
-    const auto vismap = std::dynamic_pointer_cast<VismapSource>(source);
+    const auto vismap = open_mesh_bake(recipe, options, error);
     return vismap && vismap->bake().stream(rows, options, error);
 }
 
