@@ -41,6 +41,12 @@ TEST_F(InstanceMaps, EachIsWhatTheNodeAloneIs)
     EXPECT_FALSE(read("mill.exr") == read("hall.exr")) << "the one that stands higher sees more";
 }
 
+TEST_F(InstanceMaps, OneMapOfAllHasTheHint)
+{
+    EXPECT_THAT(done("makevismap village.toml -o all.exr" + small),
+                HasSubstr("instances mill, town hall overlap 0 % each: try <INSTANCE> in -o, for one map an instance"));
+}
+
 TEST_F(InstanceMaps, AreDividedAndJoined)
 {
     done("makevismap village.toml -o 'all_<INSTANCE>.exr'" + small);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kHeavy = 5;
 // Enough to tell heavy overlap from none, in a fraction of a second.
 constexpr int kMostTexels = 1024;
-constexpr size_t kMostMaterials = 64, kMostNamed = 4;
+constexpr size_t kMostParts = 64, kMostNamed = 4;
 
 // Triangles that no map of the tile shows.
 int64_t lost_triangles(const UvReport& uv)
@@ -68,28 +68,38 @@ std::string better_uv_set(const VismapReport& report, const VismapRecipe& recipe
                  recipe.mesh_params.uv_set, percent_text(percent_of(report.overlapping, report.covered)), best);
 }
 
-std::string better_by_material(const Mesh& mesh, const VismapRecipe& recipe)
+// What makes a map for each material or instance.
+struct PartKind
 {
-    const std::vector<std::string> materials = baked_materials(mesh);
-    if (materials.size() < 2 || materials.size() > kMostMaterials)
+    std::vector<std::string> names;
+    std::vector<std::string> MeshSelection::*chosen;
+    const char *noun, *nouns, *pattern;
+};
+
+std::string better_by_part(const PartKind& kind, const Mesh& mesh, const VismapRecipe& recipe)
+{
+    const std::vector<std::string>& names = kind.names;
+    if (names.size() < 2 || names.size() > kMostParts)
         return "";
     double most = 0;
-    for (const std::string& material : materials) {
+    for (const std::string& name : names) {
         std::vector<bool> chosen;
         std::string at, error;
-        if (!choose_triangles(chosen, mesh, { { material }, {} }, at, error))
+        MeshSelection selection;
+        selection.*kind.chosen = { name };
+        if (!choose_triangles(chosen, mesh, selection, at, error))
             return "";
         most = std::max(most,
                         measure_overlap(mesh_part(mesh, chosen), recipe.vismap_params, int64_t(mesh.triangles.size())));
     }
     if (most >= kHeavy)
         return "";
-    const std::vector<std::string> named(materials.begin(),
-                                         materials.begin() + std::ptrdiff_t(std::min(materials.size(), kMostNamed)));
-    const std::string more = materials.size() > kMostNamed ? format(" and {} more", materials.size() - kMostNamed) : "";
-    return format("materials {}{} overlap {}{} each: try <MATERIAL> in -o, for one map a material",
+    const std::vector<std::string> named(names.begin(),
+                                         names.begin() + std::ptrdiff_t(std::min(names.size(), kMostNamed)));
+    const std::string more = names.size() > kMostNamed ? format(" and {} more", names.size() - kMostNamed) : "";
+    return format("{} {}{} overlap {}{} each: try {} in -o, for one map {} {}", kind.nouns,
                   shortened_line(OIIO::Strutil::join(named, ", ")), more, most > 0 ? "at most " : "",
-                  percent_text(most));
+                  percent_text(most), kind.pattern, kind.noun[0] == 'i' ? "an" : "a", kind.noun);
 }
 
 } // namespace
@@ -102,8 +112,15 @@ bool has_heavy_overlap(const VismapReport& report)
 std::string overlap_hint(const VismapReport& report, const Mesh& mesh, const VismapRecipe& recipe)
 {
     const std::string by_set = better_uv_set(report, recipe);
-    const std::string by_material = better_by_material(mesh, recipe);
-    return by_set + (by_set.empty() || by_material.empty() ? "" : "; or ") + by_material;
+    const PartKind materials { baked_materials(mesh), &MeshSelection::material, "material", "materials", "<MATERIAL>" };
+    const PartKind instances { baked_instances(mesh), &MeshSelection::node, "instance", "instances", "<INSTANCE>" };
+    // Materials without names tell nobody anything.
+    const bool has_names = std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                                       [](const Material& material) { return !material.name.empty(); });
+    std::string by_part = better_by_part(has_names ? materials : instances, mesh, recipe);
+    if (by_part.empty())
+        by_part = better_by_part(has_names ? instances : materials, mesh, recipe);
+    return by_set + (by_set.empty() || by_part.empty() ? "" : "; or ") + by_part;
 }
 
 } // namespace vmlight

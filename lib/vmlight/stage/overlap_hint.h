@@ -12,7 +12,7 @@ namespace vmlight {
 bool has_heavy_overlap(const VismapReport& report);
 
 /// What would overlap less than the map of `report`, a whole bake of `mesh`: another UV set, or one map for each
-/// material. Reads the mesh again for its other UV sets. "" if nothing would.
+/// instance or material. Reads the mesh again for its other UV sets. "" if nothing would.
 std::string overlap_hint(const VismapReport& report, const Mesh& mesh, const VismapRecipe& recipe);
 
 } // namespace vmlight
