@@ -9,8 +9,8 @@
 namespace vmlight::embree {
 namespace {
 
-// Of a triangle that is built on its own, at most.
-constexpr double kBytesOfCopy = 150;
+// Of a triangle that is built on its own, at most; and of one that may be cut out.
+constexpr double kBytesOfCopy = 150, kBytesOfCutout = 365;
 
 // Of a distinct mesh, or nullptr.
 const Cutouts* cutouts_of(const PlacedMeshes& placed, size_t mesh)
@@ -57,7 +57,7 @@ bool Scene::attach_placed(const std::vector<PlacedMeshes>& placed, unsigned next
                 m_counts.triangles += int64_t(mesh.triangles.size());
                 continue;
             }
-            copied += kBytesOfCopy * double(mesh.triangles.size());
+            copied += (cutouts_of(group, place.mesh) ? kBytesOfCutout : kBytesOfCopy) * double(mesh.triangles.size());
             if (copied > 1e9 && copied > double(available_memory())) {
                 error = format("out of memory: instances that must be triangles of their own, since they are larger "
                                "than what is baked or scaled unevenly, need more than {:.3g} GB",

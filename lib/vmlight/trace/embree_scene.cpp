@@ -82,6 +82,16 @@ CellState known_at_hit(const Buffers& buffers, const RTCFilterFunctionNArguments
     return lies_around(beside) ? buffers.cutouts->known(piece.partner, beside.x, beside.y, error) : CellState::unknown;
 }
 
+// How many triangles use each vertex; 3 if more do.
+std::vector<uint8_t> vertex_uses(const Mesh& mesh)
+{
+    std::vector<uint8_t> uses(mesh.positions.size(), 0);
+    for (const auto& triangle : mesh.triangles)
+        for (const uint32_t vertex : triangle)
+            uses[vertex] = uint8_t(std::min(uses[vertex] + 1, 3));
+    return uses;
+}
+
 } // namespace
 
 void reject_open_hits(const RTCFilterFunctionNArguments* arguments)
@@ -237,8 +247,12 @@ bool Scene::attach_mixed(Part& part, const V3f* vertices, const Mesh& mesh, cons
                 indices[i][k] = uint32_t(3 * i + k);
             }
         }
-        buffers.pieces
-            = trim_triangles(corners, buffers.whole_triangles, [&](size_t i) { return cutouts.stopping(uint32_t(i)); });
+        // Within an instance Embree's own hits are off by more than edges move outwards.
+        if (&part == &m_whole)
+            buffers.pieces = trim_triangles(corners, buffers.whole_triangles, vertex_uses(mesh),
+                                            [&](size_t i) { return cutouts.stopping(uint32_t(i)); });
+        else
+            buffers.pieces = whole_pieces(corners, triangles.size());
         buffers.triangles = buffers.whole_triangles.data();
         rtcSetGeometryUserData(geometry, &buffers);
         rtcSetGeometryOccludedFilterFunction(geometry, reject_open_hits);

@@ -47,8 +47,7 @@ ExactHit::ExactHit(const Buffers& buffers, const RTCFilterFunctionNArguments& ar
         else
             find_triangle(buffers, placement, number);
     }
-    // Within an instance Embree's own hits are off by more: there a piece counts as far as it goes.
-    is_beyond = !placement && deepest < -piece.tolerance;
+    is_beyond = deepest < -piece.tolerance;
 }
 
 void ExactHit::find_triangle(const Buffers& buffers, const Placements::Placement* placement, unsigned number)

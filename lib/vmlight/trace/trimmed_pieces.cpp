@@ -207,6 +207,14 @@ float depth_inside(const V2f& weights)
     return std::min({ weights.x, weights.y, 1 - weights.x - weights.y });
 }
 
+void set_longest_edges(std::vector<TrimmedPiece>& pieces, const std::array<V3f, 3>* corners)
+{
+    for (size_t i = 0; i < pieces.size(); ++i)
+        for (size_t k = 0; k < 3; ++k)
+            pieces[i].longest_edge
+                = std::max(pieces[i].longest_edge, (corners[i][k] - corners[i][(k + 1) % 3]).length());
+}
+
 } // namespace
 
 std::pair<uint32_t, V2f> TrimmedPiece::whole(uint32_t triangle, float piece_u, float piece_v) const
@@ -226,8 +234,16 @@ std::pair<uint32_t, V2f> TrimmedPiece::whole(uint32_t triangle, float piece_u, f
     return { triangle, at };
 }
 
+std::vector<TrimmedPiece> whole_pieces(const std::array<V3f, 3>* corners, size_t count)
+{
+    std::vector<TrimmedPiece> pieces(count);
+    set_longest_edges(pieces, corners);
+    return pieces;
+}
+
 std::vector<TrimmedPiece> trim_triangles(std::array<V3f, 3>* corners,
                                          const std::vector<std::array<uint32_t, 3>>& triangles,
+                                         const std::vector<uint8_t>& uses,
                                          const std::function<WeightRange(size_t triangle)>& stopping)
 {
     std::vector<TrimmedPiece> pieces(triangles.size());
@@ -241,6 +257,11 @@ std::vector<TrimmedPiece> trim_triangles(std::array<V3f, 3>* corners,
         if (!is_parallelogram(card, reach))
             return false;
         const auto [x, y] = spans_of(card, stopping(i), stopping(i + 1));
+        const bool is_apart = uses[triangles[i][card.apex]] == 1 && uses[triangles[i + 1][card.other_apex]] == 1
+            && uses[triangles[i][card.x]] == 2 && uses[triangles[i][card.y]] == 2;
+        if (std::min(x.low, y.low) <= 0 || std::max(x.high, y.high) >= 1)
+            if (!is_apart)
+                return false;
         // Not a number: it has no area. Boxes around a parallelogram are smaller than around two triangles.
         constexpr double kAsGood = 1.05;
         if (!(x.size() * y.size() <= std::min(kLargest, kAsGood * area_alone)))
@@ -250,11 +271,19 @@ std::vector<TrimmedPiece> trim_triangles(std::array<V3f, 3>* corners,
         set_piece(pieces[i + 1], corners[i + 1], half_of(card, high, low, true), reach, uint32_t(i));
         return true;
     };
+    const auto shrunk_alone = [&](size_t i) {
+        const WeightRange range = stopping(i);
+        const bool touches
+            = std::any_of(range.least.begin(), range.least.end(), [](float least) { return least <= 0; });
+        const bool is_apart
+            = std::all_of(triangles[i].begin(), triangles[i].end(), [&](uint32_t vertex) { return uses[vertex] == 1; });
+        return touches && !is_apart ? Shrunk() : shrunk(in_double(corners[i]), range);
+    };
     for (size_t i = 0; i < triangles.size(); ++i) {
         const Corners whole = in_double(corners[i]);
-        const Shrunk alone = shrunk(whole, stopping(i));
+        const Shrunk alone = shrunk_alone(i);
         if (i + 1 < triangles.size()) {
-            const Shrunk next = shrunk(in_double(corners[i + 1]), stopping(i + 1));
+            const Shrunk next = shrunk_alone(i + 1);
             if (trim_pair(i, (alone.area() + next.area()) / 2)) {
                 ++i;
                 continue;
@@ -263,10 +292,7 @@ std::vector<TrimmedPiece> trim_triangles(std::array<V3f, 3>* corners,
         if (alone.size < 1)
             set_piece(pieces[i], corners[i], piece_of(whole, alone), reach_of(whole), TrimmedPiece::kAlone);
     }
-    for (size_t i = 0; i < pieces.size(); ++i)
-        for (size_t k = 0; k < 3; ++k)
-            pieces[i].longest_edge
-                = std::max(pieces[i].longest_edge, (corners[i][k] - corners[i][(k + 1) % 3]).length());
+    set_longest_edges(pieces, corners);
     return pieces;
 }
 

@@ -50,13 +50,19 @@ struct TrimmedPiece
 };
 
 /// Trim triangles where that pays. Edges with nothing to trim move outwards a little, so that no ray slips through
-/// between the pieces of a card; a hit counts where it is in a triangle.
+/// between the pieces of a card; a hit counts where it is in a triangle. Triangles that stop light up to an edge stay
+/// whole if others have their vertices: Embree lets no ray through between edges of equal floats alone.
 ///
 /// @param corners      of each triangle; set to those of its piece
 /// @param triangles    their vertices. Two that follow each other and share an edge can be partners
-/// @param stopping     of each: the weights of the points that stop light
+/// @param uses         by how many triangles each vertex is used
+/// @param stopping     of each triangle: the weights of the points that stop light
 std::vector<TrimmedPiece> trim_triangles(std::array<Imath::V3f, 3>* corners,
                                          const std::vector<std::array<uint32_t, 3>>& triangles,
+                                         const std::vector<uint8_t>& uses,
                                          const std::function<WeightRange(size_t triangle)>& stopping);
+
+/// Of triangles that are traced as they are.
+std::vector<TrimmedPiece> whole_pieces(const std::array<Imath::V3f, 3>* corners, size_t count);
 
 } // namespace vmlight

@@ -39,7 +39,7 @@ struct CutoutParams
     {
         field("cutouts", cutouts,
               Choices { { { "auto", "as transparent as the materials of the files say" },
-                          { "off", "all surfaces are opaque" } } },
+                          { "off", "surfaces block light as if they were opaque" } } },
               "Whether light passes where materials have an opacity below 1");
     }
 };

@@ -81,7 +81,8 @@ private:
     void append_mesh(const Object& object, const std::string& name, const Place& place)
     {
         if (const auto shown = m_shown.find(object.group); shown != m_shown.end() && shown->second > 1) {
-            m_dst.add_place(distinct_mesh(object), place.to_object);
+            if (const uint32_t distinct = distinct_mesh(object); distinct != kEmpty)
+                m_dst.add_place(distinct, place.to_object);
             return;
         }
         if (m_last_group != object.group) { // instances mostly follow each other
@@ -104,19 +105,21 @@ private:
                           });
     }
 
-    // The number of a mesh that is shown in several places, to be held once.
+    // The number of a mesh that is shown in several places, to be held once; kEmpty if it has no triangles.
     uint32_t distinct_mesh(const Object& object)
     {
-        const auto [known, is_new] = m_distinct.emplace(object.group, 0);
+        const auto [known, is_new] = m_distinct.emplace(object.group, kEmpty);
         if (is_new) {
             const TriangulatedMesh mesh = read_mesh(object);
             check_memory(object, mesh.polygons);
+            if (mesh.triangles.empty())
+                return kEmpty;
             Mesh distinct;
             distinct.name = object.reader->getName();
             MeshBuilder own(distinct, m_dst.params());
             MeshParts(own).append(mesh, distinct.name, Imath::M44d(), own.add_node(distinct.name, -1));
             std::string error;
-            if (!mesh.triangles.empty() && !own.finish(error))
+            if (!own.finish(error))
                 throw Error(error);
             for (const std::string& warning : distinct.warnings)
                 m_dst.warn(warning);
@@ -163,6 +166,8 @@ private:
                               "second: its {} stands still",
                               params.frame, first, last, params.fps, params.frame < first ? "start" : "end"));
     }
+
+    static constexpr uint32_t kEmpty = ~0u;
 
     MeshBuilder& m_dst;
     MeshParts m_parts;
