@@ -3,6 +3,8 @@
 #include "command_test.h"
 #include "quad_files.h"
 
+#include <vmlight/base/format.h>
+
 #include <gmock/gmock.h>
 
 using namespace vmlight;
