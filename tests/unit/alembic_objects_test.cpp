@@ -141,6 +141,28 @@ TEST_F(MeshFiles, AlembicInstancesOfAnOccluderAreHeldOnce)
     EXPECT_EQ(read_caster(path, later).instances->places[2].to_object[3][0], 9) << "at its moment";
 }
 
+TEST_F(MeshFiles, AlembicInstancesOfAMeshWithoutTrianglesAreNone)
+{
+    const std::string path = folder / "empty.abc";
+    const auto write_file = [&](bool has_quad) {
+        Archive archive(path);
+        Abc::OXform source = Archive::add_xform(archive.top(), "source", { {} });
+        Archive::add_mesh(source, "nothing", { Polygons { { V3f(0) }, {}, {}, {}, {} } });
+        Archive::add_xform(archive.top(), "other", { {} }).addChildInstance(source, "copy");
+        if (has_quad)
+            Archive::add_mesh(archive.top(), "quad", { quad() });
+    };
+    write_file(true);
+    const Mesh caster = read_caster(path);
+    EXPECT_EQ(caster.triangles.size(), 2u);
+    EXPECT_FALSE(caster.instances);
+    write_file(false);
+    Mesh mesh;
+    std::string error;
+    EXPECT_FALSE(read_instanced_mesh(mesh, path, {}, error));
+    EXPECT_THAT(error, testing::EndsWith("no triangles"));
+}
+
 TEST_F(MeshFiles, AnAlembicMeshAloneBelowItsTransformIsAnInstanceByThatName)
 {
     const std::string path = folder / "a.abc";
