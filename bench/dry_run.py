@@ -17,6 +17,7 @@ import tempfile
 import time
 
 import effects_pictures
+from help_flag import answer_help
 import leaf_cards
 import scenes
 
@@ -64,6 +65,7 @@ def run(binaries, words):
 
 
 def main():
+    answer_help(__doc__)
     if not 2 <= len(sys.argv) <= 3:
         sys.exit("usage: bench/dry_run.py BIN_FOLDER [rounds]")
     binaries = os.path.abspath(sys.argv[1])

@@ -19,6 +19,7 @@ import sys
 import tempfile
 
 import effects_pictures
+from help_flag import answer_help
 import leaf_cards
 
 FRAMES = 4
@@ -100,6 +101,7 @@ def seconds(binaries, words):
 
 
 def main():
+    answer_help(__doc__)
     if not 4 <= len(sys.argv) <= 5:
         sys.exit("usage: bench/effects.py BIN_FOLDER MESH ENVIRONMENT [rounds]")
     binaries, mesh, environment = (os.path.abspath(word) for word in sys.argv[1:4])

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 
+from help_flag import answer_help
 import leaf_cards
 import png
 import scenes
@@ -109,6 +110,7 @@ def picture(binaries, folder, words, name):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) != 3:
         sys.exit("usage: bench/effects_pictures.py BIN_FOLDER OUT.png")
     with tempfile.TemporaryDirectory() as folder:

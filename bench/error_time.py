@@ -13,6 +13,7 @@ import os
 import subprocess
 import sys
 
+from help_flag import answer_help
 import reconstruct
 from time_to_error import processor_seconds
 
@@ -57,6 +58,7 @@ plot $off using 1:2 with linespoints lw 2 pt 7 ps .6 lc rgb '#888888' title 'ray
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) != 3:
         sys.exit("usage: bench/error_time.py OUT_FOLDER FIGURE.svg")
     folder, figure = sys.argv[1:]

@@ -20,6 +20,8 @@ import tempfile
 import time
 import zlib
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 SIDE, SPACING, HIGHEST = 1025, 4.0, 400.0
@@ -103,6 +105,7 @@ def run(*arguments):
 
 
 def main():
+    answer_help(__doc__)
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000000
     triangles = int(sys.argv[2]) if len(sys.argv) > 2 else 10000
     resolution = sys.argv[3] if len(sys.argv) > 3 else "256"

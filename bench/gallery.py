@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 CONFIG = os.path.join(HERE, "../configs/ocio/config.ocio")
@@ -48,6 +50,7 @@ def render(words, part, picture):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) != 3:
         sys.exit("usage: bench/gallery.py ASSETS OUT.png")
     with tempfile.TemporaryDirectory() as folder:

@@ -19,6 +19,8 @@ import sys
 import tempfile
 import time
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 HEAD = 0.1  # metres
@@ -92,9 +94,11 @@ def write_ball(path, rows=48):
 
 
 def main():
+    answer_help(__doc__)
     strands, points, rays = (int(text) for text in (sys.argv[1:4] + ["50000", "28", "64"][len(sys.argv[1:4]):]))
     with tempfile.TemporaryDirectory() as temporary:
         folder = sys.argv[4] if len(sys.argv) > 4 else temporary
+        os.makedirs(folder, exist_ok=True)
         hair, head = os.path.join(folder, "groom.tfx"), os.path.join(folder, "head.obj")
         write_tfx(hair, strands, points)
         write_ball(head)

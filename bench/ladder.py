@@ -15,6 +15,8 @@ import shutil
 import subprocess
 import sys
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, "../tests/data")
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
@@ -54,6 +56,7 @@ def knee(line):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) < 2:
         sys.exit("usage: bench/ladder.py OUT_FOLDER [FLAG_OF_VMCOST ...]")
     folder, flags = sys.argv[1], sys.argv[2:]

@@ -18,6 +18,8 @@ import tempfile
 import time
 import zlib
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 
@@ -66,6 +68,7 @@ def run(folder, arguments, executables):
 
 
 def main():
+    answer_help(__doc__)
     millions = float(sys.argv[1]) if len(sys.argv) > 1 else 5
     side = round(math.sqrt(millions * 5e5)) + 1
     triangles = 2 * (side - 1) ** 2

@@ -13,6 +13,7 @@ import os
 import struct
 import sys
 
+from help_flag import answer_help
 import png
 import scenes
 
@@ -69,6 +70,7 @@ def primitive(buffer, faces, material):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) != 2:
         sys.exit("usage: bench/leaf_cards.py OUT_FOLDER")
     os.makedirs(sys.argv[1], exist_ok=True)

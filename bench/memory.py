@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 
@@ -31,11 +33,17 @@ def peak_mib(mesh, resolution):
     return int(os.read(reader, 100) or 0) / 1024
 
 
-if len(sys.argv) < 2:
-    sys.exit("usage: bench/memory.py MESH [RESOLUTION]")
-resolution = int(sys.argv[2]) if len(sys.argv) > 2 else 8192
-output = resolution * resolution * 16 / 2**20
-fixed, peak = peak_mib(sys.argv[1], 64), peak_mib(sys.argv[1], resolution)
-print(f"output {output:.0f} MiB, peak {peak:.0f} MiB; of it {fixed:.0f} MiB at 64x64 already (libraries, mesh, BVH)")
-print(f"beyond the output: {100 * (peak / output - 1):.1f} %; beyond output and what 64x64 takes: "
-      f"{100 * ((peak - fixed) / output - 1):.1f} %")
+def main():
+    answer_help(__doc__)
+    if len(sys.argv) < 2:
+        sys.exit("usage: bench/memory.py MESH [RESOLUTION]")
+    resolution = int(sys.argv[2]) if len(sys.argv) > 2 else 8192
+    output = resolution * resolution * 16 / 2**20
+    fixed, peak = peak_mib(sys.argv[1], 64), peak_mib(sys.argv[1], resolution)
+    print(f"output {output:.0f} MiB, peak {peak:.0f} MiB; of it {fixed:.0f} MiB at 64x64 already (libraries, mesh, BVH)")
+    print(f"beyond the output: {100 * (peak / output - 1):.1f} %; beyond output and what 64x64 takes: "
+          f"{100 * ((peak - fixed) / output - 1):.1f} %")
+
+
+if __name__ == "__main__":
+    main()

@@ -19,6 +19,7 @@ import resource
 import subprocess
 import sys
 
+from help_flag import answer_help
 import large_mesh
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -52,6 +53,7 @@ def mesh_file(word, folder):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     folder = sys.argv[1]

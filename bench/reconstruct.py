@@ -19,6 +19,8 @@ import sys
 
 import ladder
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 SCENES = ladder.SCENES
@@ -63,6 +65,7 @@ def print_light(folder):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) == 3 and sys.argv[1] == "--light":
         return print_light(sys.argv[2])
     if len(sys.argv) < 2 or sys.argv[1].startswith("-"):

@@ -13,6 +13,8 @@ import subprocess
 import sys
 import tempfile
 
+from help_flag import answer_help
+
 SIDE = 192
 # name, flags
 BAKES = (("plain", ["--samples", "16", "--reconstruct", "off"]), ("reconstructed", ["--samples", "16", "--reconstruct", "auto"]),
@@ -45,6 +47,7 @@ def leaf(height, steps=24):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) != 3:
         sys.exit("usage: bench/reconstruct_pictures.py BIN_FOLDER OUT.png")
     with tempfile.TemporaryDirectory() as folder:

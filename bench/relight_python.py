@@ -9,7 +9,7 @@ import sys
 import tempfile
 import time
 
-import vmlight
+from help_flag import answer_help
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../tests/data")
 SIDE = 1024
@@ -26,6 +26,9 @@ def relight_in_python(relighter, count, threads):
 
 
 def main():
+    answer_help(__doc__)
+    import vmlight  # --help needs no PYTHONPATH
+
     build = sys.argv[1]
     rounds, count = [int(number) for number in sys.argv[2:4] + ["5", "200"][len(sys.argv[2:4]):]]
     environment = os.path.join(DATA, "studio_small_03.hdr")

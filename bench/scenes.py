@@ -13,6 +13,8 @@ import random
 import shutil
 import sys
 
+from help_flag import answer_help
+
 SPOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../tests/data/spot.obj")
 GAP = 2 / 256  # between charts, in the atlas
 
@@ -238,6 +240,7 @@ def leaves():
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         sys.exit("usage: bench/scenes.py OUT_FOLDER")
     os.makedirs(sys.argv[1], exist_ok=True)

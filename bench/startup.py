@@ -17,6 +17,8 @@ import sys
 import tempfile
 import time
 
+from help_flag import answer_help
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.path.abspath(os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin")))
 WORK = os.path.join(BIN, "../libexec/vmlight")
@@ -53,6 +55,7 @@ def instructions(words):
 
 
 def main():
+    answer_help(__doc__)
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
     tools = [tool for tool in TOOLS if os.path.exists(os.path.join(BIN, tool))]
     commands = {"true": ["/bin/true"], "vmlight --help": [os.path.join(BIN, "vmlight"), "--help"]}

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import time
 
+from help_flag import answer_help
 import reconstruct
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -127,6 +128,7 @@ def print_means(title, rows):
 
 
 def main():
+    answer_help(__doc__)
     if len(sys.argv) < 2:
         sys.exit("usage: bench/time_to_error.py OUT_FOLDER [MESH ...]")
     folder, more = sys.argv[1], sys.argv[2:]
