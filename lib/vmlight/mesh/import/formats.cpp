@@ -36,7 +36,7 @@ const std::vector<MeshFormat>& mesh_formats()
         { "FBX", "fbx", is_fbx, inspect_fbx, read_with_assimp },
         { "Alembic", "abc", is_alembic, nullptr, read_alembic, true },
         { "height image", "", is_height_field, nullptr, read_height_field, false, true },
-        { "scene list", "", is_scene_list, nullptr, read_scene_list, true, true }, // whose meshes may be
+        { "scene list", "toml", is_scene_list, nullptr, read_scene_list, true, true }, // whose meshes may be
     };
     return formats;
 }

@@ -38,15 +38,21 @@ bool read_numbers(std::vector<double>& dst, const toml::node& node)
     return !dst.empty();
 }
 
-// `error` is the reason, if false.
-bool read_vector(V3d& dst, const toml::table& table, const char* key, bool takes_one, std::string& error)
+// Why an entry cannot be read.
+struct EntryFault
+{
+    std::string key, reason; // whose line is named; of one that the entry lacks, the entry's
+};
+
+// `fault` is the reason, if false.
+bool read_vector(V3d& dst, const toml::table& table, const char* key, bool takes_one, EntryFault& fault)
 {
     const toml::node* node = table.get(key);
     std::vector<double> numbers;
     if (!node)
         return true;
     if (!read_numbers(numbers, *node) || !(numbers.size() == 3 || (takes_one && numbers.size() == 1))) {
-        error = format("{} is not {}three numbers in brackets", key, takes_one ? "one number, or " : "");
+        fault = { key, format("{} is not {}three numbers in brackets", key, takes_one ? "one number, or " : "") };
         return false;
     }
     dst = numbers.size() == 1 ? V3d(numbers[0]) : V3d(numbers[0], numbers[1], numbers[2]);
@@ -54,11 +60,11 @@ bool read_vector(V3d& dst, const toml::table& table, const char* key, bool takes
 }
 
 // As written, for column vectors; Imath's are for rows.
-bool read_matrix(M44d& dst, const toml::node& node, std::string& error)
+bool read_matrix(M44d& dst, const toml::node& node, EntryFault& fault)
 {
     std::vector<double> numbers;
     if (!read_numbers(numbers, node) || (numbers.size() != 12 && numbers.size() != 16)) {
-        error = "matrix is not 12 or 16 numbers in brackets, row by row";
+        fault = { "matrix", "matrix is not 12 or 16 numbers in brackets, row by row" };
         return false;
     }
     for (size_t i = 0; i < 12; ++i)
@@ -66,23 +72,23 @@ bool read_matrix(M44d& dst, const toml::node& node, std::string& error)
     const double last[] = { 0, 0, 0, 1 };
     if (numbers.size() == 12 || std::equal(last, last + 4, numbers.begin() + 12))
         return true;
-    error = "the last row of matrix is not 0, 0, 0, 1";
+    fault = { "matrix", "the last row of matrix is not 0, 0, 0, 1" };
     return false;
 }
 
-bool read_transform(M44d& dst, const toml::table& table, std::string& error)
+bool read_transform(M44d& dst, const toml::table& table, EntryFault& fault)
 {
     V3d translate(0), rotate(0), scale(1);
-    if (!read_vector(translate, table, "translate", false, error) || !read_vector(rotate, table, "rotate", false, error)
-        || !read_vector(scale, table, "scale", true, error))
+    if (!read_vector(translate, table, "translate", false, fault) || !read_vector(rotate, table, "rotate", false, fault)
+        || !read_vector(scale, table, "scale", true, fault))
         return false;
     const toml::node* const matrix = table.get("matrix");
     if (matrix && (table.contains("translate") || table.contains("rotate") || table.contains("scale"))) {
-        error = "matrix stands for translate, rotate and scale: give one or the others";
+        fault = { "matrix", "matrix stands for translate, rotate and scale: give one or the others" };
         return false;
     }
     if (matrix) {
-        if (!read_matrix(dst, *matrix, error))
+        if (!read_matrix(dst, *matrix, fault))
             return false;
     } else {
         dst.setScale(scale);
@@ -94,7 +100,7 @@ bool read_transform(M44d& dst, const toml::table& table, std::string& error)
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column) {
             if (!std::isfinite(dst[row][column])) {
-                error = "the transform is not finite";
+                fault = { matrix ? "matrix" : "", "the transform is not finite" };
                 return false;
             }
             if (row < 3)
@@ -104,7 +110,8 @@ bool read_transform(M44d& dst, const toml::table& table, std::string& error)
     const double volume = largest > 0 ? (dst * M44d().scale(V3d(1 / largest))).determinant() : 0;
     if (std::abs(volume) > 1e-12)
         return true;
-    error = "the transform is singular: it leaves the mesh without a volume; instances must not be scaled to 0";
+    fault = { matrix ? "matrix" : "scale",
+              "the transform is singular: it leaves the mesh without a volume; instances must not be scaled to 0" };
     return false;
 }
 
@@ -121,31 +128,33 @@ bool read_names(std::vector<std::string>& dst, const toml::node& node)
     return !dst.empty();
 }
 
-bool read_entry(SceneListEntry& dst, const toml::table& table, const std::string& folder, std::string& error)
+bool read_entry(SceneListEntry& dst, const toml::table& table, const std::string& folder, EntryFault& fault)
 {
     for (const auto& [key, value] : table)
         if (std::find(std::begin(kKeys), std::end(kKeys), std::string_view(key)) == std::end(kKeys)) {
-            error = format("unknown key \"{}\" of an instance", shortened_line(std::string(std::string_view(key))));
+            const std::string text(std::string_view { key });
+            fault = { text, format("unknown key \"{}\" of an instance", shortened_line(text)) };
             return false;
         }
     const toml::node *mesh = table.get("mesh"), *name = table.get("name"), *bake = table.get("bake"),
                      *material = table.get("material");
     if (!mesh || !mesh->is_string() || mesh->value<std::string>()->empty()) {
-        error = "an instance without mesh, the path of a file in quotes";
+        fault = { "mesh", "an instance without mesh, the path of a file in quotes" };
         return false;
     }
     if ((name && !name->is_string()) || (bake && !bake->is_boolean())
         || (material && !read_names(dst.material, *material))) {
-        error = name && !name->is_string() ? "name is not a string"
-            : bake && !bake->is_boolean()  ? "bake is neither true nor false"
-                                           : "material is neither a name in quotes nor an array of them";
+        fault = name && !name->is_string() ? EntryFault { "name", "name is not a string" }
+            : bake && !bake->is_boolean()
+            ? EntryFault { "bake", "bake is neither true nor false" }
+            : EntryFault { "material", "material is neither a name in quotes nor an array of them" };
         return false;
     }
     const std::string path = *mesh->value<std::string>();
     dst.mesh = OIIO::Filesystem::path_is_absolute(path) || folder.empty() ? path : folder + "/" + path;
     dst.name = name ? *name->value<std::string>() : "";
     dst.bake = bake && *bake->value<bool>();
-    return read_transform(dst.to_object, table, error);
+    return read_transform(dst.to_object, table, fault);
 }
 
 bool read_entries(std::vector<SceneListEntry>& dst, const toml::table& file, const std::string& folder,
@@ -169,8 +178,10 @@ bool read_entries(std::vector<SceneListEntry>& dst, const toml::table& file, con
             error = format("line {}: instance is not a table", entry.line);
             return false;
         }
-        if (!read_entry(entry, *node.as_table(), folder, error)) {
-            error = format("line {}: {}", entry.line, error);
+        const toml::table& table = *node.as_table();
+        if (EntryFault fault; !read_entry(entry, table, folder, fault)) {
+            const toml::node* const value = table.get(fault.key);
+            error = format("line {}: {}", value ? int(value->source().begin.line) : entry.line, fault.reason);
             return false;
         }
     }
