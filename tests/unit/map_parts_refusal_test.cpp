@@ -41,21 +41,21 @@ TEST(MapParts, WhatDoesNotFitIsRefused)
     };
     VismapParams changed = params;
     changed.seed = 1;
-    EXPECT_EQ(with_second(mesh, changed), "its seed is 1, not 0");
+    EXPECT_EQ(with_second(mesh, changed), "seed is 1, not 0");
     changed = params;
     changed.max_distance = 2;
-    EXPECT_EQ(with_second(mesh, changed), "its max_distance is 2, not infinite");
+    EXPECT_EQ(with_second(mesh, changed), "max_distance is 2, not infinite");
     changed = params;
     changed.channels = { "normal" };
-    EXPECT_THAT(with_second(mesh, changed), HasSubstr("its channels is normal, not none"));
+    EXPECT_THAT(with_second(mesh, changed), HasSubstr("channels is normal, not none"));
     Mesh moved = mesh;
     moved.positions[0].x -= 1e-6;
-    EXPECT_THAT(with_second(moved, params), HasSubstr("its meshHash is "));
+    EXPECT_THAT(with_second(moved, params), HasSubstr("meshHash is "));
     Mesh leafy = mesh;
     auto opacity = std::make_shared<MeshOpacity>();
     opacity->materials = { cutout_scene::material(AlphaMode::mask, cutout_scene::checker(4)) };
     leafy.opacity = opacity;
-    EXPECT_THAT(with_second(leafy, params), HasSubstr("its hash of the textures is "));
+    EXPECT_THAT(with_second(leafy, params), HasSubstr("hash of the textures is "));
 
     Parts swapped = good;
     swapped.at(1).swap(swapped.at(2));

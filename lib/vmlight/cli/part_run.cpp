@@ -114,8 +114,11 @@ bool PartRun::make(const VismapRecipe& recipe, const std::string& output, const 
             return is_whole;
         };
     request.write = [&](int part, const OIIO::ImageBuf& image, std::string& reason) {
-        return write_image(
+        const bool is_written = write_image(
             image, path_of(part), {}, [](double) { return !interrupted(); }, reason);
+        if (is_written && m_count > 0) // the name is not that of -o
+            options.report(format("part: {} in \"{}\"", part_text({ part, m_count }), path_of(part)));
+        return is_written;
     };
     if (!make_vismap_parts(recipe, request, options, error))
         return false;

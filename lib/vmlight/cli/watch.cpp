@@ -50,8 +50,8 @@ void Watch::add_flag(StageMain& stage)
 {
     m_name = stage.name();
     stage.option("watch", "",
-                 "Stay up, and make the image again whenever a file that it is made of changes: a recipe, the map, the "
-                 "light. Uncompressed, unless --compression zip is given. Ctrl-C ends",
+                 "Keep running, and remake the image whenever one of its input files changes: a recipe, the map, the "
+                 "light. Uncompressed unless --compression zip is given. Ctrl-C stops it",
                  [this, &stage](auto, auto&) {
                      stage.stay_up(m_warned);
                      return m_is_given = true;

@@ -109,9 +109,12 @@ bool build_whole(BakeScenePointer& dst, const VismapRecipe& recipe, const SceneS
     seconds = timer();
     if (const InstanceCounts& counts = scene->occluder().instances(); scene->occluder().has_instances())
         scene->remarks.push_back(
-            format("instances: {} of {}, {:.4g} triangles; {}", counts.instances,
-                   count_text(counts.distinct, "mesh", "meshes"), double(counts.triangles),
-                   count_text(counts.copies, "further copy is triangles", "further copies are triangles")));
+            counts.instances == 0
+                ? format("instances: none kept; {}",
+                         count_text(counts.copies, "copy is triangles", "copies are triangles"))
+                : format("instances: {} of {}, {:.4g} triangles; {}", counts.instances,
+                         count_text(counts.distinct, "mesh", "meshes"), double(counts.triangles),
+                         count_text(counts.copies, "further copy is triangles", "further copies are triangles")));
     dst = std::move(scene);
     return true;
 }

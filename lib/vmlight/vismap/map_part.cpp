@@ -166,7 +166,7 @@ std::string part_fault(const OIIO::ImageSpec& spec, const OIIO::ImageSpec& expec
     names.insert(theirs.begin(), theirs.end());
     for (const auto& [name, ignored] : names)
         if (value(ours, name) != value(theirs, name))
-            return format("its {} is {}, not {}", title_of(name), value(ours, name), value(theirs, name));
+            return format("{} is {}, not {}", title_of(name), value(ours, name), value(theirs, name));
     if (spec.full_width != expected.full_width || spec.full_height != expected.full_height)
         return format("it is of {}x{} texels, not {}x{}", spec.full_width, spec.full_height, expected.full_width,
                       expected.full_height);
