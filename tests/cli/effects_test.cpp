@@ -72,7 +72,7 @@ TEST_F(Effects, WhatIsSwitchedOffIsGoneAndSaidToBe)
     const std::string said = bake("off.exr", "--occluder over.obj --ground 0 --effects -ground,-occluders");
     EXPECT_THAT(
         said,
-        HasSubstr("makevismap WARNING: effects: the scene calls for occluders \"over.obj\", ground, left out: V "
+        HasSubstr("makevismap WARNING: --effects: the scene calls for occluders \"over.obj\", ground, left out: V "
                   "is off by about 0."));
     expect_same_pixels("off.exr", "bare.exr", 0);
     EXPECT_EQ(attribute("off.exr", "vmlight:effects"), "-occluders,-ground");
@@ -148,7 +148,7 @@ TEST_F(Effects, TheGroundIsAtAHeightOrAtTheLowestPoint)
     EXPECT_THAT(read("x.vismap"), testing::AllOf(HasSubstr("ground = true"), HasSubstr("ground_height = -1")));
     done("makevismap x.vismap -o recipe.exr");
     expect_same_pixels("recipe.exr", "given.exr", 0);
-    refused(2, "ground_height: \"up\" is not a number", std::string(kBake) + "x.exr --ground=up");
+    refused(2, "--ground-height: \"up\" is not a number", std::string(kBake) + "x.exr --ground=up");
 }
 
 // Of a mesh that occludes itself: a floor, and a wall on it.
@@ -165,7 +165,7 @@ TEST_F(Effects, SelfOcclusionThatIsLeftOutIsMissed)
                 testing::ContainsRegex("self-occlusion +switched off +- +4 triangles, blocked|"
                                        "self-occlusion +switched off +- +something rises above"));
     EXPECT_THAT(said,
-                testing::ContainsRegex("WARNING: effects: the scene calls for self-occlusion, left out: V is off by "
+                testing::ContainsRegex("WARNING: --effects: the scene calls for self-occlusion, left out: V is off by "
                                        "about 0\\.[0-9]*[1-9]"));
     EXPECT_EQ(work_counts().scenes_built - built, 2) << "the facts and the comparison share a scene";
     EXPECT_EQ(visibility("a.exr").least(), 1);

@@ -94,7 +94,7 @@ TEST_F(Errors, OneTexelThatAgreesWithItselfTakes64Rays)
 
 TEST_F(Errors, AnErrorOutOfReachIsRefused)
 {
-    refused(1, "target_error: 1e-09 is out of reach: 1048576 rays per texel give ",
+    refused(1, "--target-error: 1e-09 is out of reach: 1048576 rays per texel give ",
             "makevismap {spot} --resolution 16 -o x.exr --target-error 1e-9");
 }
 
@@ -111,16 +111,16 @@ TEST_F(Errors, ATimeGivesTheRaysAndTheFileStoresThem)
 
 TEST_F(Errors, ATimeTooShortForOneRayTakesOneWithAWarning)
 {
-    EXPECT_THAT(
-        done("makevismap {spot} --resolution 2048 --margin 0 --reconstruct off --time-budget 0.001 -o a.exr"),
-        ContainsRegex("WARNING: time_budget: even 1 ray per texel, the minimum, takes about .* s, more than 0.001\n"));
+    EXPECT_THAT(done("makevismap {spot} --resolution 2048 --margin 0 --reconstruct off --time-budget 0.001 -o a.exr"),
+                ContainsRegex(
+                    "WARNING: --time-budget: even 1 ray per texel, the minimum, takes about .* s, more than 0.001\n"));
     EXPECT_EQ(samples("a.exr"), "1");
 }
 
 TEST_F(Errors, ATimeIsNoPartOfARecipe)
 {
     refused(2, "--time-budget cannot be saved in a recipe", bake + "--time-budget 1 --print-recipe");
-    refused(2, "time_budget: 0 is not in [0.001, 1e+06]", bake + "--time-budget 0 -o x.exr");
+    refused(2, "--time-budget: 0 is not in [0.001, 1e+06]", bake + "--time-budget 0 -o x.exr");
     const std::string recipe = run(bake + "--target-error 0.05 --channels error,normal --print-recipe").out;
     EXPECT_THAT(recipe, HasSubstr("target_error = 0.05\nreconstruct = \"off\"\nchannels = [\"normal\", \"error\"]\n"));
     write("hero.vismap", recipe);

@@ -95,7 +95,7 @@ TEST_F(LightEffects, WhatIsSwitchedOffIsGoneAndSaidToBe)
     // Open texels under a sky of mean .25, .5, 2: half the albedo is off by sqrt(mean of squares) / 2.
     const std::string said = light("sky.exr -o off.exr --albedo half_lin_rec709.exr --effects -albedo");
     EXPECT_THAT(said,
-                HasSubstr("makelightmap WARNING: effects: the picture has albedo, left out: light is off by about "
+                HasSubstr("makelightmap WARNING: --effects: the picture has albedo, left out: light is off by about "
                           "0.6 (RMS), and its mean is 0.46"));
     light("sky.exr -o without.exr");
     expect_same_pixels("off.exr", "without.exr", 0);
@@ -203,7 +203,7 @@ TEST_F(LightEffects, AnAnimationIsComparedOnce)
 {
     const std::string flags
         = "{sky} --albedo half_lin_rec709.exr --effects -albedo --frames 1-4 --rotate-y 0:90 -o a.####.exr";
-    EXPECT_EQ(count(light(flags), "WARNING: effects"), 1u);
+    EXPECT_EQ(count(light(flags), "WARNING: --effects"), 1u);
     EXPECT_EQ(names("a.").size(), 4u);
 }
 

@@ -194,8 +194,8 @@ TEST_F(MaterialNormals, WhatIsElsewhereIsLeftOutWithAWarning)
     expect_same_pixels("a.exr", "none.exr", 0);
     EXPECT_THAT(bake("a.exr", "map_Bump n.png", "--material-normals"), HasSubstr("normal maps: of 0 materials"));
     const std::string command = "makevismap halves.obj --material-normals -o x.exr";
-    refused(2, "material_normals: a normal map is given too", command + " --normal-map n.png");
-    refused(2, "material_normals: with unwrap", command + " --unwrap");
+    refused(2, "--material-normals: a normal map is given too", command + " --normal-map n.png");
+    refused(2, "--material-normals: with unwrap", command + " --unwrap");
     refused(2, "normal maps of materials are in tangent space", command + " --normal-map-space object");
     write("halves.mtl", "newmtl A\nnorm gone.png\n");
     refused(1, "\"halves.obj\": material \"A\": its normal map: \"gone.png\": no such file", command);

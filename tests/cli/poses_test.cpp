@@ -172,9 +172,9 @@ TEST_F(Poses, WhatMakesNoSenseIsRefused)
 {
     const std::string bake = "makevismap lid.####.obj -o x.####.exr ";
     refused(2, "3 frames need #### in the file name", "makevismap lid.####.obj --frames 1-3 -o x.exr");
-    refused(2, "give only one of frames and pose", bake + "--frames 1-2 --pose lid.0001.obj");
+    refused(2, "give only one of --frames and --pose", bake + "--frames 1-2 --pose lid.0001.obj");
     refused(2, "--pose-error is for several poses", "makevismap lid.0001.obj -o x.exr --pose-error 0.1");
-    refused(2, "pose_error: 2 is not in [0, 1]", bake + "--frames 1-2 --pose-error 2");
+    refused(2, "--pose-error: 2 is not in [0, 1]", bake + "--frames 1-2 --pose-error 2");
     refused(2, "--time-budget is for one map", bake + "--frames 1-2 --time-budget 1");
     refused(2, "is the same in all frames", "makevismap lid.0001.obj --frames 1-2 -o x.####.exr");
     refused(2, "--write-mesh writes one mesh", bake + "--frames 1-2 --write-mesh x.glb");

@@ -58,7 +58,7 @@ class Startup(Case):
                 self.assertIn("is missing", self.assert_light(2, tool).stderr)
             self.assertIn("needs a value", self.assert_light(2, tool, *OPERANDS[tool], "-o").stderr)
             self.assertRegex(self.assert_light(2, tool, *OPERANDS[tool], *NUMBER[tool], "-o", "x").stderr,
-                             "ERROR: [a-z_]+: .* is not ")
+                             "ERROR: --[a-z-]+: .* is not ")
             if tool not in ("vmexport", "vmview"):
                 self.assertIn("-o ", self.assert_light(2, tool, *OPERANDS[tool]).stderr)
         for words in ["--help"], ["--version"], ["help"], ["help", "bake"], ["bake", "--help"], ["light", "--version"]:

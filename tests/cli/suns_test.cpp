@@ -142,7 +142,7 @@ TEST_F(Suns, AreARowOfTheEffects)
                 HasSubstr("the light has no small strong source"));
     done("makelightmap hero.vismap sunny.exr -o soft.exr");
     EXPECT_THAT(done(line + " --suns auto --effects -suns"),
-                HasSubstr("WARNING: effects: the picture has suns, left out"));
+                HasSubstr("WARNING: --effects: the picture has suns, left out"));
     EXPECT_EQ(pixels("a.exr").values, pixels("soft.exr").values);
     EXPECT_THAT(done("makelightmap hero.vismap cloudy.exr --suns auto --effects -suns -o a.exr"),
                 Not(HasSubstr("WARNING")));

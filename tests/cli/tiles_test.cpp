@@ -156,7 +156,7 @@ TEST_F(Tiles, TilesThatCannotBeToldApartAreRefused)
         refused(2, "udims: \"1001-\" is not a list of UDIM tiles", words + "-o x.<UDIM>.exr --udims=1001-");
         refused(2, "udims: 1000 is not a UDIM tile", words + "-o x.<UDIM>.exr --udims=1000-1003");
         refused(2, "udim: 1000 is not in [1001, 9999]", words + "-o x.exr --udim=1000");
-        refused(2, "give only one of udim and udims", words + "-o x.<UDIM>.exr --udim=1001 --udims=1001");
+        refused(2, "give only one of --udim and --udims", words + "-o x.<UDIM>.exr --udim=1001 --udims=1001");
     }
     refused(2, "vismap: \"vm.<UDIM>.exr\": which tile?", light + "-o x.exr");
     refused(2, "environment: \"sky.<UDIM>.exr\": which tile?", "makecfem sky.<UDIM>.exr -o x.exr");

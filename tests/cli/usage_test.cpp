@@ -4,6 +4,7 @@
 
 using namespace vmlight;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -64,19 +65,19 @@ TEST_F(Usage, ValuesAreParsedStrictly)
     {
         const char *flag, *value, *error;
     } cases[] = {
-        { "--samples", "0", "samples: 0 is not in [1, 1048576]" },
+        { "--samples", "0", "--samples: 0 is not in [1, 1048576]" },
         { "--samples", "4x", "samples: \"4x\" is not a whole number" },
         { "--samples", "", "--samples has an empty value" },
         { "--occluder", " ", "--occluder has an empty value" },
         { "--resolution", "0", "resolution: \"0\" is not WIDTHxHEIGHT from 1x1 to 32768x32768" },
         { "--resolution", "99999", "resolution:" },
         { "--sampler", "random", "sampler: \"random\" is not one of fibonacci, sobol, halton" },
-        { "--max-distance", "far", "max_distance: \"far\" is not a number or \"infinite\"" },
-        { "--max-distance", "nan", "max_distance: \"nan\" is not a number" },
-        { "--max-distance", "-1", "max_distance: -1 is not in [1e-30, 1e+30] or \"infinite\"" },
+        { "--max-distance", "far", "--max-distance: \"far\" is not a number or \"infinite\"" },
+        { "--max-distance", "nan", "--max-distance: \"nan\" is not a number" },
+        { "--max-distance", "-1", "--max-distance: -1 is not in [1e-30, 1e+30] or \"infinite\"" },
         { "--max-distance", "0",
-          "max_distance: 0 is not in [1e-30, 1e+30] or \"infinite\"; did you mean \"infinite\"?" },
-        { "--target-error", "0", "target_error: 0 is not in [1e-09, 1] or \"none\"; did you mean \"none\"?" },
+          "--max-distance: 0 is not in [1e-30, 1e+30] or \"infinite\"; did you mean \"infinite\"?" },
+        { "--target-error", "0", "--target-error: 0 is not in [1e-09, 1] or \"none\"; did you mean \"none\"?" },
         { "--margin", "-2", "margin: -2 is not in" },
         { "--channels", "normals",
           "channels: \"normals\" is not one of normal, coverage, error; did you mean \"normal\"?" },
@@ -84,7 +85,7 @@ TEST_F(Usage, ValuesAreParsedStrictly)
         { "--format", "double", "format: \"double\" is not one of float, half" },
         { "--compression", "dwaa", "compression: \"dwaa\" is not one of zip, none" },
         { "--threads", "-1", "threads: -1 is not in [0, 1024]" },
-        { "--uv-set", "8", "uv_set: 8 is not in [0, 7]" },
+        { "--uv-set", "8", "--uv-set: 8 is not in [0, 7]" },
     };
     for (const auto& [flag, value, error] : cases) {
         refused_words(2, error, { "makevismap", "quad.obj", "-o", "x.exr", flag, value });
@@ -112,14 +113,46 @@ TEST_F(Usage, FramesAreRefusedInWords)
     refused(2, "4 frames need #### in the file name", light + "x.exr --frames 1-4");
 }
 
+TEST_F(Usage, ErrorsNameTheFlagAsItIsTyped)
+{
+    refused(2, "makevismap ERROR: --max-distance: -1 is not in ", "makevismap quad.obj -o x.exr --max-distance -1");
+    refused(2, "makevismap ERROR: --part: \"3\" is not a part", "makevismap quad.obj -o x.exr --part 3");
+    refused(2, "makelightmap ERROR: --rotate-y: 0 to 90 degrees",
+            "makelightmap vm.exr sky.exr -o x.exr --rotate-y 0:90");
+    // A recipe's keys stay keys.
+    write("far.vismap", "mesh = \"quad.obj\"\nmax_distance = -1\n");
+    refused(1, "\"far.vismap\" line 2: max_distance: -1 is not in ", "makevismap far.vismap -o x.exr");
+}
+
+TEST_F(Usage, PlaceholdersThatStayInAFileNameAreWarnedOf)
+{
+    const std::string bake = "makevismap quad.obj --resolution 16 --samples 4 -o ",
+                      light = "makelightmap vm.exr sky.exr -o ";
+    const std::string stays = " stays in the file name: ";
+    EXPECT_THAT(done(bake + "'a_<INST>.exr'"),
+                HasSubstr("makevismap WARNING: \"a_<INST>.exr\": <INST>" + stays
+                          + "the placeholders are <UDIM>, <MATERIAL> and <INSTANCE>"));
+    EXPECT_TRUE(exists("a_<INST>.exr"));
+    EXPECT_THAT(done(light + "'a_<udim>.exr'"), HasSubstr("<udim>" + stays + "the placeholders are <UDIM>\n"));
+    EXPECT_THAT(done("vmframes quad.obj sky.exr --size 16 --vismap vm.exr -o 'a_<UDIM>.png'"),
+                HasSubstr("<UDIM>" + stays + "vmframes replaces nothing in it"));
+    for (const std::string& tool : { bake, light })
+        EXPECT_THAT(done(tool + "a.####.exr"), HasSubstr("#" + stays + "pass --frames, such as 1-48"));
+    EXPECT_TRUE(exists("a.####.exr"));
+    // Names that are only odd; and what is replaced.
+    for (const std::string name : { "a#1.exr", "<>.exr", "a<b.exr", "a>b<.exr", "<a b>.exr", "<UDIM>.exr" })
+        EXPECT_THAT(done(bake + "'" + name + "'"), Not(HasSubstr(stays))) << name;
+    EXPECT_THAT(done(light + "a.##.exr --frames 1"), Not(HasSubstr(stays)));
+}
+
 TEST_F(Usage, FlagsThatDoNotGoTogetherAreWrongUsageBeforeAnyWork)
 {
     const std::string mirror = "--matrix -1,0,0,0,1,0,0,0,1";
     const std::pair<std::string, std::string> cases[] = {
         { "only one of rotate, matrix and quaternion", "--rotate 1,2,3 " + mirror },
-        { "matrix: a reflection, not a rotation", mirror },
-        { "matrix: not a rotation", "--matrix 1,0,0,0,1,0,0,0,2" },
-        { "quaternion: 0,0,0,0 is zero or not finite", "--quaternion 0,0,0,0" },
+        { "--matrix: a reflection, not a rotation", mirror },
+        { "--matrix: not a rotation", "--matrix 1,0,0,0,1,0,0,0,2" },
+        { "--quaternion: 0,0,0,0 is zero or not finite", "--quaternion 0,0,0,0" },
         { "environment is set too", "--cfem sky.exr" },
         { "--vismap has an empty value", "--vismap ''" },
         { "--environment has an empty value", "--environment ''" },

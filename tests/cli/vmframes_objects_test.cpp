@@ -99,7 +99,7 @@ TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
             "vmframes quad.obj sky.exr --strand-specular 1 -o a.png" + small);
     refused(2, "--strand-exponent 9: only --strand-specular uses it",
             "vmframes quad.obj sky.exr --object hair.obj --radius .1 --strand-exponent 9 -o a.png" + small);
-    refused(2, "strand_exponent: 501 is not in [1, 500]",
+    refused(2, "--strand-exponent: 501 is not in [1, 500]",
             "vmframes quad.obj sky.exr --object hair.obj --radius .1 --strand-specular 1 --strand-exponent 501 -o a.png"
                 + small);
     refused(2, "--white shows all white",

@@ -98,7 +98,7 @@ TEST_F(FlagTables, WhatTheyKnowIsAnsweredAtOnce)
     EXPECT_EQ(early({ "a.obj" }), ExitCode::Usage);
     EXPECT_EQ(error, "-o OUTPUT.exr is missing");
     EXPECT_EQ(early({ "a.obj", "--own-samples", "0", "-o", "b.exr" }), ExitCode::Usage);
-    EXPECT_EQ(error, "samples: 0 is not in [1, 1048576]");
+    EXPECT_EQ(error, "--own-samples: 0 is not in [1, 1048576]");
     EXPECT_EQ(early({ "a.obj", "--own-samples=", "-o", "b.exr" }), ExitCode::Usage);
     EXPECT_EQ(error, "--own-samples has an empty value");
 }

@@ -75,7 +75,7 @@ class Command(unittest.TestCase):
         self.assert_fails(2, "--strand-exponent 9: only --strand-specular uses it", hair, SKY, *GROOM, "--strand-exponent",
                           "9", "-o", "a.exr")
         self.assert_fails(2, "--strand-specular 1: no object is strands", MESH, SKY, "--strand-specular", "1", "-o", "a.exr")
-        self.assert_fails(2, "strand_exponent: 501 is not in [1, 500]", hair, SKY, *GROOM, "--strand-specular", "1",
+        self.assert_fails(2, "--strand-exponent: 501 is not in [1, 500]", hair, SKY, *GROOM, "--strand-specular", "1",
                           "--strand-exponent", "501", "-o", "a.exr")
         self.assert_fails(1, "only they can be beside MESH", hair, SKY, *GROOM, "--object", MESH, "-o", "a.exr")
 

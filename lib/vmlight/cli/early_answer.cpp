@@ -29,7 +29,7 @@ std::optional<ExitCode> early_answer(CommandLine& line, int argc, const char** a
         if (std::holds_alternative<std::monostate>(option->allowed))
             return {};
         if (!is_allowed(text, option->allowed, error)) {
-            error = option->parameter + ": " + error;
+            error = option->flag() + ": " + error;
             return ExitCode::Usage;
         }
         has_output = has_output || option->name == "o";

@@ -177,6 +177,8 @@ bool StageMain::do_work(const std::function<bool(std::string& error)>& work, std
         error = m_command.output_fault();
     if (interrupted()) // deferred while the output folder was checked
         error = "interrupted";
+    if (const std::string warning = m_command.output_warning(); error.empty() && !warning.empty())
+        warn(warning);
     if (!error.empty() || !work(error))
         return false;
     if (!m_warned)
@@ -217,16 +219,18 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
         error = exception.what();
         exit = ExitCode::Failed;
     }
-    if (exit == ExitCode::Failed)
-        error = with_flags(error);
+    error = with_flags(error);
     if (exit != ExitCode::Done)
         report("ERROR", exit == ExitCode::Usage ? usage_text(m_command.line, error) : error);
     return int(exit);
 }
 
-// The library says "set NAME to" of parameters, which have flags here.
-std::string StageMain::with_flags(const std::string& error) const
+// The library says "NAME: " and "set NAME to" of parameters, which have flags here.
+std::string StageMain::with_flags(std::string error) const
 {
+    const std::string first = error.substr(0, error.find(": "));
+    if (has_option(first))
+        error.replace(0, first.size(), flag_of(first));
     static const std::string before = "; set ", after = " to ";
     const size_t start = error.rfind(before);
     if (start == std::string::npos)
@@ -285,7 +289,7 @@ void StageMain::warn(const std::string& line) const
 {
     const bool is_new = !m_warned || m_warned->insert(line).second;
     if (is_new || !m_is_repeated)
-        report("WARNING", line);
+        report("WARNING", with_flags(line));
 }
 
 bool StageMain::write(const OIIO::ImageBuf& image, std::string& error)

@@ -140,7 +140,7 @@ private:
     bool has_option(const std::string& name) const;
     void accept_recipe(const char* stage, RecipeAccess access);
     bool do_work(const std::function<bool(std::string& error)>& work, std::string& error);
-    std::string with_flags(const std::string& error) const;
+    std::string with_flags(std::string error) const;
     void settle_threads();
     bool put(const std::string& answer, std::string& error) const;
     void report(const char* severity, const std::string& text) const;

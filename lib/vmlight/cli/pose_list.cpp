@@ -47,7 +47,7 @@ std::string PoseList::fault()
 {
     const std::string& output = m_stage.output();
     if (has_frames() && !m_meshes.empty())
-        return "give only one of frames and pose";
+        return "give only one of --frames and --pose";
     if (m_has_error && !has_frames() && m_meshes.empty())
         return "--pose-error is for several poses: give --frames or --pose";
     if (count() > 1 && !output.empty() && output.find('#') == std::string::npos)
@@ -69,7 +69,7 @@ std::string PoseList::fault()
             "occluder",
             m_mesh);
     if (m_recipe.mesh_params.frame != MeshParams::kFirstSample)
-        return "give only one of frame and frames";
+        return "give only one of --frame and --frames";
     m_recipe = at(m_recipe, 0);
     return "";
 }

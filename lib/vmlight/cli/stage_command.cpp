@@ -10,6 +10,10 @@
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/uv/udim.h>
 
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+
 namespace vmlight {
 
 std::string StageCommand::output_fault() const
@@ -20,6 +24,38 @@ std::string StageCommand::output_fault() const
         return output_file_fault(output);
     const bool is_folder = output_kind == OutputKind::Folder || output_kind == OutputKind::OptionalFolder;
     return is_folder ? output_folder_fault(output) : vmlight::output_fault(output);
+}
+
+bool StageCommand::has(const std::string& option) const
+{
+    return std::any_of(line.options.begin(), line.options.end(), [&](const auto& one) { return one.name == option; });
+}
+
+bool StageCommand::is_given(const std::string& option) const
+{
+    return std::any_of(line.given.begin(), line.given.end(),
+                       [&](const auto& one) { return one.first->name == option; });
+}
+
+// A warning, as any name may be meant.
+std::string StageCommand::output_warning() const
+{
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    for (size_t begin = output.find('<'); begin != std::string::npos; begin = output.find('<', begin + 1)) {
+        const size_t end = output.find_first_not_of(letters, begin + 1);
+        if (end == std::string::npos || output[end] != '>' || end < begin + 2)
+            continue;
+        const std::string text = output.substr(begin, end + 1 - begin);
+        if (!has("udims"))
+            return format("\"{}\": {} stays in the file name: {} replaces nothing in it", output, text, line.name);
+        if (!has_udim_pattern(text) && !mesh_part_pattern(text))
+            return format("\"{}\": {} stays in the file name: the placeholders are {}", output, text,
+                          line.stage == VismapRecipe::kStage ? "<UDIM>, <MATERIAL> and <INSTANCE>" : "<UDIM>");
+    }
+    const bool has_numbers = is_given("frames") || is_given("pose");
+    return output.find("##") != std::string::npos && has("frames") && !has_numbers
+        ? format("\"{}\": # stays in the file name: pass --frames, such as 1-48, to number the files", output)
+        : "";
 }
 
 bool StageCommand::needs_output() const
@@ -72,8 +108,12 @@ ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
         recipe.set_operands(line.operands);
     }
     for (const auto& [option, text] : line.given)
-        if (!option->take(text, error))
+        if (!option->take(text, error)) {
+            const std::string parameter = (option->parameter.empty() ? option->name : option->parameter) + ": ";
+            if (OIIO::Strutil::starts_with(error, parameter))
+                error.replace(0, parameter.size(), option->flag() + ": ");
             return ExitCode::Usage;
+        }
     return ExitCode::Done;
 }
 

@@ -87,7 +87,12 @@ struct StageCommand
     /// Why the output cannot be written now, or "".
     std::string output_fault() const;
 
+    /// What in the name of the output looks like a placeholder, such as "<NODE>", but stays as it is; or "".
+    std::string output_warning() const;
+
 private:
+    bool has(const std::string& option) const;
+    bool is_given(const std::string& option) const;
     bool needs_output() const;
     ExitCode apply(std::string& fault_of_recipe, std::string& error);
     std::string usage_fault(const std::string& fault_of_recipe) const;

@@ -99,7 +99,7 @@ template <class Recipe> std::string UdimRun<Recipe>::fault()
     if (const std::string reason = mesh_part_fault(); !reason.empty())
         return reason;
     if (m_udim_flag && !m_udims.empty())
-        return "give only one of udim and udims";
+        return "give only one of --udim and --udims";
     if (!m_udims.empty() && !has_udim_pattern(output) && patterns.empty())
         return "udims: no file name contains <UDIM>";
     if (m_udims.size() > 1 && !output.empty() && !has_udim_pattern(output))
