@@ -3,6 +3,7 @@
 
 #include <vmlight/base/available_memory.h>
 #include <vmlight/base/format.h>
+#include <vmlight/base/process_exit.h>
 #include <vmlight/trace/exact_hit.h>
 
 #include <algorithm>
@@ -60,7 +61,7 @@ Scene::~Scene()
 {
     m_whole.release();
     m_distinct.clear();
-    if (m_device)
+    if (m_device && !is_process_exiting())
         rtcReleaseDevice(m_device);
 }
 
@@ -72,8 +73,11 @@ bool Scene::attach_strands(const Strands& strands, unsigned id, std::string& err
     return true;
 }
 
+// At the end of a process Embree may be finalised already, and would throw: what it has is left to the system.
 void Scene::Part::release()
 {
+    if (is_process_exiting())
+        return;
     if (scene)
         rtcReleaseScene(scene);
     scene = nullptr;

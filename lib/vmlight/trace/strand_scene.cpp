@@ -2,6 +2,7 @@
 #include <vmlight/trace/strand_scene.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/process_exit.h>
 #include <vmlight/mesh/instances.h>
 #include <vmlight/trace/bake_scene.h>
 #include <vmlight/trace/curves.h>
@@ -38,6 +39,8 @@ public:
     Rounds() = default;
     ~Rounds()
     {
+        if (is_process_exiting()) // see embree::Scene
+            return;
         if (m_scene)
             rtcReleaseScene(m_scene);
         if (m_device)
