@@ -48,6 +48,10 @@ void measure_mesh(const std::string& mesh, const std::vector<std::string>& skies
     recipe.mesh = mesh;
     Inputs inputs;
     Measured measured;
+    MakeOptions options;
+    options.progress = [](const std::string&, int64_t) { return [](double) { return true; }; };
+    options.say = [](const std::string&) {};
+    options.warn = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
     WholeProgress progress({}, 1);
     std::vector<Setting> settings;
     for (const char* model : kModels)
@@ -62,9 +66,9 @@ void measure_mesh(const std::string& mesh, const std::vector<std::string>& skies
     std::string error;
     if (!OIIO::Filesystem::is_directory(own) && !OIIO::Filesystem::create_directory(own, error))
         fail(own + ": " + error);
-    if (!read_inputs(inputs, recipe, skies, {}, {}, error)
-        || !trace_references(inputs, params, own, {}, progress, error)
-        || !measure(measured, settings, inputs, params, own, {}, progress, error))
+    if (!read_inputs(inputs, recipe, skies, {}, options, error)
+        || !trace_references(inputs, params, own, options, progress, error)
+        || !measure(measured, settings, inputs, params, own, options, progress, error))
         fail(error);
     for (const char* model : kModels) {
         const double at_few = mean_error(measured.rows, model, few), at_many = mean_error(measured.rows, model, many);

@@ -98,7 +98,9 @@ TEST_F(StrandPicture, EqualsThatOfFrames)
     double worst = 0;
     for (const std::string& mesh : { groom, data_path("spot.obj") })
         for (const double fov : { 30.0, 0.0 })
-            for (const char* model : { "ao", "sh", "lobe" }) {
+            for (const std::string model : { "ao", "sh", "lobe" }) {
+                if (fov == 0 && model != "sh")
+                    continue; // what a strand is lit by does not depend on where it is seen from
                 Request request = request_for(mesh, "studio_small_03.hdr", mesh != groom);
                 request.camera.fov = fov;
                 request.light.model = model;
@@ -121,10 +123,11 @@ TEST_F(StrandPicture, HighlightsEqualThoseOfFrames)
             Request request = request_for(mesh, "studio_small_03.hdr", mesh != groom);
             request.camera.fov = fov;
             request.light.rotate = { 20, 130, -70 };
-            const OIIO::ImageBuf without = drawn(loaded(request), request);
+            Request dull = request;
             request.specular = { 0.5, 60 };
             const Assets assets = loaded(request);
-            const OIIO::ImageBuf with = drawn(assets, request), wanted = traced_objects(assets, request);
+            const OIIO::ImageBuf with = drawn(assets, request), without = drawn(assets, dull),
+                                 wanted = traced_objects(assets, request);
             EXPECT_GT(relative_rmse(with, without), 0.05) << mesh;
             EXPECT_LT(relative_rmse(with, wanted), 0.06) << mesh << " " << fov;
             EXPECT_LT(share_apart(with, wanted, 0.01), 0.03) << mesh << " " << fov;
