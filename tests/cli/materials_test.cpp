@@ -185,6 +185,11 @@ TEST_F(Materials, AnotherUvSetIsSuggested)
                           "materials Glass, Brass overlap 0 % each: try <MATERIAL> in -o"));
     EXPECT_THAT(done("makevismap pair.gltf --uv-set 1 -o x.exr" + small), Not(HasSubstr("WARNING")));
     EXPECT_EQ(covered(visibility("x.exr")), 1024u);
+    const std::string picture = "vmframes pair.gltf {sky} --vismap x.exr --size 16 --spp 1 -o x.png";
+    EXPECT_THAT(done(picture),
+                HasSubstr("\"x.exr\": was baked with UV set 1 of its mesh, and \"pair.gltf\" is read with set 0: pass "
+                          "--uv-set 1\n"));
+    EXPECT_THAT(done(picture + " --uv-set 1"), Not(HasSubstr("was baked ")));
     done("makevismap pair.gltf --node Pair --material Glass --uv-set 1 -o x.exr" + small);
     EXPECT_EQ(covered(visibility("x.exr")), 512u);
     refused(1, "no texture coordinates in UV set 2; the mesh has UV sets 0 and 1",

@@ -119,7 +119,8 @@ TEST_F(Usage, ErrorsNameTheFlagAsItIsTyped)
     refused(2, "makevismap ERROR: --part: \"3\" is not a part", "makevismap quad.obj -o x.exr --part 3");
     refused(2, "makelightmap ERROR: --rotate-y: 0 to 90 degrees",
             "makelightmap vm.exr sky.exr -o x.exr --rotate-y 0:90");
-    // A recipe's keys stay keys.
+    // What is given without a flag has none; a recipe's keys stay keys.
+    refused(2, "makelightmap ERROR: vismap: \"vm.<UDIM>.exr\": ", "makelightmap vm.<UDIM>.exr sky.exr -o x.exr");
     write("far.vismap", "mesh = \"quad.obj\"\nmax_distance = -1\n");
     refused(1, "\"far.vismap\" line 2: max_distance: -1 is not in ", "makevismap far.vismap -o x.exr");
 }

@@ -225,11 +225,11 @@ int StageMain::run(int argc, const char** argv, const std::function<bool(std::st
     return int(exit);
 }
 
-// The library says "NAME: " and "set NAME to" of parameters, which have flags here.
+// The library says "NAME: " and "set NAME to" of parameters, which have flags here; but inputs may be operands.
 std::string StageMain::with_flags(std::string error) const
 {
     const std::string first = error.substr(0, error.find(": "));
-    if (has_option(first))
+    if (m_command.is_given(first))
         error.replace(0, first.size(), flag_of(first));
     static const std::string before = "; set ", after = " to ";
     const size_t start = error.rfind(before);

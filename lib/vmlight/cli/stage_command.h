@@ -78,6 +78,9 @@ struct StageCommand
     /// @returns Done, or the exit code with the reason in `error`
     ExitCode parse(int argc, const char** argv, std::string& answer, std::string& error);
 
+    /// Whether the flag of this name is on the command line.
+    bool is_given(const std::string& option) const;
+
     /// Whether an image is to be made.
     bool makes_image() const { return !prints_recipe && !saves_recipe() && !print; }
 
@@ -92,7 +95,6 @@ struct StageCommand
 
 private:
     bool has(const std::string& option) const;
-    bool is_given(const std::string& option) const;
     bool needs_output() const;
     ExitCode apply(std::string& fault_of_recipe, std::string& error);
     std::string usage_fault(const std::string& fault_of_recipe) const;

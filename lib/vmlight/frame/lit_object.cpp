@@ -10,6 +10,7 @@
 #include <vmlight/frame/texel_weights.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/stage/make_stage.h>
+#include <vmlight/stage/map_scene.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/uv_warnings.h>
 #include <vmlight/uv/udim.h>
@@ -88,7 +89,13 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
         }
         // Of a mesh that was changed since, a map may still be meant.
         const std::string hash = images[0].spec().get_string_attribute("vmlight:meshHash");
-        if (!hash.empty() && hash != mesh_hash(mesh()))
+        const int set = m_recipe.map.mesh_params.uv_set, baked_set = recipe_of_map(images[0].spec()).mesh_params.uv_set;
+        if (set != baked_set)
+            options.report_warning(
+                format("\"{}\": was baked with UV set {} of its mesh, and \"{}\" is read with set {}: "
+                       "pass --uv-set {}",
+                       recipe.vismap, baked_set, mesh().path, set, baked_set));
+        else if (!hash.empty() && hash != mesh_hash(mesh()))
             options.report_warning(format("\"{}\": was baked from another mesh than \"{}\", or of another part of it",
                                           recipe.vismap, mesh().path));
         m_maps[""][udim] = std::move(images[0]);
