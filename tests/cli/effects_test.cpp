@@ -148,7 +148,7 @@ TEST_F(Effects, TheGroundIsAtAHeightOrAtTheLowestPoint)
     EXPECT_THAT(read("x.vismap"), testing::AllOf(HasSubstr("ground = true"), HasSubstr("ground_height = -1")));
     done("makevismap x.vismap -o recipe.exr");
     expect_same_pixels("recipe.exr", "given.exr", 0);
-    refused(2, "--ground-height: \"up\" is not a number", std::string(kBake) + "x.exr --ground=up");
+    refused(2, "--ground: \"up\" is not a number", std::string(kBake) + "x.exr --ground=up");
 }
 
 // Of a mesh that occludes itself: a floor, and a wall on it.

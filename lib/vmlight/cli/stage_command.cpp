@@ -10,8 +10,6 @@
 #include <vmlight/stage/recipe/recipe.h>
 #include <vmlight/uv/udim.h>
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 
 namespace vmlight {
@@ -109,9 +107,10 @@ ExitCode StageCommand::apply(std::string& fault_of_recipe, std::string& error)
     }
     for (const auto& [option, text] : line.given)
         if (!option->take(text, error)) {
-            const std::string parameter = (option->parameter.empty() ? option->name : option->parameter) + ": ";
-            if (OIIO::Strutil::starts_with(error, parameter))
-                error.replace(0, parameter.size(), option->flag() + ": ");
+            // The library names the parameter, which may be another: --ground sets ground_height.
+            const std::string parameter = error.substr(0, error.find(": "));
+            if (parameter == option->parameter || has(parameter))
+                error.replace(0, parameter.size(), option->flag());
             return ExitCode::Usage;
         }
     return ExitCode::Done;
