@@ -78,7 +78,9 @@ struct StageCommand
     /// @returns Done, or the exit code with the reason in `error`
     ExitCode parse(int argc, const char** argv, std::string& answer, std::string& error);
 
-    /// Whether the flag of this name is on the command line.
+    /// Whether there is a flag of this name.
+    bool has(const std::string& option) const;
+    /// Whether it is on the command line.
     bool is_given(const std::string& option) const;
 
     /// Whether an image is to be made.
@@ -94,7 +96,6 @@ struct StageCommand
     std::string output_warning() const;
 
 private:
-    bool has(const std::string& option) const;
     bool needs_output() const;
     ExitCode apply(std::string& fault_of_recipe, std::string& error);
     std::string usage_fault(const std::string& fault_of_recipe) const;
