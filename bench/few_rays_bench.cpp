@@ -4,9 +4,9 @@
 ///     few_rays_bench FOLDER SIDE FEW MANY PAIRS MESH... -- SKY...
 ///
 /// For the models `paper`, `lobe` and `sh` of five bands: the RMS error of the light at FEW and at MANY rays per texel,
-/// relative to the mean light, the mean over the skies; and the ratio. Maps have SIDE texels a side; the reference has
-/// PAIRS pairs of rays per texel, whose noise is subtracted. FOLDER, which must exist, has a folder for each mesh and
-/// size: an interrupted run resumes there.
+/// relative to the mean light, the mean over the skies; the ratio; and the means over the meshes. Maps have SIDE texels
+/// a side; the reference has PAIRS pairs of rays per texel, whose noise is subtracted. FOLDER, which must exist, has a
+/// folder for each mesh and size: an interrupted run resumes there.
 #include <vmcost/measure.h>
 #include <vmcost/models.h>
 
@@ -16,8 +16,10 @@
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 
 using namespace vmlight;
 using namespace vmlight::cost;
@@ -41,8 +43,22 @@ double mean_error(const std::vector<Row>& rows, const std::string& model, int sa
     return sum / count;
 }
 
-void measure_mesh(const std::string& mesh, const std::vector<std::string>& skies, const CostParams& params, int few,
-                  int many, const std::string& folder)
+struct Pair
+{
+    double few = 0, many = 0;
+};
+using ByModel = std::array<Pair, std::size(kModels)>;
+
+void print_rows(const std::string& name, const ByModel& errors)
+{
+    for (size_t i = 0; i < errors.size(); ++i)
+        std::printf("| %s | `%s` | %.4f | %.4f | %.3f |\n", name.c_str(), kModels[i], errors[i].few, errors[i].many,
+                    errors[i].few / errors[i].many);
+    std::fflush(stdout);
+}
+
+ByModel measure_mesh(const std::string& mesh, const std::string& name, const std::vector<std::string>& skies,
+                     const CostParams& params, int few, int many, const std::string& folder)
 {
     VismapRecipe recipe;
     recipe.mesh = mesh;
@@ -61,8 +77,7 @@ void measure_mesh(const std::string& mesh, const std::vector<std::string>& skies
         }
     std::stable_sort(settings.begin(), settings.end(),
                      [](const Setting& a, const Setting& b) { return a.samples < b.samples; });
-    const std::string name = OIIO::Filesystem::filename(mesh);
-    const std::string own = format("{}/{}.{}", folder, name.substr(0, name.find('.')), params.side());
+    const std::string own = format("{}/{}.{}", folder, name, params.side());
     std::string error;
     if (!OIIO::Filesystem::is_directory(own) && !OIIO::Filesystem::create_directory(own, error))
         fail(own + ": " + error);
@@ -70,12 +85,10 @@ void measure_mesh(const std::string& mesh, const std::vector<std::string>& skies
         || !trace_references(inputs, params, own, options, progress, error)
         || !measure(measured, settings, inputs, params, own, options, progress, error))
         fail(error);
-    for (const char* model : kModels) {
-        const double at_few = mean_error(measured.rows, model, few), at_many = mean_error(measured.rows, model, many);
-        std::printf("| %s | `%s` | %.4f | %.4f | %.3f |\n", name.substr(0, name.find('.')).c_str(), model, at_few,
-                    at_many, at_few / at_many);
-    }
-    std::fflush(stdout);
+    ByModel errors;
+    for (size_t i = 0; i < errors.size(); ++i)
+        errors[i] = { mean_error(measured.rows, kModels[i], few), mean_error(measured.rows, kModels[i], many) };
+    return errors;
 }
 
 } // namespace
@@ -91,7 +104,17 @@ int main(int argc, char** argv)
     params.reference_samples = OIIO::Strutil::stoi(words[4]);
     const int few = OIIO::Strutil::stoi(words[2]), many = OIIO::Strutil::stoi(words[3]);
     std::printf("| mesh | model | error, %d rays | %d rays | ratio |\n|---|---|---|---|---|\n", few, many);
-    for (auto mesh = words.begin() + 5; mesh != split; ++mesh)
-        measure_mesh(*mesh, { split + 1, words.end() }, params, few, many, words[0]);
+    ByModel means;
+    const auto first = words.begin() + 5;
+    for (auto mesh = first; mesh != split; ++mesh) {
+        const std::string file = OIIO::Filesystem::filename(*mesh), name = file.substr(0, file.find('.'));
+        const ByModel errors = measure_mesh(*mesh, name, { split + 1, words.end() }, params, few, many, words[0]);
+        print_rows(name, errors);
+        for (size_t i = 0; i < means.size(); ++i) {
+            means[i].few += errors[i].few / double(split - first);
+            means[i].many += errors[i].many / double(split - first);
+        }
+    }
+    print_rows("**all**", means);
     return 0;
 }

@@ -18,7 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 BIN = os.environ.get("VMLIGHT_BIN", os.path.join(HERE, "../build/release/bin"))
 
 
-def peak_mib(mesh, resolution):
+def peak_mb(mesh, resolution):
     """Of one whole process, in a child of its own, because the count is the largest of all children."""
     reader, writer = os.pipe()
     child = os.fork()
@@ -30,7 +30,7 @@ def peak_mib(mesh, resolution):
         os._exit(0)
     os.close(writer)
     os.waitpid(child, 0)
-    return int(os.read(reader, 100) or 0) / 1024
+    return int(os.read(reader, 100) or 0) * 1024 / 1e6
 
 
 def main():
@@ -38,9 +38,9 @@ def main():
     if len(sys.argv) < 2:
         sys.exit("usage: bench/memory.py MESH [RESOLUTION]")
     resolution = int(sys.argv[2]) if len(sys.argv) > 2 else 8192
-    output = resolution * resolution * 16 / 2**20
-    fixed, peak = peak_mib(sys.argv[1], 64), peak_mib(sys.argv[1], resolution)
-    print(f"output {output:.0f} MiB, peak {peak:.0f} MiB; of it {fixed:.0f} MiB at 64x64 already (libraries, mesh, BVH)")
+    output = resolution * resolution * 16 / 1e6
+    fixed, peak = peak_mb(sys.argv[1], 64), peak_mb(sys.argv[1], resolution)
+    print(f"output {output:.0f} MB, peak {peak:.0f} MB; of it {fixed:.0f} MB at 64x64 already (libraries, mesh, BVH)")
     print(f"beyond the output: {100 * (peak / output - 1):.1f} %; beyond output and what 64x64 takes: "
           f"{100 * ((peak - fixed) / output - 1):.1f} %")
 

@@ -49,6 +49,12 @@ TEST_F(InstanceMaps, OneMapOfAllHasTheHint)
                 HasSubstr("instances mill, town hall overlap 0 % each: try <INSTANCE> in -o, for one map an instance"));
 }
 
+TEST_F(InstanceMaps, FewAreSaidToBeTriangles)
+{
+    EXPECT_THAT(done("makevismap quad.obj --occluder village.toml -o x.exr" + small),
+                HasSubstr("instances: none kept; 3 copies are triangles\n"));
+}
+
 TEST_F(InstanceMaps, AreDividedAndJoined)
 {
     done("makevismap village.toml -o 'all_<INSTANCE>.exr'" + small);

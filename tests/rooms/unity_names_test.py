@@ -37,6 +37,7 @@ def argument_counts(text):
 
 def declared_names(text):
     """(kind, name, detail) of each name that one declaration at namespace scope declares."""
+    whole = " ".join(text.split())
     text = re.sub(r"\[\[.*?\]\]", " ", text, flags=re.DOTALL)
     text = re.sub(r"->|<<|<=|>=", " ", text)
     while (shorter := re.sub(r"<[^<>]*>", " ", text)) != text:
@@ -47,7 +48,7 @@ def declared_names(text):
     if not text or text[0] in "),:" or re.match(r"friend\b|static_assert\b", text) or "operator" in text:
         return []
     if found := re.match(r"(?:using (\w+) =|namespace (\w+) =|using [\w:]*\b(\w+)$)", text):
-        return [(USING if found[3] else ALIAS, found[1] or found[2] or found[3], text)]
+        return [(USING if found[3] else ALIAS, found[1] or found[2] or found[3], whole)]
     if text.startswith("using namespace"):
         return []
     if found := CLASS.fullmatch(text):
@@ -251,6 +252,7 @@ class UnityNames(unittest.TestCase):
         for one, other, count in [("int a();", "double a();", 1), ("int a();", "int a(int);", 0),
                                   ("int a(int = 1);", "int a();", 1), ("struct A {};", "class A;", 1),
                                   ("using b::A;", "using b::A;", 0), ("using A = int;", "using A = long;", 1),
+                                  ("using A = b<int>;", "using A = b<long>;", 1), ("using A = b<int>;", "using A = b<int>;", 0),
                                   ("using A = int;", "using A = int;", 0), ("int a;", "int b;", 0)]:
             files = {path: declarations(f"namespace {{ {text} }}") for path, text in (("1", one), ("2", other))}
             self.assertEqual(len(list(clashes(files))), count, (one, other))

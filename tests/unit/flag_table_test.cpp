@@ -70,7 +70,7 @@ TEST_F(FlagTables, ValuesAreRefusedInTheSameWords)
                                            [&](const auto& other) { return other.name == option.name; });
             ASSERT_NE(same, read.options.end());
             EXPECT_EQ(is_allowed(text, same->allowed, found), is_taken) << option.name << " " << text;
-            EXPECT_EQ(found.empty() ? "" : same->parameter + ": " + found, expected) << option.name << " " << text;
+            EXPECT_EQ(found.empty() ? "" : option.parameter + ": " + found, expected) << option.name << " " << text;
             ++(is_taken ? taken : refused);
         }
     EXPECT_GT(refused, 100);

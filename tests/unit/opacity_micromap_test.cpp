@@ -15,7 +15,7 @@ using namespace vmlight::cutout_scene;
 
 namespace {
 
-using Corners = std::array<V2f, 3>;
+using UvCorners = std::array<V2f, 3>;
 
 class Dice
 {
@@ -51,9 +51,9 @@ AlphaPointer random_texture(Dice& dice)
     return texture(width, height, alpha, dice.wrap(), dice.wrap(), dice.below(3) == 0);
 }
 
-Corners random_corners(Dice& dice)
+UvCorners random_corners(Dice& dice)
 {
-    Corners uvs;
+    UvCorners uvs;
     const double size = std::array<double, 4> { 0.02, 0.5, 1, 4 }[size_t(dice.below(4))];
     const double away = dice.below(4) ? 0 : std::pow(10, dice.in(0, 7));
     for (V2f& uv : uvs)
@@ -145,7 +145,7 @@ TEST(OpacityMicromap, NoCellEverDisagreesWithItsTexture)
 TEST(OpacityMicromap, OnlyCellsAtTheBorderAskTheTexture)
 {
     const MaterialOpacity rule = material(AlphaMode::mask, leaf(256));
-    const Corners uvs { V2f(0, 0), V2f(1, 0), V2f(0, 1) };
+    const UvCorners uvs { V2f(0, 0), V2f(1, 0), V2f(0, 1) };
     const TriangleOpacity triangle(rule, { uvs, uvs });
     const OpacityMicromap map = make_micromap(triangle, micromap_level(triangle));
     EXPECT_GE(map.grid.level, 6);
@@ -157,8 +157,8 @@ TEST(OpacityMicromap, OnlyCellsAtTheBorderAskTheTexture)
 
 TEST(OpacityMicromap, WhatIsTheSameThroughoutHasNoCells)
 {
-    const Corners uvs { V2f(0, 0), V2f(1, 0), V2f(0, 1) };
-    const auto made = [&](AlphaMode mode, const AlphaPointer& alpha, const Corners& corners) {
+    const UvCorners uvs { V2f(0, 0), V2f(1, 0), V2f(0, 1) };
+    const auto made = [&](AlphaMode mode, const AlphaPointer& alpha, const UvCorners& corners) {
         const MaterialOpacity rule = material(mode, alpha);
         const TriangleOpacity triangle(rule, { corners, corners });
         return make_micromap(triangle, micromap_level(triangle));
@@ -171,7 +171,7 @@ TEST(OpacityMicromap, WhatIsTheSameThroughoutHasNoCells)
     EXPECT_EQ(made(AlphaMode::blend, flat(0.5f), uvs).whole, CellState::unknown);
     // A point of a texture, between two texels of which the range says nothing.
     const AlphaPointer ramp = texture(2, 1, [](int x, int) { return float(x); });
-    const Corners point { V2f(0.6f, 0.5f), V2f(0.6f, 0.5f), V2f(0.6f, 0.5f) };
+    const UvCorners point { V2f(0.6f, 0.5f), V2f(0.6f, 0.5f), V2f(0.6f, 0.5f) };
     const OpacityMicromap at_point = made(AlphaMode::mask, ramp, point);
     EXPECT_EQ(at_point.whole, CellState::opaque);
     EXPECT_TRUE(at_point.cells.empty());
@@ -184,7 +184,7 @@ TEST(OpacityMicromap, WhatIsTheSameThroughoutHasNoCells)
 TEST(OpacityMicromap, HostileTexturesAndUvsAreDefined)
 {
     constexpr float kInf = std::numeric_limits<float>::infinity(), kMost = std::numeric_limits<float>::max();
-    const std::vector<Corners> corners {
+    const std::vector<UvCorners> corners {
         { V2f(0, 0), V2f(1, 0), V2f(0, 1) },          { V2f(-1e6f, 3e7f), V2f(1e6f, 0), V2f(0, 1) },
         { V2f(1e20f, 0), V2f(1e20f, 0), V2f(0, 1) },  { V2f(kMost, kMost), V2f(-kMost, -kMost), V2f(kMost, -kMost) },
         { V2f(NAN, 0), V2f(1, 0), V2f(0, 1) },        { V2f(0, 0), V2f(kInf, 0), V2f(0, -kInf) },
@@ -196,7 +196,7 @@ TEST(OpacityMicromap, HostileTexturesAndUvsAreDefined)
         for (TextureWrap wrap : { TextureWrap::clamp, TextureWrap::periodic, TextureWrap::mirror }) {
             const AlphaPointer alpha = texture(
                 width, height, [&](int x, int y) { return (x / 3 + y / 3) % 2 ? 1.0f : 0.0f; }, wrap, wrap);
-            for (const Corners& uvs : corners)
+            for (const UvCorners& uvs : corners)
                 for (AlphaMode mode : { AlphaMode::mask, AlphaMode::blend }) {
                     const MaterialOpacity rule = material(mode, alpha);
                     const TriangleOpacity triangle(rule, { uvs, uvs });

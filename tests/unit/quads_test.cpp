@@ -14,11 +14,11 @@ using namespace mesh_files;
 
 namespace {
 
-using Corners = std::array<V3d, 4>;
+using QuadCorners = std::array<V3d, 4>;
 
-const Corners kUnitSquare { V3d(0, 0, 0), V3d(1, 0, 0), V3d(1, 1, 0), V3d(0, 1, 0) };
+const QuadCorners kUnitSquare { V3d(0, 0, 0), V3d(1, 0, 0), V3d(1, 1, 0), V3d(0, 1, 0) };
 
-Corners scaled(Corners quad, double scale)
+QuadCorners scaled(QuadCorners quad, double scale)
 {
     for (V3d& corner : quad)
         corner *= scale;
@@ -26,15 +26,15 @@ Corners scaled(Corners quad, double scale)
 }
 
 // The square with corner k at `at`.
-Corners square_with(size_t k, const V3d& at)
+QuadCorners square_with(size_t k, const V3d& at)
 {
-    Corners quad = kUnitSquare;
+    QuadCorners quad = kUnitSquare;
     quad[k] = at;
     return quad;
 }
 
 // As the one face of a file with texture coordinates of its own for each corner.
-std::string obj_of(const Corners& quad)
+std::string obj_of(const QuadCorners& quad)
 {
     std::string text;
     for (const V3d& p : quad)
@@ -42,7 +42,7 @@ std::string obj_of(const Corners& quad)
     return text + "f 1/1 2/2 3/3 4/4\n";
 }
 
-std::string collada_of(const Corners& quad)
+std::string collada_of(const QuadCorners& quad)
 {
     std::string numbers;
     for (const V3d& p : quad)
@@ -80,7 +80,7 @@ TEST(Quads, AreCutAlikeHoweverTheyBend)
     std::mt19937 random(5);
     std::uniform_real_distribution<double> bend(-0.7, 0.7);
     for (int i = 0; i < 1000; ++i) {
-        Corners quad = kUnitSquare;
+        QuadCorners quad = kUnitSquare;
         for (V3d& corner : quad)
             corner.z += bend(random);
         EXPECT_EQ(quad_diagonal(quad), 0) << i;
@@ -89,7 +89,7 @@ TEST(Quads, AreCutAlikeHoweverTheyBend)
 
 TEST_F(MeshFiles, PosesOfAQuadHaveTheSameTriangles)
 {
-    const Corners bent = square_with(2, V3d(0.8, 0.8, 0.9)), folded = square_with(1, V3d(0.4, 0.6, 0));
+    const QuadCorners bent = square_with(2, V3d(0.8, 0.8, 0.9)), folded = square_with(1, V3d(0.4, 0.6, 0));
     for (const bool is_collada : { false, true }) {
         const char* const name = is_collada ? "quad.dae" : "quad.obj";
         const auto file = is_collada ? collada_of : obj_of;

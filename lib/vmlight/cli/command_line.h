@@ -35,7 +35,7 @@ struct CommandLine
         bool is_repeatable = false;
         /// The words that it accepts, if it is one that takes words.
         std::vector<Choice> choices {};
-        /// The parameter that the value is for, in messages, and what it allows.
+        /// The parameter that the value is for, as messages of the library name it, and what it allows.
         std::string parameter {};
         AllowedValue allowed {};
 

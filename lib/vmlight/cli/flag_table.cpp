@@ -77,9 +77,9 @@ AllowedValue value_of(const Json& json, const std::vector<Choice>& choices)
 
 Json option_json(const Option& option)
 {
-    Json json { { "heading", option.heading },         { "name", option.name }, { "parameter", option.parameter },
-                { "metavar", option.metavar },         { "help", option.help }, { "advanced", option.is_advanced },
-                { "repeatable", option.is_repeatable } };
+    Json json { { "heading", option.heading },      { "name", option.name },
+                { "metavar", option.metavar },      { "help", option.help },
+                { "advanced", option.is_advanced }, { "repeatable", option.is_repeatable } };
     json["value"] = std::visit(ValueJson {}, option.allowed);
     json["choices"] = Json::array();
     for (const Choice& choice : option.choices)
@@ -92,7 +92,6 @@ Option option_of(const Json& json)
     Option option;
     option.heading = json.at("heading");
     option.name = json.at("name");
-    option.parameter = json.at("parameter");
     option.metavar = json.at("metavar");
     option.help = json.at("help");
     option.is_advanced = json.at("advanced");

@@ -61,11 +61,6 @@ StageMain::StageMain(std::string name, std::string purpose, std::vector<std::str
     params(kOutputHeading, m_command.common);
 }
 
-bool StageMain::has_option(const std::string& name) const
-{
-    return m_command.has(name);
-}
-
 void StageMain::drop(const std::string& name)
 {
     auto& options = m_command.line.options;

@@ -36,7 +36,7 @@ public:
     {
         group(heading);
         for (CommandLine::Option& option : options_of(heading, params, prefix))
-            if (!has_option(option.name))
+            if (!m_command.has(option.name))
                 m_command.line.options.push_back(std::move(option));
     }
 
@@ -137,7 +137,6 @@ public:
     bool write(OIIO::cspan<OIIO::ImageBuf> images, const std::string& path, std::string& error);
 
 private:
-    bool has_option(const std::string& name) const;
     void accept_recipe(const char* stage, RecipeAccess access);
     bool do_work(const std::function<bool(std::string& error)>& work, std::string& error);
     std::string with_flags(std::string error) const;

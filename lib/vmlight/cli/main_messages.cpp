@@ -24,7 +24,7 @@ std::string StageMain::with_flags(std::string error) const
         return error;
     const size_t name = start + before.size(), end = std::min(error.find(after, name), error.size());
     const std::string parameter = error.substr(name, end - name);
-    return has_option(parameter) ? error.substr(0, name) + flag_of(parameter) + error.substr(end) : error;
+    return m_command.has(parameter) ? error.substr(0, name) + flag_of(parameter) + error.substr(end) : error;
 }
 
 // Saves the recipe, or prints what is asked for instead of work.

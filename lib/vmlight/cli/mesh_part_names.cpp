@@ -20,6 +20,14 @@ const std::vector<MeshPartPattern>& mesh_part_patterns()
     return patterns;
 }
 
+std::string mesh_part_pattern_list()
+{
+    std::string list;
+    for (const MeshPartPattern& pattern : mesh_part_patterns())
+        list += (list.empty() ? "" : " and ") + std::string(pattern.text);
+    return list;
+}
+
 const MeshPartPattern* mesh_part_pattern(const std::string& path)
 {
     for (const MeshPartPattern& pattern : mesh_part_patterns())

@@ -25,6 +25,9 @@ struct MeshPartPattern
 /// All of them.
 const std::vector<MeshPartPattern>& mesh_part_patterns();
 
+/// Their texts, as a list in words: "<MATERIAL> and <INSTANCE>".
+std::string mesh_part_pattern_list();
+
 /// The pattern of `path`, the first in that order; nullptr without.
 const MeshPartPattern* mesh_part_pattern(const std::string& path);
 

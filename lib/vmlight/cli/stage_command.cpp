@@ -48,7 +48,7 @@ std::string StageCommand::output_warning() const
             return format("\"{}\": {} stays in the file name: {} replaces nothing in it", output, text, line.name);
         if (!has_udim_pattern(text) && !mesh_part_pattern(text))
             return format("\"{}\": {} stays in the file name: the placeholders are {}", output, text,
-                          line.stage == VismapRecipe::kStage ? "<UDIM>, <MATERIAL> and <INSTANCE>" : "<UDIM>");
+                          line.stage == VismapRecipe::kStage ? "<UDIM>, " + mesh_part_pattern_list() : "<UDIM>");
     }
     const bool has_numbers = is_given("frames") || is_given("pose");
     return output.find("##") != std::string::npos && has("frames") && !has_numbers

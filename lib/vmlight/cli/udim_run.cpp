@@ -18,14 +18,6 @@ namespace {
 // Parameters that name inputs, in the order in which they determine the tiles.
 constexpr const char* kInputs[] = { "mesh", "occluder", "vismap", "albedo", "environment", "cfem", "colorconfig" };
 
-std::string pattern_list()
-{
-    std::string list;
-    for (const MeshPartPattern& pattern : mesh_part_patterns())
-        list += (list.empty() ? "" : " and ") + std::string(pattern.text);
-    return list;
-}
-
 bool is_vismap_recipe(const std::string& name)
 {
     return recipe_stage(name) == VismapRecipe::kStage;
@@ -81,7 +73,8 @@ template <class Recipe> std::string UdimRun<Recipe>::mesh_part_fault() const
     if (!pattern)
         return "";
     if (mesh_part_pattern(mesh_part_path(output, *pattern, "")))
-        return format("\"{}\": give one of {}, and choose among the other by its flag", output, pattern_list());
+        return format("\"{}\": give one of {}, and choose among the other by its flag", output,
+                      mesh_part_pattern_list());
     if constexpr (std::is_same_v<Recipe, VismapRecipe>)
         return has_udim_pattern(m_recipe.mesh) && !is_single_tile()
             ? format("\"{}\": {} needs one mesh for all tiles, or --udim; \"{}\" is one for each", output,
