@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where texels scatter by chance alone, where on a slope, and where by more.
 #include <vmlight/vismap/neighbour_fit.h>
+#include <vmlight/vismap/neighbour_means.h>
 #include <vmlight/vismap/neighbour_weights.h>
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // What texels take from their neighbours, and what they keep.
 #include "error_scenes.h"
 
+#include <vmlight/vismap/neighbour_means.h>
 #include <vmlight/vismap/neighbour_weights.h>
 #include <vmlight/vismap/reconstruct.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which neighbours are near on the surface, eight texels at a time: what both kernels of reconstruction ask. Included
-/// once for each instruction set (Highway's "-inl.h"), after hwy/foreach_target.h.
+/// Eight texels at a time: the vectors of all kernels of reconstruction, and which neighbours are near on the surface.
+/// Included once for each instruction set (Highway's "-inl.h"), after hwy/foreach_target.h.
 #if defined(VMLIGHT_NEIGHBOUR_NEAR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VMLIGHT_NEIGHBOUR_NEAR_INL_H
 #undef VMLIGHT_NEIGHBOUR_NEAR_INL_H

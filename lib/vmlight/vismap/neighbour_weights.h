@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How much of a neighbouring texel goes into a texel: the vector kernels of reconstruction.
+/// How much of a neighbouring texel goes into a texel: a vector kernel of reconstruction.
 #pragma once
 
 #include <vmlight/vismap/neighbour_window.h>
@@ -15,12 +15,5 @@ namespace vmlight {
 /// Zwicker, "Adaptive rendering with non-local means filtering", TOG 31(6), 2012; and the first order of B. Moon, N.
 /// Carr, S.-E. Yoon, "Adaptive rendering based on weighted local regression", TOG 33(5), 2014.
 void weigh_neighbours(NeighbourWindow& window);
-
-/// Set `change` (of the tile, row by row) to the weighted mean of what `plane` has in a texel and its neighbours, less
-/// what it has in the texel itself. Exactly 0 where they have the same.
-void mean_change(const NeighbourWindow& window, const float* plane, float* change);
-
-/// Set `variance` (of the tile, row by row) to that of the weighted mean, if texels are independent.
-void mean_variance(const NeighbourWindow& window, float* variance);
 
 } // namespace vmlight

@@ -7,6 +7,7 @@
 #include <vmlight/math/longest_direction.h>
 #include <vmlight/vismap/baker.h>
 #include <vmlight/vismap/basis.h>
+#include <vmlight/vismap/neighbour_means.h>
 #include <vmlight/vismap/sun_visibility.h>
 #include <vmlight/vismap/visibility_integrator.h>
 
