@@ -10,6 +10,7 @@ using namespace vmlight;
 using OIIO::Strutil::replace;
 using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -70,8 +71,13 @@ TEST_F(Meshes, SurprisesAreWarnedAboutWithTheirCounts)
     EXPECT_THAT(done("makevismap double.obj -o x.exr --resolution 8 --samples 4"),
                 HasSubstr("WARNING: 36 texels (56.25 % of the covered ones) belong to more than one triangle"));
     write("outside.obj", replace(kQuad, "vt 1 1", "vt 2 2"));
-    EXPECT_THAT(done("makevismap outside.obj -o x.exr --resolution 8 --samples 4"),
-                HasSubstr("WARNING: 2 of 2 triangles reach outside [0,1]"));
+    const std::string said = done("makevismap outside.obj -o x.exr --resolution 8 --samples 4");
+    EXPECT_THAT(said, HasSubstr("WARNING: 2 of 2 triangles reach outside [0,1] in UV, into other UDIM tiles"));
+    EXPECT_THAT(said, Not(HasSubstr("all UDIM tiles")));
+    write("below.obj", replace(kQuad, "vt 1 1", "vt -1 -1"));
+    const std::string below = done("makevismap below.obj -o x.exr --resolution 8 --samples 4");
+    EXPECT_THAT(below, HasSubstr("WARNING: 2 of 2 triangles reach outside all UDIM tiles"));
+    EXPECT_THAT(below, Not(HasSubstr("--udim"))) << "no tile has them";
     // A map of one texel, and one triangle of two.
     write("one.obj",
           replace(kQuad, "f 1/1/1 2/2/1 3/3/1 4/4/1\n", "vt 2 2\n" + triangle + triangle + "f 1/1/1 2/2/1 3/5/1\n"));

@@ -52,7 +52,7 @@ TEST_F(Tiles, ATileIsTheMapOfTheMeshWithItsUvsMovedThere)
     for (const auto& [udim, u, v] : { std::tuple(1001, 0, 0), { 1002, 1, 0 }, { 1011, 0, 1 } }) {
         EXPECT_THAT(printed, HasSubstr(format("tile {}: bake: ", udim)));
         write_mesh("moved.obj", { { 0. - u, 0. - v }, { 1. - u, 0. - v }, { 0. - u, 1. - v } });
-        EXPECT_THAT(done("makevismap moved.obj -o moved.exr" + small), HasSubstr("reach outside [0,1] in UV"));
+        EXPECT_THAT(done("makevismap moved.obj -o moved.exr" + small), HasSubstr("triangles reach outside "));
         expect_same_pixels(format("vm.{}.exr", udim), "moved.exr", 0);
         done(format("makevismap hero.obj -o one.exr --udim {}", udim) + small);
         EXPECT_TRUE(read("one.exr") == read(format("vm.{}.exr", udim))) << udim;

@@ -17,16 +17,16 @@ namespace {
 void report_outside(const MakeOptions& options, const UvReport& uv, const VismapRecipe& recipe)
 {
     const auto warn = [&](const std::string& line) { options.report_warning(line); };
-    const int64_t across = uv.outside - uv.fully_outside;
-    if (!recipe.udim_given && uv.outside > 0)
-        warn(format("{} of {} {} outside [0,1] in UV: the part outside is not baked{}", uv.outside,
-                    count_text(uv.triangles, "triangle", "triangles"), plural(uv.outside, "reaches", "reach"),
-                    uv.outside > uv.beyond_udims ? "; other UDIM tiles have it, see --udim" : ""));
+    const int64_t across = uv.outside - uv.fully_outside, in_others = uv.outside - uv.beyond_udims;
+    if (!recipe.udim_given && in_others > 0)
+        warn(format("{} of {} {} outside [0,1] in UV, into other UDIM tiles: that part is not baked; see --udim",
+                    in_others, count_text(uv.triangles, "triangle", "triangles"),
+                    plural(in_others, "reaches", "reach")));
     if (recipe.udim_given && across > 0)
         warn(format("{} of {} {} outside tile {} in UV: the part outside is not in this map", across,
                     count_text(uv.triangles, "triangle", "triangles"), plural(across, "reaches", "reach"),
                     recipe.vismap_params.udim));
-    if (recipe.udim_given && uv.beyond_udims > 0 && !options.repeated_inputs)
+    if (uv.beyond_udims > 0 && !options.repeated_inputs)
         warn(beyond_udims_warning(uv));
 }
 

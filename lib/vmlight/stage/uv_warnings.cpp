@@ -21,7 +21,8 @@ std::string beyond_udims_warning(const UvReport& uv)
 {
     return uv.beyond_udims == 0
         ? ""
-        : format("{} of {} {} outside all UDIM tiles (u below 0 or above 10, or v below 0): that part is not baked",
+        : format("{} of {} {} outside all UDIM tiles (u below 0 or above 10, or v below 0): that part is not baked; "
+                 "move its UVs into a tile",
                  uv.beyond_udims, count_text(uv.triangles, "triangle", "triangles"),
                  plural(uv.beyond_udims, "reaches", "reach"));
 }
