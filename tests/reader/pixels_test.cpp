@@ -47,6 +47,18 @@ TEST_F(ReaderPixels, ARecipeAndTheExecutableGiveTheSameBits)
     expect_same_pixels("env.lightmap?rotate=0,30,0&model=paper", "lit.exr", 0);
 }
 
+TEST_F(ReaderPixels, LightWithoutSunsBouncesAlsoWhereSunsAreAskedFor)
+{
+    make_sky({ 1, 2, 3 }, "paint.exr", 8, 8);
+    write("grove.lightmap",
+          "vismap = \"vm.exr\"\nenvironment = \"" + std::string(VMLIGHT_TEST_DATA)
+              + "/forest_slope.hdr\"\nmesh = \"spot.obj\"\nalbedo = \"paint.exr\"\nsuns = \"auto\"\n"
+                "bounce = \"auto\"\nbounce_rays = 8\n");
+    done("makevismap spot.obj -o vm.exr --resolution 64 --samples 4");
+    EXPECT_THAT(done("makelightmap grove.lightmap -o lit.exr"), HasSubstr("suns: none"));
+    expect_same_pixels("grove.lightmap", "lit.exr", 0);
+}
+
 TEST_F(ReaderPixels, AStackIsSubimagesAndLightsByLobes)
 {
     done("makevismap hero.vismap -o vm.exr");

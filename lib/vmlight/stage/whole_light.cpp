@@ -68,9 +68,10 @@ bool WholeLight::add_bounce(LightmapShader& dst, const std::vector<OIIO::ImageBu
     if (!m_images.bounce)
         return true;
     const OIIO::ImageBuf* whole = map(error);
-    const SunLight* suns = m_suns && !m_suns->suns.empty() ? m_suns.get() : nullptr;
     auto light = std::make_shared<BounceLight>();
-    if (!whole || !m_images.bounce->light(*light, *whole, cfem, suns, m_recipe.lightmap_params, *albedo, {}, error))
+    // With suns, even if there are none: their light was looked for, and the CFEM says so.
+    if (!whole
+        || !m_images.bounce->light(*light, *whole, cfem, m_suns.get(), m_recipe.lightmap_params, *albedo, {}, error))
         return false;
     m_bytes += sizeof(float) * light->light.size() + m_images.bounce->bytes();
     if (!light->light.empty())
