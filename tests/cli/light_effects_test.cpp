@@ -198,6 +198,21 @@ TEST_F(LightEffects, ContradictionsAreRefused)
     done(command + "--suns auto --effects -suns"); // what the suns add
 }
 
+// What is switched on stays on in the light that the picture is compared with.
+TEST_F(LightEffects, SwitchedOnIsAskedForAlsoWhereSomethingElseIsSwitchedOff)
+{
+    done("makecfem " + std::string(VMLIGHT_TEST_DATA) + "/kloppenheim_05.hdr --suns auto --stack -o stack.exr");
+    const auto warning = [&](const std::string& flags) {
+        const std::string said
+            = light("stack.exr --mesh quad.obj --albedo half_lin_rec709.exr -o a.exr " + flags + " --quiet");
+        return said.substr(std::min(said.find("WARNING: --effects"), said.size()));
+    };
+    const std::string by_flag = warning("--suns on --effects -albedo");
+    EXPECT_THAT(by_flag, HasSubstr("the picture has albedo, left out"));
+    EXPECT_EQ(warning("--effects +suns,-albedo"), by_flag);
+    EXPECT_EQ(warning("--effects all,-albedo --suns on"), by_flag);
+}
+
 // Of an animation, the first frame alone is lit both ways.
 TEST_F(LightEffects, AnAnimationIsComparedOnce)
 {

@@ -26,6 +26,15 @@ std::string without_words(const std::string& effects, const std::vector<std::str
     return left.empty() ? "auto" : OIIO::Strutil::join(left, ",");
 }
 
+std::string without_switches_off(const std::string& effects)
+{
+    std::vector<std::string> off;
+    for (const std::string& part : OIIO::Strutil::splits(effects, ","))
+        if (const std::string word(OIIO::Strutil::strip(part)); !word.empty() && word[0] == '-')
+            off.push_back(word);
+    return without_words(effects, off);
+}
+
 VismapRecipe with_switches(const VismapRecipe& recipe)
 {
     const EffectSwitches switches = switches_of(recipe.effects, VismapRecipe::kStage);

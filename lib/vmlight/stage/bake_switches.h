@@ -17,6 +17,9 @@ EffectSwitches switches_of(const std::string& effects, const char* stage);
 /// `effects` without those words of `words` that are in it.
 std::string without_words(const std::string& effects, const std::vector<std::string>& words);
 
+/// `effects` without what it switches off: what it switches on stays.
+std::string without_switches_off(const std::string& effects);
+
 /// What the recipe bakes: without the ground, cut-outs, the normal map, the maximum distance, reconstruction or the
 /// margin, if they are switched off; without reconstruction also if there is a normal map; tracing all texels, if
 /// self-occlusion is switched on.

@@ -89,7 +89,7 @@ bool find_facts(LightFacts& dst, const LightmapInputs& inputs, const LightmapRec
         && find_bounce_facts(dst, inputs.bounce.get(), inputs.vismap, options, error);
 }
 
-// How far the light is from what it would be without the switches.
+// How far the light is from what it would be with nothing switched off.
 bool compare_lights(Difference& dst, const LightmapInputs& inputs, const SwitchedLight& light,
                     const MakeOptions& options, std::string& error)
 {
@@ -97,7 +97,7 @@ bool compare_lights(Difference& dst, const LightmapInputs& inputs, const Switche
     quiet.chain = options.chain;
     quiet.threads = options.threads;
     LightmapRecipe whole = light.asked;
-    whole.effects = "auto";
+    whole.effects = without_switches_off(light.asked.effects);
     LightmapInputs all = inputs; // what is the same is not read again
     OIIO::ImageBuf lit[2];
     if (!read_lightmap_inputs(all, whole, quiet, error) || !make_lightmap(lit[0], inputs, light.params, quiet, error)
