@@ -36,6 +36,35 @@ ReconstructPilot::ReconstructPilot(const BakeScene& scene, const VismapPilot& pi
     m_params.sun_directions.clear();
 }
 
+int64_t ReconstructPilot::traced_texels() const
+{
+    return int64_t(m_traced.size()) + 2 * kProbeRays * int64_t(m_middles.size());
+}
+
+bool ReconstructPilot::trace(std::vector<Visibility>& dst, const std::vector<const Texel*>& texels,
+                             const SamplePattern& pattern, int seed, bool is_independent) const
+{
+    VismapParams params = m_params;
+    params.seed = seed;
+    const GroundPlane ground = ground_of(m_scene, params);
+    std::vector<std::unique_ptr<VisibilityIntegrator>> integrators(static_cast<size_t>(worker_count(m_threads)));
+    for (auto& integrator : integrators)
+        integrator = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), pattern, params, m_scene.frame().scale,
+                                                            ground);
+    dst.resize(texels.size());
+    const size_t group = size_t(std::max(1, kRaysPerGroup / pattern.count()));
+    const auto work = [&](int64_t item, int worker) {
+        const size_t first = size_t(item) * group, last = std::min(texels.size(), first + group);
+        for (size_t k = first; k < last; ++k) {
+            const Texel& texel = *texels[k];
+            const Point32 shift = is_independent ? texel_hash(uint32_t(texel.x), uint32_t(texel.y), uint32_t(seed))
+                                                 : pattern.texel(texel.x, texel.y, uint32_t(seed));
+            dst[k] = integrators[size_t(worker)]->integrate(texel.point, shift, texel.open);
+        }
+    };
+    return parallel_items(int64_t((texels.size() + group - 1) / group), m_threads, work, m_progress);
+}
+
 bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, ReconstructError& dst) const
 {
     const int samples = plain.samples;
@@ -43,24 +72,15 @@ bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, Re
     const auto most = size_t(std::clamp(kRaysPerGroup / (kSide * kSide * samples), 1, kAcross * kAcross));
     const int probe_samples = std::max(samples, std::min(samples * kProbeRays, kMostProbeRays));
     const SamplePattern pattern(m_params.sampler, samples, false), probe(m_params.sampler, probe_samples, false);
-    std::array<VismapParams, 3> params { m_params, m_params, m_params };
-    for (size_t k = 0; k < params.size(); ++k) // no user seed has the highest bit set
-        params[k].seed = int(texel_hash(uint32_t(samples), uint32_t(k) + 1, uint32_t(m_params.seed)).u | 0x80000000u);
-    const GroundPlane ground = ground_of(m_scene, m_params);
-    const double units = m_scene.frame().scale;
-
-    struct Worker
-    {
-        std::array<std::unique_ptr<VisibilityIntegrator>, 3> integrators;
-        std::unique_ptr<Reconstruction> reconstruction;
-    };
-    std::vector<Worker> workers(static_cast<size_t>(worker_count(m_threads)));
-    for (Worker& worker : workers) {
-        for (size_t k = 0; k < 3; ++k)
-            worker.integrators[k] = std::make_unique<VisibilityIntegrator>(m_scene.occluder(), k ? probe : pattern,
-                                                                           params[k], units, ground);
-        worker.reconstruction = std::make_unique<Reconstruction>(m_params, pattern_error);
+    std::array<std::vector<Visibility>, 3> seen; // by the windows, and twice by their middles
+    for (size_t k = 0; k < seen.size(); ++k) { // no user seed has the highest bit set
+        const int seed = int(texel_hash(uint32_t(samples), uint32_t(k) + 1, uint32_t(m_params.seed)).u | 0x80000000u);
+        if (!trace(seen[k], k ? m_middles : m_traced, k ? probe : pattern, seed, k > 0))
+            return false;
     }
+    std::vector<std::unique_ptr<Reconstruction>> reconstructions(static_cast<size_t>(worker_count(m_threads)));
+    for (auto& reconstruction : reconstructions)
+        reconstruction = std::make_unique<Reconstruction>(m_params, pattern_error);
     struct Sums
     {
         double squares = 0, plain = 0, fourth = 0, expected = 0, texels = 0;
@@ -68,12 +88,12 @@ bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, Re
     std::vector<Sums> sums((m_windows.size() + most - 1) / most);
     // As many windows as fit are reconstructed as if they were one tile: no texel reaches into the next window.
     const auto work = [&](int64_t group, int index) {
-        auto& [integrators, reconstruction] = workers[size_t(index)];
+        Reconstruction& reconstruction = *reconstructions[size_t(index)];
         constexpr int kHalo = NeighbourWindow::kHalo, kChannels = 5;
         constexpr size_t kPitch = size_t(kTileSize) * kChannels;
         std::vector<float> raw(kPitch * kTileSize);
         TexelContexts contexts(0, 0, kTileSize, kTileSize);
-        reconstruction->clear();
+        reconstruction.clear();
         const size_t first = size_t(group) * most, last = std::min(m_windows.size(), first + most);
         const auto slot = [&](size_t window, int i) {
             return Imath::V2i(int((window - first) % kAcross) * kSide + i % kSide - kHalo,
@@ -84,14 +104,13 @@ bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, Re
                 const Texel& texel = m_windows[k].texels[size_t(i)];
                 if (texel.spacing == 0)
                     continue;
-                const Visibility seen = integrators[0]->integrate(
-                    texel.point, pattern.texel(texel.x, texel.y, uint32_t(params[0].seed)), texel.open);
+                const Visibility& own = seen[0][m_windows[k].traced[size_t(i)]];
                 const TexelContext context { texel.point.near_origin, texel.point.normal, texel.spacing,
-                                             float(seen.error * seen.error) };
-                const std::array<float, kChannels> channels { float(seen.visibility), float(seen.direction.x),
-                                                              float(seen.direction.y), float(seen.direction.z), 0 };
+                                             float(own.error * own.error) };
+                const std::array<float, kChannels> channels { float(own.visibility), float(own.direction.x),
+                                                              float(own.direction.y), float(own.direction.z), 0 };
                 const Imath::V2i at = slot(k, i);
-                reconstruction->add(at.x, at.y, channels.data(), context);
+                reconstruction.add(at.x, at.y, channels.data(), context);
                 if (at.x < 0 || at.y < 0 || at.x >= kTileSize || at.y >= kTileSize)
                     continue;
                 contexts.at(at.x, at.y) = context;
@@ -99,7 +118,7 @@ bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, Re
                           raw.begin() + int64_t(size_t(at.y) * kPitch + size_t(at.x) * kChannels));
             }
         std::vector<float> texels = raw;
-        reconstruction->apply(raw.data(), texels.data(), kPitch, 0, 0, contexts);
+        reconstruction.apply(raw.data(), texels.data(), kPitch, 0, 0, contexts);
         Sums& sum = sums[size_t(group)];
         for (size_t k = first; k < last; ++k) {
             const Texel& texel = m_windows[k].texels[kMiddle];
@@ -109,8 +128,7 @@ bool ReconstructPilot::measure(const PilotError& plain, double pattern_error, Re
             const size_t channel = size_t(at.y) * kPitch + size_t(at.x) * kChannels;
             double square = 1, plain_square = 1;
             for (size_t p = 1; p < 3; ++p) {
-                const Point32 hash = texel_hash(uint32_t(texel.x), uint32_t(texel.y), uint32_t(params[p].seed));
-                const double truth = integrators[p]->integrate(texel.point, hash, texel.open).visibility;
+                const double truth = seen[p][m_middle_of[m_windows[k].traced[kMiddle]]].visibility;
                 square *= double(texels[channel]) - truth;
                 plain_square *= double(raw[channel]) - truth;
             }

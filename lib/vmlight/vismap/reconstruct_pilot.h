@@ -11,9 +11,11 @@
 #include <vmlight/vismap/open_triangles.h>
 #include <vmlight/vismap/pilot.h>
 #include <vmlight/vismap/seam_links.h>
+#include <vmlight/vismap/visibility_integrator.h>
 #include <vmlight/vismap/vismap.h>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace vmlight {
@@ -48,6 +50,10 @@ public:
     /// @param pattern_error  the function of this name, at that number
     bool measure(const PilotError& plain, double pattern_error, ReconstructError& dst) const;
 
+    /// What measure() traces, in texels of the map with their rays: after pick(). Windows of a small map share most of
+    /// their texels, and each is traced once.
+    int64_t traced_texels() const;
+
 private:
     /// The texel in the middle, whose error is measured, and around it what it is reconstructed from.
     static constexpr int kSide = 1 + 2 * NeighbourWindow::kHalo, kMiddle = kSide * kSide / 2;
@@ -63,12 +69,19 @@ private:
     struct Window
     {
         std::array<Texel, kSide * kSide> texels;
+        std::array<uint32_t, kSide * kSide> traced; ///< each in m_traced
         double counts = 1; ///< for so many
     };
+    static constexpr uint32_t kNotTraced = ~0u;
     bool choose(const UvRaster& raster, const OpenTriangles& open, const SeamLinks& seams);
     bool fill(const std::vector<Texel*>& texels, const UvRaster& raster, const OpenTriangles& open,
               const SeamLinks& seams) const;
     bool continue_windows(const UvRaster& raster, const OpenTriangles& open, const SeamLinks& seams);
+    void find_traced();
+    // Sets `dst` to what each of `texels` sees, with patterns that complement each other, or that are independent.
+    // False if stopped.
+    bool trace(std::vector<Visibility>& dst, const std::vector<const Texel*>& texels, const SamplePattern& pattern,
+               int seed, bool is_independent) const;
 
     const BakeScene& m_scene;
     const VismapPilot& m_pilot;
@@ -76,6 +89,9 @@ private:
     const int m_threads;
     const Progress m_progress;
     std::vector<Window> m_windows;
+    std::vector<const Texel*> m_traced; // of all windows, each once
+    std::vector<const Texel*> m_middles; // likewise of the middles
+    std::vector<uint32_t> m_middle_of; // by number in m_traced, the number in m_middles
 };
 
 } // namespace vmlight

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 namespace vmlight {
 namespace {
@@ -40,7 +42,32 @@ bool ReconstructPilot::pick(const UvRaster& raster, const OpenTriangles& open, c
             texels.push_back(&texel);
         }
     }
-    return fill(texels, raster, open, seams) && continue_windows(raster, open, seams);
+    if (!fill(texels, raster, open, seams) || !continue_windows(raster, open, seams))
+        return false;
+    find_traced();
+    return true;
+}
+
+void ReconstructPilot::find_traced()
+{
+    std::map<std::pair<int, int>, uint32_t> known; // by place in the map
+    for (Window& window : m_windows)
+        for (size_t i = 0; i < window.texels.size(); ++i) {
+            const Texel& texel = window.texels[i];
+            window.traced[i] = kNotTraced;
+            if (texel.spacing == 0)
+                continue;
+            const auto [found, is_new] = known.try_emplace({ texel.x, texel.y }, uint32_t(m_traced.size()));
+            if (is_new)
+                m_traced.push_back(&texel);
+            window.traced[i] = found->second;
+        }
+    m_middle_of.assign(m_traced.size(), kNotTraced);
+    for (const Window& window : m_windows)
+        if (const uint32_t middle = window.traced[kMiddle]; middle != kNotTraced && m_middle_of[middle] == kNotTraced) {
+            m_middle_of[middle] = uint32_t(m_middles.size());
+            m_middles.push_back(m_traced[middle]);
+        }
 }
 
 // Set the middles of the windows, and for how many each counts.

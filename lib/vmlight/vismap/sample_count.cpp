@@ -175,9 +175,13 @@ bool choose_samples(SampleCount& dst, const BakeScene& scene, const NormalMap* n
             double seconds = 0;
             if (pilot.texels() > 0 && !time_rays(seconds, pilot, time_budget))
                 return stopped();
-            seconds *= double(pilot.covered());
-            samples = seconds > 0 ? std::max(least, int(std::min(time_budget / seconds, double(kMost)))) : least;
-            dst.bake_seconds = seconds * samples;
+            // The error is measured at the same count, and takes its share of the time.
+            const double measured_texels = double(2 * pilot.texels())
+                + (reconstructs ? double(2 * scatter.texels() + windows.traced_texels()) : 0);
+            const double baked = double(pilot.covered());
+            const double fitting = time_budget / (seconds * (baked + measured_texels));
+            samples = seconds > 0 ? std::max(least, int(std::min(fitting, double(kMost)))) : least;
+            dst.bake_seconds = seconds * baked * samples;
         }
         if (!measure(samples, measured))
             return stopped();

@@ -122,7 +122,7 @@ struct VismapParams
               "Extra channels to store");
         field("basis", basis, basis_choices(), "What else to store, for the shading model of the same name");
         field("order", order, Range { 3, 8 }, advanced("Number of bands of the basis sh"));
-        field("sun_directions", sun_directions, Text {},
+        field("sun_directions", sun_directions, Text { "X,Y,Z;..." },
               advanced("Suns to store the visibility of, as x,y,z[,HALF_ANGLE];... in object space and degrees"));
     }
 };
