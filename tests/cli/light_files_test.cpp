@@ -130,6 +130,37 @@ TEST_F(LightFiles, OtherLayoutsAreKnownByTheirShape)
     EXPECT_THAT(done("makecfem sky.exr -o x.exr"), Not(HasSubstr("shadows")));
 }
 
+TEST_F(LightFiles, AFileThatWasCopiedInPartIsCalledIncomplete)
+{
+    done("makevismap " + std::string(VMLIGHT_TEST_DATA) + "/spot.obj -o vm.exr --resolution 16 --samples 1 --quiet");
+    make_image("sky.exr", { "R", "G", "B" }, { 1, 1, 1 });
+    OIIO::ImageBuf noise(OIIO::ImageSpec(64, 64, 3, OIIO::TypeUInt8)); // which no compression shortens
+    ASSERT_TRUE(OIIO::ImageBufAlgo::noise(noise, "white", 0, 1));
+    for (const std::string extension : { "png", "hdr", "exr", "tif" }) {
+        const std::string name = "part." + extension;
+        ASSERT_TRUE(noise.write(path(name))) << noise.geterror();
+        write(name, read(name).substr(0, read(name).size() / 2));
+        const Result result = run("makelightmap vm.exr sky.exr --albedo " + name + " -o x.exr");
+        EXPECT_EQ(result.code, 1);
+        EXPECT_THAT(result.err,
+                    HasSubstr("makelightmap ERROR: \"" + name // libpng prints a line of its own
+                              + "\": cannot read its pixels; the file may be damaged or incomplete ("));
+    }
+    // OpenImageIO gives what is left of it, and black.
+    refused(1, "\"part.tif\": cannot read its pixels; the file may be damaged or incomplete (",
+            "makevismap " + std::string(VMLIGHT_TEST_DATA)
+                + "/spot.obj --normal-map part.tif -o y.exr --resolution 16");
+}
+
+TEST_F(LightFiles, AFilteredEnvironmentIsNotFilteredAgainWithoutAWord)
+{
+    make_image("sky.exr", { "R", "G", "B" }, { 1, 1, 1 });
+    done("makecfem sky.exr -o once.exr");
+    EXPECT_THAT(
+        done("makecfem once.exr -o twice.exr"),
+        HasSubstr("WARNING: \"once.exr\": filtered already (its vmlight:stage is \"cfem\") and filtered again"));
+}
+
 TEST_F(LightFiles, ASkyOfEightBitsIsWarnedOf)
 {
     OIIO::ImageBuf sky(OIIO::ImageSpec(16, 8, 3, OIIO::TypeUInt8));

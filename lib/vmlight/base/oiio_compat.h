@@ -6,6 +6,7 @@
 #include <Imath/ImathVec.h>
 
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 #include <OpenImageIO/texture.h>
 
@@ -51,6 +52,20 @@ inline std::string with_path(const std::string& path, std::string reason)
     reason = replace(reason, "reader for " + quoted, "reader for it", true);
     reason = replace(reason, " (" + path + ")", "", true); // OpenEXR 3.4
     return quoted + ": " + reason;
+}
+
+/// Whether pixels that `file` says to have `read` are those of the file: its TIFF reader says so of a file that was cut
+/// short, and leaves black and an error.
+inline bool has_read(const OIIO::ImageInput& file, bool read)
+{
+    return read && !file.has_error();
+}
+
+/// OIIO's `reason` why the pixels of a file whose header it has read cannot be read: of decoders, which do not say that
+/// most such files were copied in part.
+inline std::string pixels_error(const std::string& reason)
+{
+    return "cannot read its pixels; the file may be damaged or incomplete (" + reason + ")";
 }
 
 /// Resize with a filter of OIIO's that is as wide as it is by default; a triangle's width is one pixel of the smaller

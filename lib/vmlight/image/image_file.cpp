@@ -36,6 +36,20 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
     return true;
 }
 
+// ImageBuf takes what is left of a file that was cut short; see has_read(). The other readers fail.
+bool is_whole_tiff(const std::string& path, int subimage, std::string& error)
+{
+    const auto file = open_image(path, error);
+    if (!file)
+        return false;
+    const OIIO::ImageSpec spec = file->spec(subimage, 0);
+    std::vector<char> pixels(size_t(spec.image_bytes(true)));
+    if (oiio::has_read(*file, file->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeUnknown, pixels.data())))
+        return true;
+    error = oiio::with_path(path, oiio::pixels_error(oiio::error_line(*file)));
+    return false;
+}
+
 // Readers multiply colour by alpha before vmlight can decode it (PNG, TIFF, Targa), unless asked not to.
 OIIO::ImageSpec reading_hints()
 {
@@ -117,7 +131,13 @@ bool read_image(OIIO::ImageBuf& dst, const std::string& path, std::string& error
         return false;
     }
     if (!dst.read(subimage, 0, true, OIIO::TypeDesc::FLOAT)) {
-        error = oiio::with_path(path, oiio::error_line(dst));
+        const bool has_header = dst.spec().width > 0;
+        const std::string reason = oiio::error_line(dst);
+        error = oiio::with_path(path, has_header ? oiio::pixels_error(reason) : reason);
+        dst.clear();
+        return false;
+    }
+    if (dst.file_format_name() == std::string("tiff") && !is_whole_tiff(path, subimage, error)) {
         dst.clear();
         return false;
     }

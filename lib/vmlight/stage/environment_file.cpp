@@ -61,6 +61,14 @@ void report_doubts(const std::string& path, const OIIO::ImageSpec& spec, OIIO::T
     if (std::abs(spec.full_width - 2 * spec.full_height) > 2) // sample borders add one pixel each way
         options.report_warning(format("\"{}\" is {}x{}, not twice as wide as high: treated as a lat-long map anyway",
                                       path, spec.full_width, spec.full_height));
+    const std::string stage = spec.get_string_attribute("vmlight:stage");
+    if (stage == kCfemStage)
+        options.report_warning(format("\"{}\": filtered already (its vmlight:stage is \"{}\") and filtered again; give "
+                                      "makelightmap this file, or makecfem the environment itself",
+                                      path, stage));
+    else if (!stage.empty())
+        options.report_warning(
+            format("\"{}\": its vmlight:stage is \"{}\"; filtered as an environment anyway", path, stage));
     if (is_integer(stored))
         options.report_warning(format("\"{}\": {} bit, no light above 1: shadows will be weak; use an EXR or HDR", path,
                                       8 * stored.basesize()));

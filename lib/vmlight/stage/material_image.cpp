@@ -88,9 +88,9 @@ bool MaterialImage::open(const MaterialTexture& texture, std::string& error)
 
 bool MaterialImage::read(int first, int end, float* dst, std::string& error)
 {
-    if (m_in->read_image(0, 0, first, end, OIIO::TypeFloat, dst))
+    if (oiio::has_read(*m_in, m_in->read_image(0, 0, first, end, OIIO::TypeFloat, dst)))
         return true;
-    const std::string reason = oiio::error_line(*m_in);
+    const std::string reason = oiio::pixels_error(oiio::error_line(*m_in));
     error = m_memory ? format("\"{}\": a texture in it: {}", m_path, reason) : oiio::with_path(m_path, reason);
     return false;
 }

@@ -183,9 +183,9 @@ private:
             return false;
         }
         file->threads(threads);
-        if (file->read_image(m_first + subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst))
+        if (oiio::has_read(*file, file->read_image(m_first + subimage, 0, 0, spec.nchannels, OIIO::TypeFloat, dst)))
             return true;
-        error = oiio::with_path(m_path, oiio::error_line(*file));
+        error = oiio::with_path(m_path, oiio::pixels_error(oiio::error_line(*file)));
         return false;
     }
 
@@ -205,8 +205,8 @@ private:
             ? m_file->read_tiles(m_first, 0, roi.xbegin, roi.xend, roi.ybegin, roi.yend, z, z + 1, 0, channels,
                                  OIIO::TypeFloat, pixels)
             : m_file->read_scanlines(m_first, 0, roi.ybegin, roi.yend, z, 0, channels, OIIO::TypeFloat, pixels);
-        if (!good)
-            throw BadBlock(oiio::error_line(*m_file));
+        if (!oiio::has_read(*m_file, good))
+            throw BadBlock(oiio::pixels_error(oiio::error_line(*m_file)));
         return block;
     }
 

@@ -72,8 +72,8 @@ bool read_heights(HeightGrid& dst, const std::string& path, float scale, std::st
     dst.full_columns = spec.full_width;
     dst.full_rows = spec.full_height;
     dst.heights.resize(size_t(spec.width) * size_t(spec.height));
-    if (!input->read_image(0, 0, channel, channel + 1, OIIO::TypeFloat, dst.heights.data())) {
-        error = oiio::error_line(*input);
+    if (!oiio::has_read(*input, input->read_image(0, 0, channel, channel + 1, OIIO::TypeFloat, dst.heights.data()))) {
+        error = oiio::pixels_error(oiio::error_line(*input));
         return false;
     }
     for (size_t i = 0; i < dst.heights.size(); ++i) {
