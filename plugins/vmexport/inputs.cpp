@@ -2,7 +2,10 @@
 #include "inputs.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/export/lightmap_encoding.h>
 #include <vmlight/frame/object_mesh.h>
+#include <vmlight/image/image_file.h>
+#include <vmlight/lightmap/lightmap_check.h>
 #include <vmlight/lightmap/vismap_check.h>
 #include <vmlight/stage/map_scene.h>
 #include <vmlight/stage/open_source.h>
@@ -43,6 +46,22 @@ bool read_map(OIIO::ImageBuf& dst, const std::string& path, const MakeOptions& o
     if (recipe_of_map(dst.spec()).vismap_params.measure != "cosine")
         warnings.push_back("baked with --measure uniform; engines expect directions weighted by the cosine");
     for (const std::string& warning : warnings)
+        options.report_warning(format("\"{}\": {}", path, warning));
+    return true;
+}
+
+bool read_lightmap(OIIO::ImageBuf& dst, const std::string& path, const OIIO::ImageSpec& map, const MakeOptions& options,
+                   std::string& error)
+{
+    OIIO::ImageBuf image;
+    if (!read_image(image, path, error))
+        return false;
+    error = lightmap_fault(image.spec());
+    if (!error.empty() || !engine_light(dst, image, error)) {
+        error = format("\"{}\": {}", path, error);
+        return false;
+    }
+    if (const std::string warning = other_mesh_warning(image.spec(), map); !warning.empty())
         options.report_warning(format("\"{}\": {}", path, warning));
     return true;
 }

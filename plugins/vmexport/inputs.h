@@ -29,6 +29,11 @@ bool find_tiles(std::vector<MapTile>& dst, const std::string& vismap, std::strin
 /// Read or make a visibility map, whole. Warns of one that was not weighted by the cosine, as all engines ask.
 bool read_map(OIIO::ImageBuf& dst, const std::string& path, const MakeOptions& options, std::string& error);
 
+/// Read a lightmap as engine_light(). Warns if it was lit by a map of another mesh than `map` is of.
+/// @returns false, with the reason in `error`, if it cannot be read or is another kind of image
+bool read_lightmap(OIIO::ImageBuf& dst, const std::string& path, const OIIO::ImageSpec& map, const MakeOptions& options,
+                   std::string& error);
+
 /// Read the mesh as the metadata of the map say: with the same UVs, up axis, normals and selection. Warns if it is not
 /// the one that was baked.
 bool read_map_mesh(std::shared_ptr<const Mesh>& dst, const std::string& path, const OIIO::ImageSpec& map,

@@ -89,19 +89,8 @@ private:
             error = format("\"{}\": {}", m_tile.path, error);
             return false;
         }
-        return files.lightmap.empty() || read_lightmap(error);
-    }
-
-    bool read_lightmap(std::string& error)
-    {
-        const std::string path = udim_path(m_request.files.lightmap, m_tile.udim);
-        OIIO::ImageBuf image;
-        if (!read_image(image, path, error))
-            return false;
-        if (engine_light(m_light.emplace(), image, error))
-            return true;
-        error = format("\"{}\": {}", path, error);
-        return false;
+        return files.lightmap.empty()
+            || read_lightmap(m_light.emplace(), udim_path(files.lightmap, m_tile.udim), spec, m_options, error);
     }
 
     std::string path_of(const std::string& suffix, const std::string& extension) const

@@ -46,7 +46,7 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
         return false;
     const std::string& texture = m_request.object.texture;
     if (texture.find('#') != std::string::npos) {
-        if (!m_objects[0]->show_texture(frame_path(texture, m_request.frames[index]), error))
+        if (!m_objects[0]->show_texture(frame_path(texture, m_request.frames[index]), options, error))
             return false;
         m_scene.surfaces[0] = m_objects[0]->surface();
     }

@@ -153,6 +153,15 @@ TEST_F(Vmexport, AGltfNeedsNoFolder)
     make_sky({ 1, 2, 3 });
     done("makelightmap vm.exr sky.exr -o lit.exr");
     EXPECT_EQ(done("vmexport vm.exr --mesh quad.obj --lightmap lit.exr --gltf a.glb"), "a.glb\n");
+    done("makecfem sky.exr -o cfem.exr");
+    refused(1, "\"cfem.exr\": not a lightmap: its vmlight:stage is \"cfem\", not \"lightmap\"",
+            "vmexport vm.exr --mesh quad.obj --lightmap cfem.exr --gltf x.glb");
+    done("makevismap " + kSpot + " -o cow.exr --resolution 16 --samples 1 --quiet");
+    done("makelightmap cow.exr sky.exr -o cow_lit.exr");
+    EXPECT_THAT(
+        done("vmexport vm.exr --mesh quad.obj --lightmap cow_lit.exr --gltf c.glb"),
+        HasSubstr("WARNING: \"cow_lit.exr\": lights the mesh \"spot.obj\", and the visibility map is of another, "
+                  "\"quad.obj\""));
     EXPECT_EQ(read("a.glb").substr(0, 4), "glTF");
     EXPECT_THAT(done("vmexport vm.exr --mesh quad.obj --lightmap lit.exr --gltf b.glb --gltf-light unlit"),
                 HasSubstr("WARNING: \"b.glb\": 1024 texels are brighter than 1"));

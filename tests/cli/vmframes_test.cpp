@@ -101,6 +101,11 @@ TEST_F(Vmframes, MapsAndTexturesThatAreThereAreUsed)
     expect_same_pixels("a.exr", "b.exr", 0);
     // The lightmap itself, through OIIO's texture system: the margin and other filters alone are different.
     done("vmframes " + kSpot + " --texture kept/spot_lightmap.exr --size 16 --spp 4 -o c.exr");
+    refused(1, "not a lightmap: its vmlight:stage is \"vismap\"",
+            "vmframes " + kSpot + " --texture kept/spot_vismap.exr --size 16 -o x.exr");
+    make_sky({ 1, 1, 1 }, "albedo.png");
+    EXPECT_THAT(done("vmframes " + kSpot + " --texture albedo.png --size 16 -o d.exr"),
+                HasSubstr("WARNING: \"albedo.png\": has integer pixels, as albedo textures do; shown as light"));
     EXPECT_NEAR(mean("c.exr"), mean("a.exr"), 0.2 * mean("a.exr"));
     // A sequence, and a recipe that is lit as it is looked up.
     for (const char* name : { "t.1.exr", "t.2.exr" })

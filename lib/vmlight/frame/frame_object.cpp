@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/frame/frame_object.h>
 
+#include <vmlight/base/format.h>
 #include <vmlight/frame/lit_object.h>
 #include <vmlight/frame/lit_strands.h>
 #include <vmlight/image/channels.h>
@@ -8,6 +9,7 @@
 #include <vmlight/stage/recipe/strand_recipe.h>
 
 #include <array>
+#include <utility>
 
 namespace vmlight {
 namespace {
@@ -40,11 +42,15 @@ std::string basis_for(const std::string& model, const std::string& asked)
     return entry && *entry->basis ? entry->basis : asked;
 }
 
-bool FrameObject::show_texture(const std::string& name, std::string& error)
+bool FrameObject::show_texture(const std::string& name, const MakeOptions& options, std::string& error)
 {
     auto texture = std::make_shared<FileTexture>();
     if (!texture->open(name, error))
         return false;
+    if (texture->has_integers() && !std::exchange(m_warned_of_texture, true))
+        options.report_warning(format("\"{}\": has integer pixels, as albedo textures do; shown as light, and no "
+                                      "environment changes it. The colour of an object comes from its materials",
+                                      name));
     m_surface.light = std::move(texture);
     return true;
 }

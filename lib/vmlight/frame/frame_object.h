@@ -47,9 +47,9 @@ public:
 
     /// Read it, and make what is missing to bake it. False, with the reason in `error`, if an input cannot be read.
     virtual bool open(const ObjectRecipe& recipe, const MakeOptions& options, std::string& error) = 0;
-    /// Look the light up in another file from now on, of an object that was opened with one. False, with the reason in
-    /// `error`, if it cannot be opened.
-    bool show_texture(const std::string& name, std::string& error);
+    /// Look the light up in another file from now on, of an object that was opened with one; warns once of one that may
+    /// be an albedo. False, with the reason in `error`, if it cannot be opened or is no lightmap.
+    bool show_texture(const std::string& name, const MakeOptions& options, std::string& error);
 
     /// Triangles, or Mesh::strands.
     const Mesh& mesh() const { return *m_surface.mesh; }
@@ -105,6 +105,7 @@ private:
     TexturePyramid pyramid(int udim, const OIIO::ImageBuf& map, int channels, const float* pixels, int nthreads);
 
     std::shared_ptr<TileTexture> m_light;
+    bool m_warned_of_texture = false;
 };
 
 /// The basis to bake for a model, if `asked` leaves it open.

@@ -31,7 +31,7 @@ bool LitObject::open(const ObjectRecipe& recipe, const MakeOptions& options, std
     m_surface.material_uvs = std::move(mesh.material_uvs);
     m_surface.mesh = std::move(mesh.mesh);
     return recipe.texture.empty() || recipe.texture.find('#') != std::string::npos
-        || show_texture(recipe.texture, error);
+        || show_texture(recipe.texture, options, error);
 }
 
 void LitObject::open(std::shared_ptr<const Mesh> mesh, const VismapParams& params, const TraceParams& trace)
@@ -137,8 +137,9 @@ bool LitObject::bake_maps(TileMaps& dst, const std::string& basis, const MakeOpt
                               count_text(report.covered, "texel", "texels"), size.width, size.height, report.samples,
                               timer()));
         if (report.covered > 0 && report.dark > report.covered / 2)
-            options.report_warning(format("{}: {} of {} texels see almost nothing: do the normals point inwards?",
-                                          mesh().name, report.dark, report.covered));
+            options.report_warning(
+                format("{}: {} of {} texels see almost nothing: normals that point inwards, or surfaces inside others?",
+                       mesh().name, report.dark, report.covered));
     }
     return true;
 }

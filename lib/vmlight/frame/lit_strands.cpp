@@ -9,7 +9,7 @@
 
 namespace vmlight {
 
-bool LitStrands::open(const ObjectRecipe& recipe, const MakeOptions&, std::string& error)
+bool LitStrands::open(const ObjectRecipe& recipe, const MakeOptions& options, std::string& error)
 {
     m_recipe = recipe;
     if (!m_object.open(recipe.map, error))
@@ -17,7 +17,7 @@ bool LitStrands::open(const ObjectRecipe& recipe, const MakeOptions&, std::strin
     m_surface.mesh = m_object.mesh;
     m_surface.strands = m_object.surface;
     return recipe.texture.empty() || recipe.texture.find('#') != std::string::npos
-        || show_texture(recipe.texture, error);
+        || show_texture(recipe.texture, options, error);
 }
 
 bool LitStrands::prepare_scene(const MakeOptions& options, std::string& error)

@@ -4,7 +4,9 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/image/color_labels.h>
 #include <vmlight/image/image_file.h>
+#include <vmlight/lightmap/lightmap_check.h>
 #include <vmlight/uv/udim.h>
 
 #include <algorithm>
@@ -63,7 +65,8 @@ bool FileTexture::open_tile(int udim, const std::string& file, std::string& erro
     if (!in)
         return false;
     std::array<int, 3> channels;
-    if (!find_color_channels(in->spec(), channels, error)) {
+    error = lightmap_fault(in->spec());
+    if (!error.empty() || !find_color_channels(in->spec(), channels, error)) {
         error = format("\"{}\": {}", file, error);
         return false;
     }
@@ -73,6 +76,7 @@ bool FileTexture::open_tile(int udim, const std::string& file, std::string& erro
             = format("\"{}\": its colour must be the first channels, R G B; the texture system reads no others", file);
         return false;
     }
+    m_is_integer = is_integer(in->spec().format);
     m_tiles[udim] = { OIIO::ustring(file), is_gray };
     return true;
 }

@@ -52,8 +52,11 @@ private:
 class FileTexture : public SurfaceTexture
 {
 public:
-    /// False, with the reason in `error`, if it cannot be opened or has no colour. A single channel serves as all.
+    /// False, with the reason in `error`, if it cannot be opened, has no colour, or is of another stage than a
+    /// lightmap. A single channel serves as all.
     bool open(const std::string& name, std::string& error);
+    /// Whether its pixels are integers, as those of albedo textures are.
+    bool has_integers() const { return m_is_integer; }
 
     int channels() const override { return 3; }
     bool lookup(const TextureFootprint& at, float* dst, std::string& error) const override;
@@ -69,6 +72,7 @@ private:
     // By UDIM tile; the only one of a file without tiles is 0. OIIO's own search for tiles takes v as it is and rows
     // from the top, which turns each tile upside down.
     std::map<int, Tile> m_tiles;
+    bool m_is_integer = false;
     std::shared_ptr<OIIO::TextureSystem> m_system;
 };
 
