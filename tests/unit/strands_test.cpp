@@ -189,6 +189,25 @@ TEST_F(StrandFiles, StrandsThatCannotBeAreRefused)
         EXPECT_NE(refused("a.obj", line, radius).find("is not ROOT:TIP"), std::string::npos) << radius;
 }
 
+TEST(Strands, ManyThatAreTooThickForAGroomAreWarnedOf)
+{
+    const auto warning = [](size_t count, double radius) {
+        Strands strands;
+        for (size_t s = 0; s < count; ++s) {
+            const double x = double(s) / double(count - 1);
+            strands.points.insert(strands.points.end(), { { x, 0, 0 }, { x, 0.5, 0 } });
+            strands.radii.insert(strands.radii.end(), { radius, radius / 2 });
+            strands.ends.push_back(uint32_t(strands.points.size()));
+        }
+        return thick_strands_warning(strands);
+    };
+    EXPECT_EQ(warning(200, 0.019), "");
+    EXPECT_EQ(
+        warning(200, 0.04),
+        "strands up to 0.04 thick in a groom 1 across hide each other and bake slowly; is --radius in mesh units?");
+    EXPECT_EQ(warning(50, 0.04), "") << "a fence";
+}
+
 TEST(StrandCurve, AStraightStrandIsItself)
 {
     const Strands strands = straight({ { V3d(1, 2, 3), V3d(1, 6, 3) } }, .5, 3);

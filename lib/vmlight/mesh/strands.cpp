@@ -3,6 +3,8 @@
 
 #include <vmlight/base/format.h>
 
+#include <Imath/ImathBox.h>
+
 #include <OpenImageIO/hash.h>
 
 #include <algorithm>
@@ -88,6 +90,25 @@ double thickest_radius(const Strands& strands, size_t strand)
 {
     return *std::max_element(strands.radii.begin() + std::ptrdiff_t(strands.begin(strand)),
                              strands.radii.begin() + std::ptrdiff_t(strands.end(strand)));
+}
+
+std::string thick_strands_warning(const Strands& strands)
+{
+    constexpr size_t kFewest = 100; // fewer may be ropes or posts
+    constexpr double kThick = 50;
+    if (strands.count() < kFewest || strands.radii.empty())
+        return "";
+    Imath::Box3d box;
+    for (const Imath::V3d& point : strands.points)
+        box.extendBy(point);
+    const Imath::V3d size = box.size();
+    const double extent = std::max({ size.x, size.y, size.z });
+    const double thickest = *std::max_element(strands.radii.begin(), strands.radii.end());
+    return thickest * kThick > extent
+        ? format("strands up to {:.3g} thick in a groom {:.3g} across hide each other and "
+                 "bake slowly; is --radius in mesh units?",
+                 thickest, extent)
+        : "";
 }
 
 bool check_strands(const Strands& strands, std::string& error)

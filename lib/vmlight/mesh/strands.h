@@ -41,7 +41,7 @@ struct StrandParams
     template <class Visit> void visit(Visit&& field)
     {
         field(
-            "radius", radius, Text {},
+            "radius", radius, Text { "ROOT[:TIP]" },
             "Bake the file's strands, or let an occluder's block light, of this radius in mesh units: ROOT:TIP, or one "
             "for both");
         field("strand_texels", strand_texels, Range { 1, 4096 }, "Texels along each strand, from root to tip");
@@ -62,6 +62,10 @@ bool set_radius(Strands& strands, const std::string& text, std::string& error);
 /// Can the strands be baked? False, with the reason in `error`, if there are none, one has fewer than two points or no
 /// length, a point or a radius is not finite (the first is named), a radius is negative, or all of a strand's are 0.
 bool check_strands(const Strands& strands, std::string& error);
+
+/// A warning, without the name, of a hundred or more strands some of which are thicker than hair or grass can be: their
+/// radius is more than a fiftieth of the longest side of the box around all; or "".
+std::string thick_strands_warning(const Strands& strands);
 
 /// A 64-bit hash of points, radii and ends, as 16 hexadecimal digits. The same on every little-endian machine.
 std::string strands_hash(const Strands& strands);

@@ -92,6 +92,8 @@ private:
     bool build(const MakeOptions& options, std::string& error)
     {
         std::string at;
+        if (const std::string warning = thick_strands_warning(m_strands); !warning.empty())
+            options.report_warning(format("\"{}\": {}", m_recipe.mesh, warning)); // before the bake, which may be long
         if (!build_strand_scene(m_scene, m_facts, m_strands, m_recipe, m_stamps, options, at, error)) {
             error = with_location(m_recipe, at, options.chain, error);
             return false;
