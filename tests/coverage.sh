@@ -14,6 +14,8 @@ build=$(realpath "$build")
 # -O1: without any optimisation the tests of ten million triangles take minutes.
 options=(-S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DVMLIGHT_BENCH=OFF
     "-DCMAKE_CXX_FLAGS=--coverage -fprofile-update=atomic" -DCMAKE_CXX_FLAGS_DEBUG=-O1)
+# Where a version builds several files as one, this takes a third of the time.
+! grep -q UNITY_BUILD "$source/CMakePresets.json" || options+=(-DCMAKE_UNITY_BUILD=ON)
 cmake "${options[@]}" >"$build/log"
 cmake --build "$build" -j "$(nproc)" >>"$build/log"
 find "$build" -name '*.gcda' -delete

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kExamples
     = "  makelightmap hero_vismap.exr studio.exr --rotate 0,90,0 -o hero_lit.exr\n"
-      "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:360 -o hero_lit.####.exr\n"
+      "  makelightmap hero_vismap.exr studio.exr --frames 1-48 --rotate-y 0:352.5 -o hero_lit.####.exr\n"
       "  makelightmap hero_vismap.exr sky.####.exr --frames 1-48 -o hero_lit.####.exr\n"
       "  makelightmap 'hero_vismap.<UDIM>.exr' studio.exr -o 'hero_lit.<UDIM>.exr'\n"
       "  makelightmap hero.vismap sunny.exr --suns auto -o hero_lit.exr\n"

@@ -52,8 +52,8 @@ int main(int argc, const char** argv)
                  [&](auto, auto&) { return explain = true; });
     stage.dry_run("Print the same with the expected time and memory, and bake nothing; -o may be left out");
     stage.option("ground", "[HEIGHT]",
-                 "Let everything below the horizontal plane y = HEIGHT occlude, without end; the default is the lowest "
-                 "point of the mesh. Not a mesh: vmframes has a ground to look at",
+                 "Let an endless horizontal plane at y = HEIGHT occlude; default: the lowest point of the "
+                 "mesh. It is not in pictures: see vmframes --ground",
                  [&](OIIO::string_view text, std::string& error) {
                      recipe.vismap_params.ground = true;
                      return text == "true" || set_param(recipe, "ground_height", text, error);

@@ -26,7 +26,7 @@ struct FileInputs
               "Lightmap of makelightmap to encode too; in --gltf, the light that it shows");
         field("pack", pack, Path {},
               "Texture whose channel for occlusion is replaced by AO, such as an ORM texture or a mask map");
-        field("name", name, Text {}, "Start of the names of the files; default: that of the map");
+        field("name", name, Text { "NAME" }, "Start of the names of the files; default: that of the map");
         field("gltf", gltf, Path {}, "Also write the mesh, with its AO, as binary glTF (.glb)");
         field("html", html, Path {},
               "Also write a page (.html) that shows the mesh and turns its light, in any browser");

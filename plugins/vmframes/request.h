@@ -35,9 +35,9 @@ struct StageParams
     template <class Visit> void visit(Visit&& field)
     {
         field("object", object, Paths {}, "Another mesh, or strands, in the scene");
-        field("ground", ground, Text {},
+        field("ground", ground, Text { "none|white|shadow|FILE" },
               "Ground under the objects: none, white, shadow (its shadow alone, for a comp), or a texture");
-        field("background", background, Text {},
+        field("background", background, Text { "none|environment|R,G,B" },
               "What is behind: none (transparent), environment, or a colour such as 0.2,0.2,0.2");
         field("background_blur", background_blur, Range { 0, 60 }, "Blur of the environment behind, in degrees");
         field("white", white, Flag {}, "Show all surfaces white: ignore the materials of the meshes");
@@ -68,7 +68,7 @@ struct SheetParams
     template <class Visit> void visit(Visit&& field)
     {
         field("contact_sheet", contact_sheet, Path {}, "Also write all frames in one picture");
-        field("fps", fps, Range { 0.01, 240 }, "Frames per second of a film, and those that --frame counts in");
+        field("fps", fps, Range { 0.01, 240 }, "Frame rate of a film, and of the animation of meshes");
         field("keep", keep, Path {}, "Folder to keep the visibility maps, lightmaps and unwrapped meshes in");
     }
 };

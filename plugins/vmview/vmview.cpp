@@ -44,7 +44,7 @@ int main(int argc, const char** argv)
          { std::pair { "display", "Display of the OCIO config; default: the last one, or the config's" },
            std::pair { "view", "View of that display; default: the last one, or the display's" },
            std::pair { "look", "Look instead of the view's own" } })
-        stage.option(name, "TEXT", help, [&request, name = std::string(name)](auto text, auto& error) {
+        stage.option(name, "NAME", help, [&request, name = std::string(name)](auto text, auto& error) {
             request.display_given = true;
             return set_param(request.display, name, text, error);
         });

@@ -72,8 +72,8 @@ TEST_F(Effects, WhatIsSwitchedOffIsGoneAndSaidToBe)
     const std::string said = bake("off.exr", "--occluder over.obj --ground 0 --effects -ground,-occluders");
     EXPECT_THAT(
         said,
-        HasSubstr("makevismap WARNING: --effects: the scene calls for occluders \"over.obj\", ground, left out: V "
-                  "is off by about 0."));
+        HasSubstr("makevismap WARNING: --effects: occluders \"over.obj\", ground switched off, which changes this "
+                  "scene: V is off by about 0."));
     expect_same_pixels("off.exr", "bare.exr", 0);
     EXPECT_EQ(attribute("off.exr", "vmlight:effects"), "-occluders,-ground");
     EXPECT_LT(visibility("full.exr").least(), visibility("off.exr").least());
@@ -165,8 +165,8 @@ TEST_F(Effects, SelfOcclusionThatIsLeftOutIsMissed)
                 testing::ContainsRegex("self-occlusion +switched off +- +4 triangles, blocked|"
                                        "self-occlusion +switched off +- +something rises above"));
     EXPECT_THAT(said,
-                testing::ContainsRegex("WARNING: --effects: the scene calls for self-occlusion, left out: V is off by "
-                                       "about 0\\.[0-9]*[1-9]"));
+                testing::ContainsRegex("WARNING: --effects: self-occlusion switched off, which changes this scene: V "
+                                       "is off by about 0\\.[0-9]*[1-9]"));
     EXPECT_EQ(work_counts().scenes_built - built, 2) << "the facts and the comparison share a scene";
     EXPECT_EQ(visibility("a.exr").least(), 1);
     // Of an open mesh nothing is missing.

@@ -139,6 +139,8 @@ TEST_F(Frames, ASequenceNeedsFrames)
     // A name that has one.
     write("take#3.exr", read("sky.0001.exr"));
     done("makelightmap vm.exr take#3.exr -o lit.exr");
-    done("makelightmap vm.exr take#3.exr --frames 1-2 -o lit.#.exr");
+    refused(2, "frames: all frames are the same: give --rotate-y FIRST:LAST, or #### in the name of an input",
+            "makelightmap vm.exr take#3.exr --frames 1-2 -o lit.#.exr");
+    done("makelightmap vm.exr take#3.exr --frames 1-2 --rotate-y 0:90 -o lit.#.exr"); // of light that is all the same
     EXPECT_EQ(pixels("lit.2.exr").values, pixels("lit.exr").values);
 }

@@ -231,7 +231,7 @@ TEST_F(Materials, CutOutsAreReportedOrSwitchedOff)
     EXPECT_NEAR(std::accumulate(seen.values.begin(), seen.values.end(), 0.0) / double(seen.values.size()), 0.75, 0.05);
     // The same as an effect, with what it costs to leave it out.
     EXPECT_THAT(done(bake + "--effects -cut-outs -o left.exr"),
-                HasSubstr("the scene calls for cut-outs, left out: V is off by about 0.7"));
+                HasSubstr("cut-outs switched off, which changes this scene: V is off by about 0.7"));
     EXPECT_THAT(done(bake + "--cutouts off -o off.exr"), Not(HasSubstr("cut-outs:")));
     expect_same_pixels("left.exr", "off.exr", 0);
     EXPECT_EQ(attribute("off.exr", "vmlight:cutouts"), "off");

@@ -119,9 +119,9 @@ std::string allowed_text(const ChoiceSet& allowed)
     return OIIO::Strutil::join(words_of(allowed.choices), ",");
 }
 
-std::string allowed_text(const Text&)
+std::string allowed_text(const Text& allowed)
 {
-    return "TEXT";
+    return allowed.placeholder;
 }
 
 std::string allowed_text(const Path&)

@@ -51,7 +51,9 @@ struct ChoiceSet
 };
 /// Any text.
 struct Text
-{ };
+{
+    const char* placeholder = "TEXT"; ///< what help calls it
+};
 /// The name of a file or image; "" means none.
 struct Path
 { };

@@ -46,11 +46,15 @@ std::string Animation::fault(const std::string& output) const
 std::string Animation::input_fault(const LightmapRecipe& recipe) const
 {
     std::string fault;
+    bool moves = rotate_y.first != rotate_y.last;
     LightmapRecipe copy = recipe;
     each_input(copy, [&](const char* key, const std::string& name) {
+        moves = moves || is_sequence(name);
         if (fault.empty() && !has_frames && is_sequence(name))
             fault = sequence_fault(key, name);
     });
+    if (frames.size() > 1 && !moves)
+        return "frames: all frames are the same: give --rotate-y FIRST:LAST, or #### in the name of an input";
     return fault;
 }
 

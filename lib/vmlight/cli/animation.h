@@ -30,7 +30,8 @@ struct Animation
     /// Why the frames cannot be written to `output`, or "".
     std::string fault(const std::string& output) const;
 
-    /// Why the inputs of `recipe` cannot be found, or "": one is a sequence, but there are no frames.
+    /// Why the frames of `recipe` cannot be made, or "": an input is a sequence, but there are no frames; or there are
+    /// several, but nothing moves.
     std::string input_fault(const LightmapRecipe& recipe) const;
 
     /// `recipe` with the files of frame number frames[index] for inputs that are sequences: "sky.####.exr" becomes

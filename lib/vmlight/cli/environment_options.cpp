@@ -8,10 +8,10 @@ namespace vmlight {
 
 void add_environment_options(StageMain& stage, CfemRecipe& recipe)
 {
-    stage.option("colorspace", "NAME", advanced("Colour space of the environment; default: from its name and metadata"),
-                 recipe.colorspace);
+    stage.option("colorspace", "SPACE",
+                 advanced("Colour space of the environment; default: from its name and metadata"), recipe.colorspace);
     stage.option("colorconfig", "FILE", advanced("OCIO config; default: $OCIO"), recipe.colorconfig);
-    stage.option("layer", "TEXT", advanced("Layer or part of the environment to read, such as ViewLayer.Combined"),
+    stage.option("layer", "LAYER", advanced("Layer or part of the environment to read, such as ViewLayer.Combined"),
                  recipe.layer);
     stage.option("layout", "auto|latlong", advanced("latlong: the environment is lat-long, whatever its shape [auto]"),
                  [&recipe](auto text, auto& error) { return set_param(recipe, "layout", text, error); });

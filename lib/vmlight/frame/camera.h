@@ -66,7 +66,7 @@ struct CameraParams
               advanced("Share of the picture that the object fills; above 1 crops it"));
         field("look_at", look_at, Numbers { 3 },
               advanced("Point to look at: x,y,z in mesh units; default: the object's middle"));
-        field("camera", camera, Text {}, "Use this camera of the mesh file instead");
+        field("camera", camera, Text { "NAME" }, "Use this camera of the mesh file instead");
     }
 };
 

@@ -67,10 +67,8 @@ bool unwrap(Mesh& mesh, const VismapRecipe& recipe, const std::string& reason, c
     const Size size = recipe.vismap_params.size();
     const UnwrapParams params { size.width, size.height, recipe.vismap_params.margin, options.threads };
     UnwrapReport report;
-    if (!unwrap_mesh(mesh, params, &report, error)) {
-        error = format("\"{}\": {}", recipe.mesh, error);
+    if (!unwrap_mesh(mesh, params, &report, error))
         return false;
-    }
     options.report(format("{}: {}{}", mesh.name, reason, unwrap_line(report, params)));
     if (const std::string warning = unwrap_warning(report); !warning.empty())
         options.report_warning(warning);

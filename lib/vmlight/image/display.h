@@ -17,9 +17,9 @@ struct DisplayParams
 
     template <class Visit> void visit(Visit&& field)
     {
-        field("display", display, Text {}, "Display of the OCIO config, for pictures; default: the config's");
-        field("view", view, Text {}, "View of that display; default: the display's");
-        field("look", look, Text {}, advanced("Look, or looks separated by commas, before the view"));
+        field("display", display, Text { "NAME" }, "Display of the OCIO config, for pictures; default: the config's");
+        field("view", view, Text { "NAME" }, "View of that display; default: the display's");
+        field("look", look, Text { "NAME" }, advanced("Look, or looks separated by commas, before the view"));
     }
 };
 

@@ -123,8 +123,8 @@ struct MeshParams
               "Up axis of the mesh");
         field("frame", frame, Range { -999999, 999999, "first", kFirstSample },
               "Frame of an animated Alembic mesh and its occluders; may have a fraction. first: the first sample");
-        field("fps", fps, Range { 1e-3, 1e4 }, advanced("Frames per second that frame counts in"));
-        field("terrain", terrain, Text {},
+        field("fps", fps, Range { 1e-3, 1e4 }, advanced("Frame rate of the mesh's animation, for frame"));
+        field("terrain", terrain, Text { "DISTANCE" },
               "Read images as terrain, with this distance between pixels in mesh units, as in 1.5m/px");
         field("height_scale", height_scale, Range { 1e-9, 1e9 },
               "Height of a pixel with the value 1, in mesh units; integer pixels have 0 to 1");

@@ -122,8 +122,8 @@ bool warn_of_missing(const std::string& missing, const Bake& bake, const VismapR
         return false;
     if (off.rms() > 0)
         options.report_warning(
-            format("effects: the scene calls for {}, left out: V is off by about {:.2g} (RMS), and so is "
-                   "light by that share of the open sky's",
+            format("effects: {} switched off, which changes this scene: V is off by about {:.2g} (RMS), light by that "
+                   "share of the open sky's",
                    missing, off.rms()));
     return true;
 }

@@ -98,7 +98,8 @@ std::string error_line(const VismapReport& report, bool is_reconstructed)
 
 std::string dark_warning(int64_t dark, int64_t covered)
 {
-    return dark > covered / 2 ? format("{:.0f} % of the covered texels see no light: do the normals point inwards?",
+    return dark > covered / 2 ? format("{:.0f} % of the covered texels see no light: normals that point inwards, or "
+                                       "surfaces inside others or below the ground?",
                                        percent_of(dark, covered))
                               : "";
 }

@@ -106,7 +106,7 @@ struct CfemRecipe
     template <class Visit> void visit(Visit&& field)
     {
         field("environment", environment, Path {}, "Lat-long environment to filter");
-        field("colorspace", colorspace, Text {},
+        field("colorspace", colorspace, Text { "SPACE" },
               advanced("Colour space of the environment; default: from its name and metadata"));
         field("colorconfig", colorconfig, Path {}, advanced("OCIO config; default: $OCIO"));
         visit_image(field, layer, layout, output_colorspace);
@@ -148,12 +148,12 @@ struct LightmapRecipe
         field("environment", environment, Path {}, "Lat-long environment to light with; it is filtered first");
         field("cfem", cfem, Path {}, "Cosine-filtered environment, or its recipe");
         field("albedo", albedo, Path {}, "Albedo texture to multiply by; converted to scene-linear");
-        field("albedo_colorspace", albedo_colorspace, Text {},
+        field("albedo_colorspace", albedo_colorspace, Text { "SPACE" },
               advanced("Colour space of the albedo; default: from its name and metadata"));
-        field("colorspace", colorspace, Text {},
+        field("colorspace", colorspace, Text { "SPACE" },
               advanced("Colour space of the environment or CFEM; default: from its name and metadata"));
         field("colorconfig", colorconfig, Path {}, advanced("OCIO config; default: $OCIO"));
-        field("albedo_layer", albedo_layer, Text {}, advanced("Layer or part of the albedo file to read"));
+        field("albedo_layer", albedo_layer, Text { "LAYER" }, advanced("Layer or part of the albedo file to read"));
         visit_image(field, layer, layout, output_colorspace);
         field("udim", udim, Range { kFirstUdim, kLastUdim }, "UDIM tile; replaces <UDIM> in file names");
         lightmap_params.visit(field);

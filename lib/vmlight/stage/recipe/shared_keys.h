@@ -27,20 +27,20 @@ struct CutoutParams
 /// The key of recipes whose effects can be switched.
 template <class Visit> void visit_effects(Visit&& field, std::string& effects, const Help& help)
 {
-    field("effects", effects, Text {}, help);
+    field("effects", effects, Text { "SWITCHES" }, help);
 }
 
 /// Keys of both recipes that read an environment and make light.
 template <class Visit>
 void visit_image(Visit&& field, std::string& layer, std::string& layout, std::string& output_colorspace)
 {
-    field("layer", layer, Text {},
+    field("layer", layer, Text { "LAYER" },
           advanced("Layer or part of the environment file to read, such as ViewLayer.Combined"));
     field("layout", layout,
           Choices { { { "auto", "lat-long; what has the shape of a cube map, a cross or a probe is refused" },
                       { "latlong", "lat-long, whatever the shape" } } },
           advanced("How the environment is laid out"));
-    field("output_colorspace", output_colorspace, Text {},
+    field("output_colorspace", output_colorspace, Text { "SPACE" },
           advanced("Linear colour space of the result; default: the working space"));
 }
 
