@@ -60,7 +60,8 @@ int main(int argc, const char** argv)
                  });
     stage.params("Visibility:", recipe.vismap_params);
     stage.option("time_budget", "SECONDS",
-                 advanced("Instead of a fixed count, trace as many rays as this machine can in this time"),
+                 advanced("Instead of a fixed count, trace as many rays as this machine can in this time, the "
+                          "time to measure their error included"),
                  [&](OIIO::string_view text, std::string& error) {
                      if (parse_value(recipe.time_budget, text, Range { 1e-3, 1e6 }, error))
                          return true;

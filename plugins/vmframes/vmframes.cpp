@@ -14,8 +14,8 @@ using namespace vmlight::frames;
 namespace {
 
 constexpr const char* kExamples
-    = "  vmframes shoe.glb studio.hdr -o shoe.png\n"
-      "  vmframes shoe.glb studio.hdr -o shoe.####.png --frames 1-48 --turntable --ground white\n"
+    = "  vmframes shoe.glb studio.hdr -o shoe.png --exposure auto\n"
+      "  vmframes shoe.glb studio.hdr -o shoe.####.png --frames 1-48 --turntable --ground white --exposure auto\n"
       "  vmframes walk.####.obj studio.hdr --vismap walk_vismap.####.exr -o walk.####.png --frames 1-24\n"
       "  vmframes hero.obj studio.hdr --vismap hero_vismap.exr --layers albedo,lit,depth -o hero.exr\n"
       "  vmframes hero.obj --texture 'hero_lit.<UDIM>.exr' -o hero.png\n"

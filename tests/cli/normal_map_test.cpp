@@ -69,7 +69,8 @@ TEST_F(NormalMaps, AreAnEffect)
     EXPECT_THAT(done(line + " --explain -o a.exr"),
                 testing::ContainsRegex("normal-map +on .* normals of texels are mapped"));
     EXPECT_THAT(done(line + " --effects -normal-map -o b.exr"),
-                testing::ContainsRegex("calls for normal-map, left out: V is off by about 0\\.(1|09[0-9]) "));
+                testing::ContainsRegex(
+                    "normal-map switched off, which changes this scene: V is off by about 0\\.(1|09[0-9]) "));
     done("makevismap quad.obj -o c.exr" + small);
     expect_same_pixels("b.exr", "c.exr", 0);
     // How far off a picture is without it takes the map itself.

@@ -92,27 +92,29 @@ class Machine(HardCase):
             resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
         if os.environ.get("VMLIGHT_PRELOAD"):
             self.skip("sanitizers take all addresses there are")
+        # How many arenas malloc keeps addresses for, 64 MB each, depends on how busy the machine is.
+        limits = dict(preexec_fn=limit, env={**self.environment, "MALLOC_ARENA_MAX": "1"})
         self.file("x.exr", "old")
         before = self.contents()
         words = ["makevismap", "quad.obj", "-o", "x.exr", "--quiet", "--margin", "infinite"]
-        self.told(self.run_tool(*words, "--samples", "1", "--resolution", "16384x4096", preexec_fn=limit), 1,
+        self.told(self.run_tool(*words, "--samples", "1", "--resolution", "16384x4096", **limits), 1,
                   "16384x4096 pixels of 4 channels need 1.0 GB of memory, ")
         # What reconstruction needs besides can be left out.
-        result = self.run_tool(*words, "--resolution", "4096", preexec_fn=limit)
+        result = self.run_tool(*words, "--resolution", "4096", **limits)
         self.told(result, 1, "4096x4096 pixels of 4 channels need 1.1 GB of memory, ")
         self.assertIn("; with --reconstruct off it fits", result.stderr)
         # A part is some rows of it, whatever its margin will be.
-        result = self.run_tool(*words, "--samples", "1", "--resolution", "16384x4096", "--part", "1/64", preexec_fn=limit)
+        result = self.run_tool(*words, "--samples", "1", "--resolution", "16384x4096", "--part", "1/64", **limits)
         self.assertEqual(result.returncode, 0, result.stderr)
         os.remove(self.path("x.part01of64.exr"))
         # With a narrow margin the map is written while it is baked.
         words = words[:-2]
-        result = self.run_tool(*words, "--resolution", "32768x1024", "--basis=sh", "--order=8", preexec_fn=limit)
+        result = self.run_tool(*words, "--resolution", "32768x1024", "--basis=sh", "--order=8", **limits)
         self.told(result, 1, "rows of 32768 texels of 64 channels need ")
         self.assertEqual(self.contents(), before)
-        result = self.run_tool(*words, "--resolution", "4096", preexec_fn=limit)
+        result = self.run_tool(*words, "--resolution", "4096", **limits)
         self.assertEqual(result.returncode, 0, result.stderr)
-        result = self.run_tool(*words, "--samples", "1", "--resolution", "2048", preexec_fn=limit)
+        result = self.run_tool(*words, "--samples", "1", "--resolution", "2048", **limits)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.row("A map that exceeds `ulimit -v`", "std::bad_alloc, or an image without pixels",
                  "exit code 1, with the memory needed and available; smaller maps work, and larger ones that are written while "

@@ -107,7 +107,7 @@ class Commands(unittest.TestCase):
             "done",
         ]
         safe = commands("docs/other-programs.md", "Safe commands")
-        self.assertEqual(len(safe), 7)
+        self.assertEqual(len(safe), 8)
         self.run_all(setup + inputs + safe + checks, 18)
 
 
