@@ -204,7 +204,7 @@ TEST(Strands, ManyThatAreTooThickForAGroomAreWarnedOf)
     EXPECT_EQ(warning(200, 0.019), "");
     EXPECT_EQ(
         warning(200, 0.04),
-        "strands up to 0.04 thick in a groom 1 across hide each other and bake slowly; is --radius in mesh units?");
+        "strands with a radius of 0.04 in a groom 1 across hide each other and bake slowly; are radii in mesh units?");
     EXPECT_EQ(warning(50, 0.04), "") << "a fence";
 }
 

@@ -105,8 +105,8 @@ std::string thick_strands_warning(const Strands& strands)
     const double extent = std::max({ size.x, size.y, size.z });
     const double thickest = *std::max_element(strands.radii.begin(), strands.radii.end());
     return thickest * kThick > extent
-        ? format("strands up to {:.3g} thick in a groom {:.3g} across hide each other and "
-                 "bake slowly; is --radius in mesh units?",
+        ? format("strands with a radius of {:.3g} in a groom {:.3g} across hide each other and "
+                 "bake slowly; are radii in mesh units?",
                  thickest, extent)
         : "";
 }
