@@ -3,7 +3,9 @@
 #include "closed_forms.h"
 #include "scenes.h"
 
+#include <vmlight/uv/udim.h>
 #include <vmlight/vismap/pilot.h>
+#include <vmlight/vismap/reconstruct_pilot.h>
 
 #include <set>
 
@@ -63,4 +65,20 @@ TEST(Pilot, PicksAllTexelsOfASmallMap)
     ASSERT_EQ(ranks.size(), 4096u);
     for (size_t i = 0; i < ranks.size(); ++i)
         EXPECT_EQ(ranks[i], int64_t(i));
+}
+
+// Its windows have 81 texels each, which are the same again and again.
+TEST(Pilot, WindowsOfASmallMapTraceEachTexelOnce)
+{
+    constexpr int kAcross = 16, kTexels = kAcross * kAcross;
+    const BakeScenePointer scene = closed_forms::shared_scene(floor_facing_z(1), {});
+    VismapParams params;
+    params.resolution = { kAcross, kAcross };
+    const UvRaster raster(scene->mesh(), kAcross, kAcross);
+    VismapPilot pilot(*scene, nullptr, params, 2, {});
+    ASSERT_TRUE(pilot.pick(raster, {}));
+    ReconstructPilot windows(*scene, pilot, params, 2, {});
+    ASSERT_TRUE(windows.pick(raster, {}, SeamLinks(scene->mesh(), raster, kAcross, kAcross, kFirstUdim)));
+    EXPECT_GT(windows.traced_texels(), kTexels);
+    EXPECT_LE(windows.traced_texels(), kTexels * (1 + 2 * 8)) << "each, and twice 8 times the rays for the middles";
 }
