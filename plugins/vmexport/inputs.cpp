@@ -11,6 +11,7 @@
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/recipe/paths.h>
 #include <vmlight/uv/udim.h>
+#include <vmlight/vismap/baked_mesh.h>
 
 namespace vmlight::exporting {
 
@@ -75,8 +76,7 @@ bool read_map_mesh(std::shared_ptr<const Mesh>& dst, const std::string& path, co
     ObjectMesh mesh;
     if (!read_object_mesh(mesh, recipe, recipe.unwrap, options, error))
         return false;
-    const std::string hash = map.get_string_attribute("vmlight:meshHash");
-    if (!hash.empty() && hash != mesh_hash(*mesh.mesh))
+    if (!is_baked_of(*mesh.mesh, map))
         options.report_warning(format("\"{}\": not the mesh that the map was baked of, or changed since", path));
     dst = std::move(mesh.mesh);
     return true;

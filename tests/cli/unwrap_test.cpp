@@ -2,8 +2,11 @@
 // --unwrap and --write-mesh on the command line.
 #include "command_test.h"
 
+#include <vmlight/base/text.h>
+
 using namespace vmlight;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -80,6 +83,13 @@ TEST_F(Unwrap, TheMeshIsWrittenAsBaked)
         done("makevismap bare.obj --unwrap --write-mesh " + name + " -o a.exr" + flags);
         done("makevismap " + name + " -o b.exr" + flags);
         expect_same_pixels("a.exr", "b.exr", 1e-5f);
+        make_sky({ 1, 1, 1 });
+        const auto lit = [&](const std::string& mesh) {
+            return done("vmframes " + mesh + " sky.exr --vismap a.exr -o frame.png --size 16 --spp 1");
+        };
+        EXPECT_THAT(lit(name), Not(HasSubstr("another mesh"))) << "though the last digits of its normals are others";
+        write("moved.obj", replaced(read("out.obj"), "v 0 0 1\n", "v 0 0 1.1\n"));
+        EXPECT_THAT(lit("moved.obj"), HasSubstr("another mesh"));
     }
     // Without --unwrap too, with what the flags made of it.
     write("quad.obj", kQuad);

@@ -43,7 +43,8 @@ TEST_F(Usage, QuietPrintsNothing)
 
 TEST_F(Usage, AnUnknownFlagIsRefusedWithTheNearest)
 {
-    refused(2, "unknown flag \"--sample\"; did you mean --samples?", "makevismap quad.obj -o x.exr --sample 4");
+    refused(2, "unknown flag \"--sample\"; did you mean --samples or --sampler?",
+            "makevismap quad.obj -o x.exr --sample 4");
     refused(2, "unknown flag \"-x\"", "makecfem sky.exr -x -o x.exr");
     refused(2, "unknown flag \"--rotation\"", "makelightmap vm.exr sky.exr -o x.exr --rotation=1,2,3");
 }
@@ -69,7 +70,7 @@ TEST_F(Usage, ValuesAreParsedStrictly)
         { "--samples", "4x", "samples: \"4x\" is not a whole number" },
         { "--samples", "", "--samples has an empty value" },
         { "--occluder", " ", "--occluder has an empty value" },
-        { "--resolution", "0", "resolution: \"0\" is not WIDTHxHEIGHT from 1x1 to 32768x32768" },
+        { "--resolution", "0", "resolution: \"0\" is not WIDTH or WIDTHxHEIGHT in pixels, each from 1 to 32768" },
         { "--resolution", "99999", "resolution:" },
         { "--sampler", "random", "sampler: \"random\" is not one of fibonacci, sobol, halton" },
         { "--max-distance", "far", "--max-distance: \"far\" is not a number or \"infinite\"" },
@@ -92,6 +93,23 @@ TEST_F(Usage, ValuesAreParsedStrictly)
         refused_words(2, error, { "makevismap", "quad.obj", "-o", "x.exr", std::string(flag) + "=" + value });
     }
     refused(2, "--quiet takes no value", "makevismap quad.obj -o x.exr --quiet=1");
+}
+
+TEST_F(Usage, AnOutputThatWouldReplaceAnInputIsRefused)
+{
+    const std::string sky = read("sky.exr");
+    refused(2, "\"sky.exr\" is an input, which -o would replace", "makecfem sky.exr -o sky.exr");
+    refused(2, "\"./vm.exr\" is an input", "makelightmap vm.exr sky.exr -o ./vm.exr");
+    refused(2, "\"albedo.exr\" is an input", "makelightmap vm.exr sky.exr --albedo=albedo.exr -o albedo.exr");
+    refused(2, "\"sky.exr\" is an input", "vmframes quad.obj sky.exr --vismap vm.exr -o sky.exr");
+    std::filesystem::create_symlink("sky.exr", path("link.exr"));
+    refused(2, "\"link.exr\" is an input", "makecfem sky.exr -o link.exr");
+    write("a.1001.exr", read("vm.exr"));
+    refused(2, "\"a.<UDIM>.exr\" is an input", "makelightmap 'a.<UDIM>.exr' sky.exr -o 'a.<UDIM>.exr'");
+    EXPECT_EQ(read("sky.exr"), sky);
+    // A recipe that is saved as itself, and no image.
+    done("makecfem sky.exr -o a.cfem");
+    done("makecfem a.cfem --resolution 32 -o a.cfem");
 }
 
 TEST_F(Usage, ValuesMayBeginWithAMinusOrFollowAnEqualsSign)

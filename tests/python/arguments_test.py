@@ -84,7 +84,7 @@ class Refusals(Case):
             (dict(max_distance=1j), TypeError, "^max_distance: must be float or 'infinite', not complex$"),
             (dict(target_error=0), ValueError, 'did you mean "none"'),
             (dict(resolution=(4, 4, 4)), TypeError, r"^resolution: must be int, or \(width, height\), not tuple$"),
-            (dict(resolution=0), ValueError, '^resolution: "0" is not WIDTHxHEIGHT'),
+            (dict(resolution=0), ValueError, '^resolution: "0" is not WIDTH or WIDTHxHEIGHT'),
             (dict(resolution=4.0), TypeError, "^resolution: must be int"),
             (dict(basis="shh"), ValueError, '^basis: "shh" is not one of vector, sh, mask, cells$'),
             (dict(basis=3), TypeError, "^basis: must be str, not int$"),

@@ -25,7 +25,7 @@ std::map<std::string, std::string> metadata(const OIIO::ImageSpec& spec)
         const bool is_ours
             = OIIO::Strutil::starts_with(name, "vmlight:") || name == "chromaticities" || name == "colorInteropID";
         // But for what takes the mesh's vertices to know; and a file keeps no empty texts.
-        if (is_ours && name != "vmlight:meshHash" && !value.get_string().empty())
+        if (is_ours && name != "vmlight:meshHash" && name != "vmlight:meshShape" && !value.get_string().empty())
             found[name] = value.get_string();
     }
     return found;

@@ -59,7 +59,7 @@ TEST_F(CommandLines, ValuesFollowTheirFlagOrAnEqualsSign)
 
 TEST_F(CommandLines, RefusalsNameTheWord)
 {
-    EXPECT_EQ(refusal({ "a.obj", "--sample", "4" }), "unknown flag \"--sample\"; did you mean --samples?");
+    EXPECT_EQ(refusal({ "a.obj", "--sample", "4" }), "unknown flag \"--sample\"; did you mean --samples or --sampler?");
     EXPECT_EQ(refusal({ "a.obj", "--samples" }), "--samples needs a value: 1..1048576");
     EXPECT_EQ(refusal({ "a.obj", "--samples", " " }), "--samples has an empty value");
     EXPECT_EQ(refusal({ "a.vismap", "--samples", "" }), "") << "clears a recipe's key";
@@ -67,6 +67,24 @@ TEST_F(CommandLines, RefusalsNameTheWord)
     EXPECT_EQ(refusal({ "a.obj", "b.obj" }), "unexpected argument \"b.obj\"");
     EXPECT_EQ(refusal({ "--help=1" }), "--help takes no value");
     EXPECT_EQ(refusal({ "--print-completion", "fish" }), "print_completion: \"fish\" is not one of bash, zsh");
+}
+
+TEST_F(CommandLines, AnUnknownFlagSuggestsWhatOtherToolsMeanByIt)
+{
+    const auto suggestion = [&](const std::string& flag) {
+        const std::string unknown = "unknown flag \"" + flag + "\"", error = refusal({ "a.obj", flag.c_str(), "4" });
+        EXPECT_EQ(error.substr(0, unknown.size()), unknown);
+        return error.substr(unknown.size());
+    };
+    EXPECT_EQ(suggestion("--spp"), "; did you mean --samples?");
+    EXPECT_EQ(suggestion("-Edge_Padding"), "; did you mean --margin?");
+    EXPECT_EQ(suggestion("--res"), "; did you mean --resolution?") << "and not the nearest by letters, --mesh";
+    EXPECT_EQ(suggestion("--crease"), "; did you mean --crease-angle?");
+    EXPECT_EQ(suggestion("--m"), "");
+    EXPECT_EQ(suggestion("--uv-s"), "; did you mean --uv-set?");
+    EXPECT_EQ(suggestion("--angle"), "; did you mean --crease-angle?");
+    EXPECT_EQ(suggestion("--sun"), "; did you mean --sun-directions?");
+    EXPECT_EQ(suggestion("--wibble"), "");
 }
 
 TEST_F(CommandLines, HelpAnswersWhateverElseIsMissing)

@@ -89,7 +89,7 @@ TEST(Params, ValuesSetInCodeAreCheckedToo)
     EXPECT_TRUE(check_params(params, error)) << error;
     params.resolution.width = 0;
     EXPECT_FALSE(check_params(params, error));
-    EXPECT_EQ(error, "resolution: \"0x64\" is not WIDTHxHEIGHT from 1x1 to 16384x16384");
+    EXPECT_EQ(error, "resolution: \"0x64\" is not WIDTH or WIDTHxHEIGHT in pixels, each from 1 to 16384");
 }
 
 TEST(Params, WordsAreSomeOfThoseAllowedInTheirOrder)

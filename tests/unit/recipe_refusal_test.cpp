@@ -77,7 +77,7 @@ TEST(Recipe, RefusesAValueOutOfRange)
               "\"hero.lightmap\" line 1: cfem_filter: \"a\\x0ab\" is not one of exact, sh");
     EXPECT_EQ(refusal("cfem_resolution = [0, 32]"),
               "\"hero.lightmap\" line 1: cfem_resolution: \"0x32\" is not "
-              "WIDTHxHEIGHT from 1x1 to 16384x16384");
+              "WIDTH or WIDTHxHEIGHT in pixels, each from 1 to 16384");
     EXPECT_EQ(refusal("vismap = \"a\\u0000b\""), "\"hero.lightmap\" line 1: vismap: a name cannot contain a zero byte");
 }
 

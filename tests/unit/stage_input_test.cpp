@@ -37,7 +37,7 @@ TEST(StageInput, AReaderShowsThePixelsAndTheMetadataThatAnExecutableWrites)
         }
         EXPECT_EQ(shown.extra_attribs.size() + left_out.size(), made.spec().extra_attribs.size()) << name;
     };
-    same(folder / "hero.vismap", folder.vismap(), { "vmlight:meshHash" });
+    same(folder / "hero.vismap", folder.vismap(), { "vmlight:meshHash", "vmlight:meshShape" });
     same(folder / "studio.cfem", folder.cfem(), {});
     LightmapParams turned;
     turned.rotate = { 0, 30, 0 };

@@ -4,6 +4,8 @@
 #include "baked_map.h"
 #include "scenes.h"
 
+#include <vmlight/mesh/shape.h>
+
 #include <cstring>
 
 using namespace vmlight;
@@ -49,6 +51,7 @@ TEST(Vismap, AMapSaysWhatItIsAndHowItWasMade)
     EXPECT_EQ(spec.get_string_attribute("vmlight:stage"), "vismap");
     EXPECT_EQ(spec.get_string_attribute("vmlight:mesh"), "floor");
     EXPECT_EQ(spec.get_string_attribute("vmlight:meshHash"), mesh_hash(mesh));
+    EXPECT_EQ(spec.get_string_attribute("vmlight:meshShape"), mesh_shape(mesh));
     EXPECT_EQ(spec.get_string_attribute("vmlight:occluderHash"),
               mesh_hash(wall_at_x1()) + "," + mesh_hash(floor_facing_z(1)));
     EXPECT_EQ(spec.get_string_attribute("vmlight:sampler"), "sobol");
@@ -244,7 +247,7 @@ TEST(Vismap, RefusesParametersOutOfRange)
     EXPECT_EQ(bake_refusal(mesh, params), "margin: -2 is not in [0, 32768] or \"infinite\"");
     params = {};
     params.resolution = { 0, 5 };
-    EXPECT_EQ(bake_refusal(mesh, params), "resolution: \"0x5\" is not WIDTHxHEIGHT from 1x1 to 32768x32768");
+    EXPECT_EQ(bake_refusal(mesh, params), "resolution: \"0x5\" is not WIDTH or WIDTHxHEIGHT in pixels, each from 1 to 32768");
     params = {};
     params.width = 32769;
     EXPECT_EQ(bake_refusal(mesh, params), "width: 32769 is not in [0, 32768]");

@@ -79,7 +79,7 @@ bool parse_value(Size& dst, string_view text, const SizeRange& allowed, std::str
     else
         height = std::max(1, int(width * allowed.height_share));
     if (!good) {
-        error = format("\"{}\" is not WIDTHxHEIGHT from 1x1 to {}x{}", text, allowed.max, allowed.max);
+        error = format("\"{}\" is not WIDTH or WIDTHxHEIGHT in pixels, each from 1 to {}", text, allowed.max);
         return false;
     }
     dst = { width, height };

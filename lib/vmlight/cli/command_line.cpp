@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/base/text.h>
 #include <vmlight/cli/completion.h>
+#include <vmlight/cli/flag_suggestion.h>
 #include <vmlight/cli/flag_table.h>
 #include <vmlight/cli/help_text.h>
 #include <vmlight/cli/man_page.h>
@@ -91,8 +92,7 @@ std::string unknown_flag(const std::string& flag, const CommandLine& line)
     for (const CommandLine::Section& section : line.sections())
         for (const Option* option : section.options)
             known.push_back(option->flag());
-    const std::string near = nearest_name(flag, known);
-    return format("unknown flag \"{}\"{}", flag, near.empty() ? "" : format("; did you mean {}?", near));
+    return format("unknown flag \"{}\"{}", flag, flag_suggestion(flag, known));
 }
 
 } // namespace

@@ -14,6 +14,7 @@
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/uv_warnings.h>
 #include <vmlight/uv/udim.h>
+#include <vmlight/vismap/baked_mesh.h>
 #include <vmlight/vismap/baker.h>
 
 #include <algorithm>
@@ -88,14 +89,13 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
             return false;
         }
         // Of a mesh that was changed since, a map may still be meant.
-        const std::string hash = images[0].spec().get_string_attribute("vmlight:meshHash");
         const int set = m_recipe.map.mesh_params.uv_set, baked_set = recipe_of_map(images[0].spec()).mesh_params.uv_set;
         if (set != baked_set)
             options.report_warning(
                 format("\"{}\": was baked with UV set {} of its mesh, and \"{}\" is read with set {}: "
                        "pass --uv-set {}",
                        recipe.vismap, baked_set, mesh().path, set, baked_set));
-        else if (!hash.empty() && hash != mesh_hash(mesh()))
+        else if (!is_baked_of(mesh(), images[0].spec()))
             options.report_warning(format("\"{}\": was baked from another mesh than \"{}\", or of another part of it",
                                           recipe.vismap, mesh().path));
         m_maps[""][udim] = std::move(images[0]);

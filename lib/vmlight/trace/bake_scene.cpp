@@ -5,6 +5,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/mesh/instances.h>
 #include <vmlight/mesh/opacity_hash.h>
+#include <vmlight/mesh/shape.h>
 #include <vmlight/mesh/strands.h>
 #include <vmlight/trace/curves.h>
 #include <vmlight/trace/horizon.h>
@@ -95,6 +96,7 @@ void BakeScene::measure()
     m_tiny = count_tiny(*m_mesh, m_frame);
     m_rounding = rounding_of(*m_mesh, m_frame);
     m_mesh_hash = vmlight::mesh_hash(*m_mesh);
+    m_mesh_shape = vmlight::mesh_shape(*m_mesh);
 }
 
 bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>& occluders, int nthreads,

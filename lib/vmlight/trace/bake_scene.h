@@ -47,6 +47,8 @@ public:
     const std::vector<int>& casters() const { return m_whole ? m_whole->casters() : m_casters; }
     /// mesh_hash() of the mesh, and of each occluder, separated by commas.
     const std::string& mesh_hash() const { return m_mesh_hash; }
+    /// mesh_shape() of the mesh.
+    const std::string& mesh_shape() const { return m_mesh_shape; }
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
     /// opacity_hash() of all meshes, separated by commas; of a part, those of the whole.
     const std::string& opacity_hashes() const { return m_opacity_hashes; }
@@ -87,7 +89,7 @@ private:
     std::shared_ptr<const BakeScene> m_whole; // of which this is a part, or nullptr
     SceneFrame m_frame;
     std::shared_ptr<const Occluder> m_occluder;
-    std::string m_mesh_hash, m_occluder_hashes, m_opacity_hashes;
+    std::string m_mesh_hash, m_mesh_shape, m_occluder_hashes, m_opacity_hashes;
     std::vector<std::string> m_warnings;
     int64_t m_triangles = 0, m_spans = 0, m_tiny = 0;
     double m_rounding = 0, m_lowest = 0, m_diagonal = 0;

@@ -26,6 +26,8 @@ OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
     if (baker.error().texels > 0)
         spec.attribute("vmlight:error", float(baker.error().rms));
     spec.attribute("vmlight:meshHash", scene.mesh_hash());
+    if (!scene.mesh_shape().empty())
+        spec.attribute("vmlight:meshShape", scene.mesh_shape());
     if (!scene.occluder_hashes().empty())
         spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
     return spec;
