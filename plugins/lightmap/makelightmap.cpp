@@ -206,7 +206,8 @@ int light(int argc, const char** argv, LightmapInputs& inputs, Watch& watch)
         return true;
     };
     return stage.run(argc, argv, [&](std::string& error) {
-        const bool made = tiles.make_tiles(make, error);
+        error = animation.missing_fault(recipe);
+        const bool made = error.empty() && tiles.make_tiles(make, error);
         if (const std::string all = forecasts.text(); made && !all.empty())
             stage.answer(all);
         if (made)

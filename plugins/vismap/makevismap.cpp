@@ -221,7 +221,8 @@ int main(int argc, const char** argv)
     return stage.run(argc, argv, [&](std::string& error) {
         if (stage.is_form())
             return parts.join(error);
-        const bool made = tiles.make_tiles(make, error);
+        error = poses.missing_fault();
+        const bool made = error.empty() && tiles.make_tiles(make, error);
         if (made)
             parts.remove_kept();
         if (const std::string all = forecasts.text(); made && !all.empty())

@@ -2,6 +2,7 @@
 #include "request.h"
 
 #include <vmlight/base/format.h>
+#include <vmlight/base/param_text.h>
 #include <vmlight/uv/udim.h>
 
 #include <OpenImageIO/filesystem.h>
@@ -49,7 +50,8 @@ std::string textures_fault(const Request& request)
     if (request.folder.empty())
         return "";
     if (!target)
-        return "--for is missing: the engine whose conventions the textures follow";
+        return "--for is missing, the engine whose conventions the textures follow: "
+            + OIIO::Strutil::join(words_of(export_target_choices().choices), ", ");
     if (request.params.target == "gltf" && request.params.ao_gamma != 1)
         return "--ao-gamma: the occlusion of a glTF is linear";
     if (request.writes("bent_normal") && request.params.space == "object"

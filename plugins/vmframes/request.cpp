@@ -164,6 +164,17 @@ bool Request::moves() const
     return found;
 }
 
+std::string Request::missing_fault() const
+{
+    std::string fault;
+    Request copy = *this;
+    each_moving(copy, [&](const char*, const std::string& name) {
+        if (fault.empty() && has_frames)
+            fault = missing_frames_fault(name, frames);
+    });
+    return fault.empty() && has_frames ? missing_frames_fault(object.texture, frames) : fault;
+}
+
 Request Request::at(size_t index) const
 {
     Request frame = *this;

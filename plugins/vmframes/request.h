@@ -97,6 +97,8 @@ struct Request
 
     /// Whether the mesh, its map or another object has a file for each frame.
     bool moves() const;
+    /// The missing_frames_fault() of one of them, or "".
+    std::string missing_fault() const;
     /// The same with the files of frame number frames[index]; without frames, as it is.
     Request at(size_t index) const;
 

@@ -65,7 +65,8 @@ public:
     bool run(std::string& error)
     {
         m_options.explain = m_request.explains;
-        if (!check_display(error) || !m_shot.open(m_options, error) || !find_exposure(error))
+        error = m_request.missing_fault();
+        if (!error.empty() || !check_display(error) || !m_shot.open(m_options, error) || !find_exposure(error))
             return false;
         for (size_t i = 0; i < m_request.frames.size(); ++i) {
             ImageBuf frame;
@@ -101,6 +102,8 @@ private:
         double mean = 0;
         if (!m_shot.measure(mean, 0, m_models[0], m_options, error))
             return false;
+        if (m_models[0] == "auto" && !m_shot.used_model().empty())
+            m_options.report(format("model: {}, the best that this visibility map supports", m_shot.used_model()));
         const GrayExposure gray = GrayExposure::of(mean);
         if (!m_request.is_auto_exposed) {
             m_options.report(mean > 0 ? format("light: mean luminance {:.3g}; {}", mean, gray.advice())

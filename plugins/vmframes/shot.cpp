@@ -71,7 +71,8 @@ bool Shot::light_all(size_t index, const std::string& model, const MakeOptions& 
     if (m_ground)
         all.push_back(m_ground.get());
     for (FrameObject* object : all) {
-        if (!object->light(m_light, params, m_request.reference, options, error, &m_used_model))
+        if (!object->light(m_light, params, m_request.reference, options, error,
+                           object == all[0] ? &m_used_model : nullptr))
             return false;
         FrameSurface& surface = m_scene.surfaces[i++];
         const bool is_mirror = m_cones && object->surface().strands;

@@ -37,6 +37,9 @@ public:
     /// small.
     bool measure(double& mean, size_t index, const std::string& model, const MakeOptions& options, std::string& error);
 
+    /// The model that lit the first object: of `auto`, the one that was chosen.
+    const std::string& used_model() const { return m_used_model; }
+
     /// Seconds spent so far: lighting objects and ground, without baking, and in render().
     double light_seconds() const;
     double render_seconds() const { return m_render_seconds; }

@@ -101,7 +101,12 @@ TEST_F(Frames, AnEnvironmentForEachFrame)
     done("makelightmap vm.exr cfem.####.exr --frames 8-10 -o of_cfem.####.exr");
     done("makelightmap vm.exr cfem.0009.exr -o one.exr");
     EXPECT_EQ(read("of_cfem.0009.exr"), read("one.exr"));
-    refused(1, "\"sky.0011.exr\": no such file", "makelightmap vm.exr sky.####.exr --frames 11-12 -o x.####.exr");
+    refused(1, "\"sky.0011.exr\": no such file\n", "makelightmap vm.exr sky.####.exr --frames 10-11 -o x.####.exr");
+    refused(1, "\"sky.0011.exr\": no such file; frames 11, 12 are missing\n",
+            "makelightmap vm.exr sky.####.exr --frames 8-12 -o x.####.exr");
+    refused(1, "\"sky.0011.exr\": no such file; frames 11, 12, 13, 14, 15 and 85 more are missing\n",
+            "makelightmap vm.exr sky.####.exr --frames 8-100 -o x.####.exr");
+    EXPECT_FALSE(exists("x.0008.exr")) << "before any is made";
 }
 
 TEST_F(Frames, AMapAndAnAlbedoForEachFrame)

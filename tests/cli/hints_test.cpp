@@ -45,6 +45,13 @@ TEST_F(Hints, AMeshIsNoImage)
     refused(1, "\"quad.OBJ\"" + other, "makelightmap vm.exr quad.OBJ -o x.exr");
     refused(1, "\"quad.OBJ\"" + other, "makelightmap vm.exr sky.exr --albedo quad.OBJ -o x.exr");
     refused(1, "\"quad.glb\"" + other, "makecfem quad.glb -o x.exr");
+    const std::string terrain = ": an image, not a mesh: to read it as terrain, give the distance between its pixels";
+    for (const std::string sky : { "sky.exr", "sky.hdr", "sky.png", "sky.jpg" }) {
+        make_sky({ 1, 1, 1 }, sky);
+        refused(1, "\"" + sky + "\"" + terrain, "makevismap " + sky + " -o x.exr");
+    }
+    refused(1, "\"vm.exr\": a map that vmlight made, not a mesh: pass the mesh", "makevismap vm.exr -o x.exr");
+    refused(1, "\"vm.exr\": a map that vmlight made, not a mesh", "vmframes vm.exr sky.exr -o x.png");
 }
 
 TEST_F(Hints, SpellingsOfOtherToolsAreKnown)

@@ -180,7 +180,8 @@ TEST_F(Poses, WhatMakesNoSenseIsRefused)
     refused(2, "--write-mesh writes one mesh", bake + "--frames 1-2 --write-mesh x.glb");
     refused(2, "--unwrap would give each pose UVs of its own", bake + "--frames 1-2 --unwrap");
     refused(2, "--frames cannot be saved in a recipe", bake + "--frames 1-2 --print-recipe");
-    refused(1, "lid.0007.obj", bake + "--frames 7");
+    refused(1, "\"lid.0007.obj\": no such file", bake + "--frames 1,7");
+    EXPECT_FALSE(exists("x.0001.exr")) << "before any is baked";
     write("nan.obj", lidded(0, "nan"));
     refused(1, "\"nan.obj\"", std::string("makevismap lid.0001.obj --pose nan.obj -o x.exr") + kFlags);
 }

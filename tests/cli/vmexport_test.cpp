@@ -208,7 +208,7 @@ TEST_F(Vmexport, TheSameBytesTwice)
 TEST_F(Vmexport, WrongUsageIsRefused)
 {
     refused(2, "-o FOLDER is missing (or --gltf, or --html)", "vmexport vm.exr --for godot");
-    refused(2, "--for is missing", "vmexport vm.exr -o out");
+    refused(2, "the textures follow: godot, ", "vmexport vm.exr -o out");
     refused(2, "\"crayon\" is not one of godot, unity", "vmexport vm.exr --for crayon -o out");
     refused(2, "bent normals in tangent space need --mesh", "vmexport vm.exr --for godot -o out");
     refused(2, "--space object: godot reads bent normals in tangent space only",

@@ -49,7 +49,9 @@ TEST_F(Vmframes, AutoExposureBringsTheObjectToMiddleGrey)
     for (int c = 0; c < 3; ++c)
         luminance += std::vector<double> { 0.2126, 0.7152, 0.0722 }[size_t(c)] * double(image.getchannel(8, 8, 0, c));
     EXPECT_NEAR(luminance, 0.18, 0.02); // the ground is in the way of a little
-    EXPECT_THAT(done("vmframes quad.obj sky.exr -o a.exr --elevation 0" + small), HasSubstr("brings the mean to 0.18"));
+    const std::string said = done("vmframes quad.obj sky.exr -o a.exr --elevation 0" + small);
+    EXPECT_THAT(said, HasSubstr("brings the mean to 0.18"));
+    EXPECT_THAT(said, HasSubstr("\nmodel: " + attribute("a.exr", "vmlight:model") + ", the best that"));
 }
 
 TEST_F(Vmframes, FramesTurnOnceAround)

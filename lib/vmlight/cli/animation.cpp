@@ -3,11 +3,17 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/math/rotation.h>
+#include <vmlight/uv/udim.h>
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
 
 namespace vmlight {
 namespace {
+
+constexpr size_t kMostNamed = 5; // of missing frames
 
 // visit(key, name) for each input that may be a sequence.
 template <class Visit> void each_input(LightmapRecipe& recipe, const Visit& visit)
@@ -34,6 +40,30 @@ std::string sequence_fault(const std::string& key, const std::string& name)
     return format("{}: \"{}\": no such file, and no frames: a sequence needs --frames, such as 1-48", key, name);
 }
 
+std::string missing_frames_fault(const std::string& name, const std::vector<int>& frames)
+{
+    if (!is_sequence(name) || has_udim_pattern(name))
+        return "";
+    std::vector<std::string> missing;
+    std::string first;
+    for (const int frame : frames) {
+        const std::string path = recipe_path(frame_path(name, frame));
+        if (OIIO::Filesystem::exists(path))
+            continue;
+        first = missing.empty() ? path : first;
+        missing.push_back(std::to_string(frame));
+    }
+    if (missing.empty())
+        return "";
+    std::string others;
+    if (missing.size() > kMostNamed)
+        others = format(" and {} more", missing.size() - kMostNamed);
+    else if (missing.size() == 1)
+        return format("\"{}\": no such file", first);
+    missing.resize(std::min(missing.size(), kMostNamed));
+    return format("\"{}\": no such file; frames {}{} are missing", first, OIIO::Strutil::join(missing, ", "), others);
+}
+
 std::string Animation::fault(const std::string& output) const
 {
     if (frames.size() > 1 && !output.empty() && output.find('#') == std::string::npos)
@@ -55,6 +85,17 @@ std::string Animation::input_fault(const LightmapRecipe& recipe) const
     });
     if (frames.size() > 1 && !moves)
         return "frames: all frames are the same: give --rotate-y FIRST:LAST, or #### in the name of an input";
+    return fault;
+}
+
+std::string Animation::missing_fault(const LightmapRecipe& recipe) const
+{
+    std::string fault;
+    LightmapRecipe copy = recipe;
+    each_input(copy, [&](const char*, const std::string& name) {
+        if (fault.empty() && has_frames)
+            fault = missing_frames_fault(name, frames);
+    });
     return fault;
 }
 

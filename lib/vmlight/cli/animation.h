@@ -17,6 +17,10 @@ bool is_sequence(const std::string& name);
 /// What to say of a sequence as the input `key` where there are no frames.
 std::string sequence_fault(const std::string& key, const std::string& name);
 
+/// Which of the `frames` of a sequence have no file, as a fault, or "": before hours go into the others. "" also of
+/// what is no sequence, or has a <UDIM>.
+std::string missing_frames_fault(const std::string& name, const std::vector<int>& frames);
+
 struct Animation
 {
     /// Frame numbers, and whether the user gave them.
@@ -33,6 +37,9 @@ struct Animation
     /// Why the frames of `recipe` cannot be made, or "": an input is a sequence, but there are no frames; or there are
     /// several, but nothing moves.
     std::string input_fault(const LightmapRecipe& recipe) const;
+
+    /// The missing_frames_fault() of an input of `recipe`, or "".
+    std::string missing_fault(const LightmapRecipe& recipe) const;
 
     /// `recipe` with the files of frame number frames[index] for inputs that are sequences: "sky.####.exr" becomes
     /// "sky.0001.exr". A file whose name really has that # is not a sequence.

@@ -81,6 +81,17 @@ size_t PoseList::count() const
     return m_stage.output().find('#') != std::string::npos ? 1 + m_meshes.size() : 1;
 }
 
+std::string PoseList::missing_fault() const
+{
+    std::vector<std::string> inputs { m_mesh, m_normal_map };
+    inputs.insert(inputs.end(), m_occluders.begin(), m_occluders.end());
+    std::string fault;
+    for (const std::string& input : inputs)
+        if (fault.empty())
+            fault = missing_frames_fault(input, m_frames);
+    return fault;
+}
+
 VismapRecipe PoseList::at(const VismapRecipe& recipe, size_t index) const
 {
     VismapRecipe pose = recipe;

@@ -29,6 +29,9 @@ public:
     /// The file of a pose.
     std::string path(const std::string& output, size_t index) const;
 
+    /// The missing_frames_fault() of the mesh or another input, or "".
+    std::string missing_fault() const;
+
     /// Poses that are only compared with the mesh before it is baked.
     std::vector<VismapRecipe> compared(const VismapRecipe& recipe) const;
     /// The most by which V of a kept texel may be off.

@@ -19,7 +19,8 @@ void report_outside(const MakeOptions& options, const UvReport& uv, const Vismap
     const auto warn = [&](const std::string& line) { options.report_warning(line); };
     const int64_t across = uv.outside - uv.fully_outside, in_others = uv.outside - uv.beyond_udims;
     if (!recipe.udim_given && in_others > 0)
-        warn(format("{} of {} {} outside [0,1] in UV, into other UDIM tiles: that part is not baked; see --udim",
+        warn(format("{} of {} {} outside [0,1] in UV, into other UDIM tiles: that part is not baked; <UDIM> in -o "
+                    "bakes every tile",
                     in_others, count_text(uv.triangles, "triangle", "triangles"),
                     plural(in_others, "reaches", "reach")));
     if (recipe.udim_given && across > 0)

@@ -6,6 +6,7 @@
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/mesh/import/height_grid.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
@@ -19,8 +20,11 @@ namespace {
 
 // The bytes that files start with.
 const std::string kSignatures[]
-    = { { "\x76\x2f\x31\x01", 4 }, { "II*\0", 4 }, { "MM\0*", 4 }, { "II+\0", 4 }, { "MM\0+", 4 },
-        { "\x89PNG\r\n\x1a\n", 8 } };
+    = { { "\x76\x2f\x31\x01", 4 },  { "II*\0", 4 },        { "MM\0*", 4 }, { "II+\0", 4 }, { "MM\0+", 4 },
+        { "\x89PNG\r\n\x1a\n", 8 }, { "\xff\xd8\xff", 3 }, "#?RADIANCE",   "#?RGBE" };
+
+// An image of vmlight's has this in its header, uncompressed, and no other has.
+constexpr size_t kHeaderBytes = 1 << 16;
 
 // Numbers that stand for "no height" in other programs are far beyond any.
 constexpr float kHighest = 1e30f;
@@ -35,6 +39,13 @@ int height_channel(const OIIO::ImageSpec& spec)
             if (OIIO::Strutil::iequals(spec.channel_name(c), name))
                 return c;
     return -1;
+}
+
+bool is_ours(const std::string& path)
+{
+    std::string header(kHeaderBytes, '\0');
+    header.resize(OIIO::Filesystem::read_bytes(path, header.data(), header.size()));
+    return header.find("vmlight:stage") != std::string::npos;
 }
 
 std::string size_fault(const OIIO::ImageSpec& spec)
@@ -119,7 +130,10 @@ bool read_height_field(MeshBuilder& dst, const ImportRequest& request, std::stri
     const MeshParams& params = dst.params();
     HeightGrid grid;
     if (params.terrain.empty()) {
-        error = "an image: to read it as terrain, give the distance between its pixels, as in --terrain 1.5m/px";
+        error = is_ours(request.path)
+            ? "a map that vmlight made, not a mesh: pass the mesh"
+            : "an image, not a mesh: to read it as terrain, give the distance between its pixels, as in --terrain "
+              "1.5m/px";
         return false;
     }
     if (!parse_pixel_spacing(grid.spacing, params.terrain, error))
