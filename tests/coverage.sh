@@ -40,6 +40,8 @@ for text in sys.stdin:
                 counts[line["line_number"]] = max(counts.get(line["line_number"], 0), line["count"])
 with open(out, "w") as file:
     for path, counts in sorted(lines.items()):
+        if not counts:
+            continue
         covered = sum(count > 0 for count in counts.values())
         missed = " ".join(str(line) for line, count in sorted(counts.items()) if count == 0)
         file.write(f"{100 * covered / len(counts):6.2f} % of {len(counts):4}  {path}  {missed}\n")

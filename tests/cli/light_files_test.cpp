@@ -150,6 +150,8 @@ TEST_F(LightFiles, AFileThatWasCopiedInPartIsCalledIncomplete)
     refused(1, "\"part.tif\": cannot read its pixels; the file may be damaged or incomplete (",
             "makevismap " + std::string(VMLIGHT_TEST_DATA)
                 + "/spot.obj --normal-map part.tif -o y.exr --resolution 16");
+    refused(1, "\"part.tif\": cannot read its pixels; the file may be damaged or incomplete (",
+            "vmframes " + std::string(VMLIGHT_TEST_DATA) + "/spot.obj --texture part.tif -o y.png --size 16");
 }
 
 TEST_F(LightFiles, AFilteredEnvironmentIsNotFilteredAgainWithoutAWord)

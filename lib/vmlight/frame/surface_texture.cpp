@@ -76,6 +76,10 @@ bool FileTexture::open_tile(int udim, const std::string& file, std::string& erro
             = format("\"{}\": its colour must be the first channels, R G B; the texture system reads no others", file);
         return false;
     }
+    // The texture system reports a cut in what maketx writes.
+    const bool is_plain_tiff = in->format_name() == std::string("tiff") && !in->seek_subimage(0, 1);
+    if (is_plain_tiff && !is_whole_tiff(file, 0, error))
+        return false;
     m_is_integer = is_integer(in->spec().format);
     m_tiles[udim] = { OIIO::ustring(file), is_gray };
     return true;

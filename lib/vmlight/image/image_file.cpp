@@ -22,6 +22,8 @@
 namespace vmlight {
 namespace {
 
+constexpr int kRowsAtOnce = 256;
+
 bool fits_half(const OIIO::ImageBuf& image, std::string& error)
 {
     const auto stats = OIIO::ImageBufAlgo::computePixelStats(image);
@@ -34,20 +36,6 @@ bool fits_half(const OIIO::ImageBuf& image, std::string& error)
             return false;
     }
     return true;
-}
-
-// ImageBuf takes what is left of a file that was cut short; see has_read(). The other readers fail.
-bool is_whole_tiff(const std::string& path, int subimage, std::string& error)
-{
-    const auto file = open_image(path, error);
-    if (!file)
-        return false;
-    const OIIO::ImageSpec spec = file->spec(subimage, 0);
-    std::vector<char> pixels(size_t(spec.image_bytes(true)));
-    if (oiio::has_read(*file, file->read_image(subimage, 0, 0, spec.nchannels, OIIO::TypeUnknown, pixels.data())))
-        return true;
-    error = oiio::with_path(path, oiio::pixels_error(oiio::error_line(*file)));
-    return false;
 }
 
 // Readers multiply colour by alpha before vmlight can decode it (PNG, TIFF, Targa), unless asked not to.
@@ -93,6 +81,28 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::strin
     if (!file)
         error = oiio::with_path(name, oiio::error_line());
     return file;
+}
+
+bool is_whole_tiff(const std::string& path, int subimage, std::string& error)
+{
+    const auto file = open_image(path, error);
+    if (!file)
+        return false;
+    const OIIO::ImageSpec spec = file->spec(subimage, 0);
+    const int rows = spec.tile_height > 0 ? spec.tile_height : kRowsAtOnce, end = spec.y + spec.height;
+    std::vector<char> pixels(size_t(spec.scanline_bytes(true)) * size_t(rows));
+    for (int y = spec.y; y < end; y += rows) {
+        const int next = std::min(y + rows, end);
+        const bool good = spec.tile_width > 0
+            ? file->read_tiles(subimage, 0, spec.x, spec.x + spec.width, y, next, spec.z, spec.z + 1, 0, spec.nchannels,
+                               OIIO::TypeUnknown, pixels.data())
+            : file->read_scanlines(subimage, 0, y, next, spec.z, 0, spec.nchannels, OIIO::TypeUnknown, pixels.data());
+        if (!oiio::has_read(*file, good)) {
+            error = oiio::with_path(path, oiio::pixels_error(oiio::error_line(*file)));
+            return false;
+        }
+    }
+    return true;
 }
 
 std::string header_fault(const OIIO::ImageSpec& spec)

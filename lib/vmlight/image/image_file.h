@@ -22,6 +22,10 @@ bool may_be_image(const std::string& name);
 /// hold and what OIIO misreads (image/file_claims.h) are refused first.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name, std::string& error);
 
+/// Whether all pixels of an image of a TIFF file can be read: false, with the reason and the path in `error`, if it was
+/// cut short, of which ImageBuf and the texture system show what is left, and black (other formats fail). Reads it.
+bool is_whole_tiff(const std::string& path, int subimage, std::string& error);
+
 /// Why a header is implausible, or "": a side of the data or display window is longer than 2^20. Protects loops over
 /// pixels from damaged headers.
 std::string header_fault(const OIIO::ImageSpec& spec);
