@@ -95,23 +95,6 @@ TEST_F(Usage, ValuesAreParsedStrictly)
     refused(2, "--quiet takes no value", "makevismap quad.obj -o x.exr --quiet=1");
 }
 
-TEST_F(Usage, AnOutputThatWouldReplaceAnInputIsRefused)
-{
-    const std::string sky = read("sky.exr");
-    refused(2, "\"sky.exr\" is an input, which -o would replace", "makecfem sky.exr -o sky.exr");
-    refused(2, "\"./vm.exr\" is an input", "makelightmap vm.exr sky.exr -o ./vm.exr");
-    refused(2, "\"albedo.exr\" is an input", "makelightmap vm.exr sky.exr --albedo=albedo.exr -o albedo.exr");
-    refused(2, "\"sky.exr\" is an input", "vmframes quad.obj sky.exr --vismap vm.exr -o sky.exr");
-    std::filesystem::create_symlink("sky.exr", path("link.exr"));
-    refused(2, "\"link.exr\" is an input", "makecfem sky.exr -o link.exr");
-    write("a.1001.exr", read("vm.exr"));
-    refused(2, "\"a.<UDIM>.exr\" is an input", "makelightmap 'a.<UDIM>.exr' sky.exr -o 'a.<UDIM>.exr'");
-    EXPECT_EQ(read("sky.exr"), sky);
-    // A recipe that is saved as itself, and no image.
-    done("makecfem sky.exr -o a.cfem");
-    done("makecfem a.cfem --resolution 32 -o a.cfem");
-}
-
 TEST_F(Usage, ValuesMayBeginWithAMinusOrFollowAnEqualsSign)
 {
     done("makelightmap vm.exr sky.exr -o a.exr --rotate -90,0,0 --exposure -1");

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <filesystem>
 #include <map>
 #include <mutex>
-#include <system_error>
 
 #include <sys/stat.h>
 
@@ -53,12 +51,6 @@ bool stamp_file(std::string& stamp, const std::string& path, std::string& error)
         logged_files().emplace(path, is_stamped ? stamp : "");
     }
     return is_stamped;
-}
-
-bool is_same_file(const std::string& a, const std::string& b)
-{
-    std::error_code ignored;
-    return a == b || std::filesystem::equivalent(a, b, ignored);
 }
 
 void log_file(const std::string& path)

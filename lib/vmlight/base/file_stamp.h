@@ -18,9 +18,6 @@ bool check_stamp(const std::string& stamp, const std::string& path, std::string&
 /// Note the file `path`, which is read without a stamp, in the StampLog.
 void log_file(const std::string& path);
 
-/// Whether two paths are equal, or lead to one file that exists.
-bool is_same_file(const std::string& a, const std::string& b);
-
 struct FileStamp
 {
     std::string path, stamp;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vmlight/cli/stage_command.h>
 
-#include <vmlight/base/file_stamp.h>
 #include <vmlight/base/format.h>
 #include <vmlight/base/output_file.h>
 #include <vmlight/base/utf8.h>
@@ -75,22 +74,6 @@ std::string StageCommand::image_name_fault() const
         : format("\"{}\": output must be .exr, or .{} for a recipe", output, line.stage);
 }
 
-// An input that the output would replace, as a fault, or "".
-std::string StageCommand::replaced_input_fault() const
-{
-    std::vector<std::string> inputs = line.operands;
-    for (const auto& [option, text] : line.given)
-        if (option->name != "o")
-            inputs.push_back(text);
-    if (output_kind == OutputKind::Folder || output_kind == OutputKind::OptionalFolder)
-        return "";
-    const bool is_input = std::any_of(inputs.begin(), inputs.end(),
-                                      [&](const std::string& input) { return is_same_file(input, output); });
-    return is_input && !output.empty()
-        ? format("\"{}\" is an input, which -o would replace: choose another name", output)
-        : "";
-}
-
 // What cannot be saved in a recipe.
 std::string StageCommand::unsavable() const
 {
@@ -142,7 +125,7 @@ std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
     if (line.given_form() && fault.empty())
         fault = output.empty() ? line.missing_output() : output_name_fault(output);
     if (line.given_form())
-        return fault.empty() ? replaced_input_fault() : fault;
+        return fault;
     const bool works = makes_image();
     if (prints_recipe || saves_recipe())
         fault = unsavable();
@@ -158,7 +141,7 @@ std::string StageCommand::usage_fault(const std::string& fault_of_recipe) const
     for (const auto& check : checks)
         if (fault.empty() && works)
             fault = check();
-    return fault.empty() && works ? replaced_input_fault() : fault;
+    return fault;
 }
 
 ExitCode StageCommand::parse(int argc, const char** argv, std::string& answer, std::string& error)

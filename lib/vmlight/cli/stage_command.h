@@ -100,7 +100,6 @@ private:
     ExitCode apply(std::string& fault_of_recipe, std::string& error);
     std::string usage_fault(const std::string& fault_of_recipe) const;
     std::string image_name_fault() const;
-    std::string replaced_input_fault() const;
     std::string unsavable() const;
 };
 

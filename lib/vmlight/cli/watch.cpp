@@ -12,11 +12,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 namespace vmlight {
 namespace {
 
 constexpr size_t kMostNamed = 3;
+
+bool is_same_file(const std::string& a, const std::string& b)
+{
+    std::error_code ignored;
+    return a == b || std::filesystem::equivalent(a, b, ignored);
+}
 
 // "hero.lightmap, studio.hdr and 2 more": without folders, of which the user knows.
 std::string names_text(const std::vector<std::string>& paths)
