@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Disks that fail while a file is written, and recipes that are written.
+#include "cases.h"
 #include "failing_calls.h"
 #include "files.h"
 #include "hard_case.h"
 
 #include <vmlight/base/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <sys/resource.h>
 
@@ -60,7 +62,8 @@ TEST_F(Files, EachCallThatWritesFails)
         EXPECT_GT(calls, 4);
         const auto before = names();
         int accepted = 0;
-        for (int call = 1; call <= calls; call += all || call + 10 >= calls ? 1 : 7) {
+        const int step = all ? cases(1, 7) : cases(7, 31), last_ten = calls - 10;
+        for (int call = 1; call <= calls; call = call < last_ten ? std::min(call + step, last_ten) : call + 1) {
             set_current_case(format("{}: call {} of {}", line, call, calls));
             restart_watchdog();
             write(name, old);
@@ -104,7 +107,8 @@ TEST_F(Files, DiskFullAnywhere)
         const std::string fresh = read(name), old = "the old file";
         const auto before = names();
         // The last 4 KiB are what a buffer holds. 13 parts them and all that is before at odd places.
-        for (size_t limit = 0; limit <= fresh.size(); limit += limit + 4200 < fresh.size() ? 997 : 13) {
+        for (size_t limit = 0; limit <= fresh.size();
+             limit += limit + 4200 < fresh.size() ? cases(997, 4001) : cases(13, 101)) {
             set_current_case(format("{}: {} bytes", line, limit));
             restart_watchdog();
             write(name, old);

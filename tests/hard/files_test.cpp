@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damaged files: each ends in an image of finite pixels, or in one line that says why not, and in little memory.
+#include "cases.h"
 #include "files.h"
 #include "hard_case.h"
 #include "quad_files.h"
@@ -116,12 +117,13 @@ TEST_F(Files, DamagedImagesOneByOne)
 TEST_F(Files, HeadersThatClaimTooMuch)
 {
     HardCase row("EXR and HDR with one high bit of any byte of the header flipped: tiles, scanlines, several parts");
+    const size_t step = cases(1, 5);
     done("makecfem sky.exr -o stack.exr --stack --resolution 8 --quiet");
     for (const std::string name : { "sky.exr", "vm.exr", "stack.exr", "sky.hdr" }) {
         const std::string whole = read(name);
         // Headers end where the pixels begin; that they are small is what makes the claims large.
         std::vector<Damage> damages;
-        for (size_t byte = 0; byte < std::min(whole.size(), size_t(name == "stack.exr" ? 2000 : 1200)); ++byte)
+        for (size_t byte = 0; byte < std::min(whole.size(), size_t(name == "stack.exr" ? 2000 : 1200)); byte += step)
             for (const int bit : { 5, 7 }) {
                 if (bit == 7 && name == "stack.exr")
                     continue;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What strands mirror, filtered: laws, limits, and brute force.
+#include "cases.h"
+
 #include <vmlight/cfem/cone_levels.h>
 #include <vmlight/frame/strand_specular.h>
 #include <vmlight/math/latlong.h>
@@ -87,7 +89,9 @@ const std::vector<V3d> kTangents { V3d(0, 1, 0), V3d(0.6, 0.48, -0.64), V3d(1, 0
 
 TEST(ConeLevels, ConstantLightIsConstant)
 {
-    for (const double exponent : { 1.0, 12.5, 120.0 }) {
+    const double exponents[] = { 12.5, 1, 120 };
+    for (int i = 0; i < cases(3, 1); ++i) {
+        const double exponent = exponents[i];
         const ConeLevels levels = levels_of([](const V3d&) { return 0.25; }, exponent);
         for (const V3d& tangent : kTangents)
             for (const double cos_angle : { -1.0, -0.3, 0.0, 0.7, 1.0 }) {
@@ -123,7 +127,9 @@ TEST(ConeLevels, TurnWithTheLight)
 // Relative to the brightest that any strand mirrors of the lamp.
 TEST(ConeLevels, EqualTheIntegral)
 {
-    for (const auto& [exponent, sharpness] : { std::pair(1.0, 5.0), std::pair(40.0, 60.0), std::pair(200.0, 20.0) }) {
+    const std::pair<double, double> lobes[] = { { 40, 60 }, { 1, 5 }, { 200, 20 } };
+    for (int i = 0; i < cases(3, 1); ++i) {
+        const auto& [exponent, sharpness] = lobes[i];
         const double sharp = sharpness;
         const Radiance light = [&](const V3d& w) { return with_lamp(w, sharp); };
         const ConeLevels levels = levels_of(light, exponent);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bounced light against closed forms and brute force.
 #include "bounced_map.h"
+#include "cases.h"
 
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/reference/reference.h>
@@ -128,7 +129,7 @@ TEST(LightTransport, ACowIsLitAsThePathTracerHasIt)
     OIIO::ImageBuf sky(OIIO::ImageSpec(4, 2, 3, OIIO::TypeFloat)), traced;
     OIIO::ImageBufAlgo::fill(sky, { 1.0f, 1.0f, 1.0f });
     ReferenceParams params;
-    params.samples = 256;
+    params.samples = cases(256, 64);
     params.bounce_albedo = 0.7;
     ASSERT_TRUE(make_reference(traced, cow, { ground }, sky, map, {}, params)) << traced.geterror();
     double squares = 0, noise = 0, bias = 0, sum = 0, added = 0, count = 0;

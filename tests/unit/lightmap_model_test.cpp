@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cases.h"
 #include "stack_maps.h"
 
 #include <vmlight/math/longest_direction.h>
@@ -47,7 +48,7 @@ struct ModelErrors
 template <class Open> ModelErrors model_errors(Open&& open)
 {
     double paper = 0, lobe = 0, mean = 0;
-    const int count = 24;
+    const int count = cases(24, 8);
     for (int i = 0; i < count; ++i) {
         const double z = 1 - (2 * i + 1.0) / count, a = 2.4 * i; // evenly about the sphere
         const V3d toward(std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps that are baked in parts.
 #include "baked_parts.h"
+#include "cases.h"
 #include "drawn_map.h"
 #include "scenes.h"
 
@@ -28,7 +29,7 @@ using Imath::V3d;
 TEST(MapParts, JoinedTheyAreTheWholeMapWhateverTheMeshAndTheirNumber)
 {
     std::mt19937 random(7);
-    for (int turn = 0; turn < 24; ++turn) {
+    for (int turn = 0; turn < cases(24, 8); ++turn) {
         const Mesh mesh = random_mesh(random);
         const VismapParams params = random_params(random);
         const auto scene = part_scene(mesh, { scenes::rectangle(V3d(-1, 3, -1), V3d(2, 0, 0), V3d(0, 0, 2)) });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What light transport takes is known before it is traced.
 #include "bounced_map.h"
+#include "cases.h"
 
 #include <vmlight/base/work_counts.h>
 #include <vmlight/vismap/transport_forecast.h>
@@ -47,7 +48,7 @@ TEST(TransportForecast, IsExactForSmallMaps)
 
 TEST(TransportForecast, IsNearTheTruthForLargerOnes)
 {
-    for (const int size : { 192, 320 }) {
+    for (int size = 192; size <= cases(320, 192); size += 128) {
         const Bounced bounced = on_ground(size);
         const TransportForecast forecast = forecast_of(bounced, 0);
         const double rays = double(bounced.transport.rays()), points = double(bounced.transport.points().size());
