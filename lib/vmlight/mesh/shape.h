@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vmlight/base/export.h>
 #include <vmlight/mesh/mesh.h>
 
 #include <string>
@@ -12,10 +11,10 @@ namespace vmlight {
 /// and the last digits of numbers: the count of triangles; means over the surface of position, UV, their products, and
 /// of normals. In object space. As numbers in text, for same_shape(). "" of a mesh
 /// without area, or with instances or strands. The same for any number of threads.
-VMLIGHT_API std::string mesh_shape(const Mesh& mesh);
+std::string mesh_shape(const Mesh& mesh);
 
 /// Whether two texts of mesh_shape() are of one mesh, but for rounding: by a 100,000th of its size. False for "" and
 /// what is not such a text.
-VMLIGHT_API bool same_shape(const std::string& a, const std::string& b);
+bool same_shape(const std::string& a, const std::string& b);
 
 } // namespace vmlight
