@@ -83,6 +83,11 @@ TEST_F(LightFiles, ALayerIsChosenByName)
           "\"ViewLayer.Mist\"\n");
     done("makelightmap x.lightmap -o live.exr");
     expect_same_pixels("lit.exr", "live.exr", 0);
+    // As a texture, which is read by the tile.
+    write("quad.obj", kQuad);
+    for (const std::string texture : { "lit.exr", "x.lightmap" })
+        done("vmframes quad.obj --texture " + texture + " --size 16 -o of_" + texture + ".exr");
+    expect_same_pixels("of_lit.exr.exr", "of_x.lightmap.exr", 0);
 }
 
 // Renderers name parts as they name layers, with and without the layer in the channels' names.

@@ -39,6 +39,18 @@ std::string lidded(double degrees, const std::string& first_x = "-1")
     return text + "f 13 14 15\n"; // the box around it stays
 }
 
+// By 90 degrees about y.
+std::string turned(const std::string& obj)
+{
+    std::string text;
+    for (const std::string& line : OIIO::Strutil::splits(obj, "\n")) {
+        const std::vector<std::string> words = OIIO::Strutil::splits(line, " ");
+        text += words.size() == 4 && words[0] == "v" ? format("v {} {} {}\n", words[3], words[2], -std::stod(words[1]))
+                                                     : line + "\n";
+    }
+    return text;
+}
+
 class Poses : public CommandTest
 {
 protected:
@@ -98,7 +110,12 @@ TEST_F(Poses, AnotherPoseIsComparedBeforeTheBake)
     EXPECT_EQ(read("vm.exr"), read("alone.exr"));
     write("same.obj", lidded(0));
     EXPECT_THAT(done(std::string("makevismap lid.0001.obj --pose same.obj -o vm.exr") + kFlags),
-                HasSubstr("pose \"same.obj\": everything moves as one body: V stays, and B turns with it"));
+                HasSubstr("pose \"same.obj\": everything moves as one body: V stays, and B turns with it\n"));
+    write("turned.obj", turned(lidded(0)));
+    const std::string line = std::string("makevismap lid.0001.obj --pose turned.obj -o vm.exr") + kFlags,
+                      stays = "pose \"turned.obj\": everything moves as one body: V stays, and B turns with it";
+    EXPECT_THAT(done(line), HasSubstr(stays + "\n"));
+    EXPECT_THAT(done(line + " --basis mask"), HasSubstr(stays + "; its basis must be baked again\n"));
 }
 
 TEST_F(Poses, PosesAreBakedWhereTheOutputHasANumber)

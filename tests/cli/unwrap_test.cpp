@@ -102,6 +102,12 @@ TEST_F(Unwrap, TheMeshIsWrittenAsBaked)
         done("makevismap " + again + " -o b.exr" + strands);
         expect_same_pixels("a.exr", "b.exr", 0);
     }
+    // Lines alone are an occluder of strands too, in either format.
+    for (const std::string hair : { "hair.obj", "again.glb" })
+        done("makevismap quad.obj --occluder " + hair + " --radius .1 -o of_" + hair
+             + ".exr --resolution 16 --samples 16");
+    expect_same_pixels("of_hair.obj.exr", "of_again.glb.exr", 0);
+    EXPECT_LT(visibility("of_hair.obj.exr").least(), 1);
     refused(2, "\"up.stl\": a mesh is written as .glb or .obj", "makevismap quad.obj --write-mesh up.stl -o x.exr");
     refused(2, "--write-mesh cannot be saved in a recipe", "makevismap quad.obj --write-mesh up.obj -o x.vismap");
     refused(1, "no such folder", "makevismap quad.obj --write-mesh none/up.obj -o x.exr --resolution 8");

@@ -75,6 +75,23 @@ TEST_F(Vmframes, MeshesMayHaveAFileForEachFrame)
             "vmframes lean.#.obj sky.exr --frames 1-2 --keep kept -o x.#.exr");
 }
 
+TEST_F(Vmframes, APartOfAMeshIsShown)
+{
+    const std::string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 2 -1 0\nv 4 -1 0\nv 4 1 0\nv 2 1 0\n"
+                                "vt 0 0\nvt .4 0\nvt .4 1\nvt 0 1\nvt .6 0\nvt 1 0\nvt 1 1\nvt .6 1\n",
+                      left = "usemtl left\nf 1/1 2/2 3/3 4/4\n", right = "usemtl right\nf 5/5 6/6 7/7 8/8\n";
+    write("both.obj", corners + left + right);
+    write("left.obj", corners + left);
+    const std::string flags = " sky.exr --resolution 16 --samples 4 --size 16 --spp 1 -o ";
+    done("vmframes left.obj" + flags + "left.exr");
+    done("vmframes both.obj --material left" + flags + "part.exr");
+    expect_same_pixels("part.exr", "left.exr", 1e-5f);
+    done("vmframes both.obj" + flags + "both.exr");
+    EXPECT_NE(pixels("both.exr").values, pixels("left.exr").values) << "the camera stands farther off";
+    refused(1, "vmframes ERROR: \"both.obj\": no material \"rigth\"; the file has \"left\" and \"right\"",
+            "vmframes both.obj --material rigth" + flags + "x.exr");
+}
+
 TEST_F(Vmframes, StrandsAreDrawnOverAMesh)
 {
     std::string obj = "v -.5 0 .2\nv .5 0 .3\nl 1 2\nv -.5 .2 .2\nv .5 .2 .3\nl 3 4\n";

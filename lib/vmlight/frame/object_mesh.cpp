@@ -34,10 +34,8 @@ bool read_part(Mesh& dst, const VismapRecipe& recipe, int uv_set, std::string& e
         return true;
     std::vector<bool> chosen;
     std::string at;
-    if (!choose_triangles(chosen, dst, recipe.selection, at, error)) {
-        error = format("\"{}\": {}: {}", recipe.mesh, at, error);
+    if (!choose_triangles(chosen, dst, recipe.selection, at, error))
         return false;
-    }
     Mesh part = mesh_part(dst, chosen);
     part.warnings = dst.warnings;
     dst = std::move(part);
