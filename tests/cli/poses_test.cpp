@@ -40,7 +40,7 @@ std::string lidded(double degrees, const std::string& first_x = "-1")
 }
 
 // By 90 degrees about y.
-std::string turned(const std::string& obj)
+std::string quarter_turned(const std::string& obj)
 {
     std::string text;
     for (const std::string& line : OIIO::Strutil::splits(obj, "\n")) {
@@ -111,7 +111,7 @@ TEST_F(Poses, AnotherPoseIsComparedBeforeTheBake)
     write("same.obj", lidded(0));
     EXPECT_THAT(done(std::string("makevismap lid.0001.obj --pose same.obj -o vm.exr") + kFlags),
                 HasSubstr("pose \"same.obj\": everything moves as one body: V stays, and B turns with it\n"));
-    write("turned.obj", turned(lidded(0)));
+    write("turned.obj", quarter_turned(lidded(0)));
     const std::string line = std::string("makevismap lid.0001.obj --pose turned.obj -o vm.exr") + kFlags,
                       stays = "pose \"turned.obj\": everything moves as one body: V stays, and B turns with it";
     EXPECT_THAT(done(line), HasSubstr(stays + "\n"));

@@ -13,7 +13,7 @@
 namespace vmlight {
 namespace {
 
-constexpr size_t kMostNamed = 5; // of missing frames
+constexpr size_t kMostFramesNamed = 5; // of missing frames
 
 // visit(key, name) for each input that may be a sequence.
 template <class Visit> void each_input(LightmapRecipe& recipe, const Visit& visit)
@@ -56,11 +56,11 @@ std::string missing_frames_fault(const std::string& name, const std::vector<int>
     if (missing.empty())
         return "";
     std::string others;
-    if (missing.size() > kMostNamed)
-        others = format(" and {} more", missing.size() - kMostNamed);
+    if (missing.size() > kMostFramesNamed)
+        others = format(" and {} more", missing.size() - kMostFramesNamed);
     else if (missing.size() == 1)
         return format("\"{}\": no such file", first);
-    missing.resize(std::min(missing.size(), kMostNamed));
+    missing.resize(std::min(missing.size(), kMostFramesNamed));
     return format("\"{}\": no such file; frames {}{} are missing", first, OIIO::Strutil::join(missing, ", "), others);
 }
 
