@@ -247,7 +247,8 @@ TEST(Vismap, RefusesParametersOutOfRange)
     EXPECT_EQ(bake_refusal(mesh, params), "margin: -2 is not in [0, 32768] or \"infinite\"");
     params = {};
     params.resolution = { 0, 5 };
-    EXPECT_EQ(bake_refusal(mesh, params), "resolution: \"0x5\" is not WIDTH or WIDTHxHEIGHT in pixels, each from 1 to 32768");
+    EXPECT_EQ(bake_refusal(mesh, params),
+              "resolution: \"0x5\" is not WIDTH or WIDTHxHEIGHT in pixels, each from 1 to 32768");
     params = {};
     params.width = 32769;
     EXPECT_EQ(bake_refusal(mesh, params), "width: 32769 is not in [0, 32768]");
