@@ -107,6 +107,10 @@ TEST_F(Frames, AnEnvironmentForEachFrame)
     refused(1, "\"sky.0011.exr\": no such file; frames 11, 12, 13, 14, 15 and 85 more are missing\n",
             "makelightmap vm.exr sky.####.exr --frames 8-100 -o x.####.exr");
     EXPECT_FALSE(exists("x.0008.exr")) << "before any is made";
+    done("makelightmap vm.exr 'made.#.null?RES=64x32&CHANNELS=3' --frames 1-2 -o made.#.exr"); // by a plugin of OIIO's
+    refused(1, "\"sky.11.lightmap\": no such file",
+            "makelightmap vm.exr sky.exr --albedo 'sky.##.lightmap?exposure=1' "
+            "--frames 11 -o x.#.exr");
 }
 
 TEST_F(Frames, AMapAndAnAlbedoForEachFrame)

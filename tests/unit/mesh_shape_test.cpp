@@ -52,6 +52,11 @@ TEST_F(MeshShapes, OfASphereAreItsMoments)
     ASSERT_GT(mesh.triangles.size(), size_t(1) << 17);
     const std::vector<std::string> words = OIIO::Strutil::splits(mesh_shape(mesh), " ");
     ASSERT_EQ(words.size(), 22u);
+    int threads = 0;
+    OIIO::getattribute("threads", threads);
+    OIIO::attribute("threads", 1);
+    EXPECT_EQ(OIIO::Strutil::splits(mesh_shape(mesh), " "), words);
+    OIIO::attribute("threads", threads);
     const auto number = [&](size_t i) { return std::stod(words[i]); };
     EXPECT_EQ(number(0), double(mesh.triangles.size()));
     EXPECT_NEAR(number(1), 2, 1e-3);

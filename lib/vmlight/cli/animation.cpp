@@ -2,6 +2,7 @@
 #include <vmlight/cli/animation.h>
 
 #include <vmlight/base/format.h>
+#include <vmlight/image/image_file.h>
 #include <vmlight/math/rotation.h>
 #include <vmlight/uv/udim.h>
 
@@ -47,21 +48,22 @@ std::string missing_frames_fault(const std::string& name, const std::vector<int>
     std::vector<std::string> missing;
     std::string first;
     for (const int frame : frames) {
-        const std::string path = recipe_path(frame_path(name, frame));
-        if (OIIO::Filesystem::exists(path))
+        const std::string path = frame_path(name, frame);
+        // What a plugin generates has no file; a recipe does.
+        if (recipe_stage(path).empty() ? may_be_image(path) : OIIO::Filesystem::exists(recipe_path(path)))
             continue;
-        first = missing.empty() ? path : first;
+        first = missing.empty() ? recipe_path(path) : first;
         missing.push_back(std::to_string(frame));
     }
     if (missing.empty())
         return "";
-    std::string others;
-    if (missing.size() > kMostFramesNamed)
-        others = format(" and {} more", missing.size() - kMostFramesNamed);
-    else if (missing.size() == 1)
-        return format("\"{}\": no such file", first);
-    missing.resize(std::min(missing.size(), kMostFramesNamed));
-    return format("\"{}\": no such file; frames {}{} are missing", first, OIIO::Strutil::join(missing, ", "), others);
+    const std::string fault = format("\"{}\": no such file", first);
+    if (missing.size() == 1)
+        return fault;
+    const size_t named = std::min(missing.size(), kMostFramesNamed), more = missing.size() - named;
+    missing.resize(named);
+    return format("{}; frames {}{} are missing", fault, OIIO::Strutil::join(missing, ", "),
+                  more ? format(" and {} more", more) : "");
 }
 
 std::string Animation::fault(const std::string& output) const

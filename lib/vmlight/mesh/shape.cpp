@@ -3,13 +3,12 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/parallel_blocks.h>
+#include <vmlight/base/params.h>
 #include <vmlight/base/text.h>
-#include <vmlight/base/text_format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 namespace vmlight {
@@ -18,143 +17,142 @@ namespace {
 using Imath::V2d;
 using Imath::V3d;
 
-constexpr double kRounding = 1e-5;
-constexpr double kNormalRounding = 1e-4; // some programs write four digits
-constexpr double kFarRounding = 1e-6; // of positions, by the distance from the origin
+// What two texts of one mesh may differ by. Programs write positions and UVs with six digits, normals with four.
+constexpr double kRounding = 1e-5; // by the size of the mesh
+constexpr double kFarRounding = 1e-6; // by the distance from the origin
+constexpr double kAreaRounding = 1e-4; // thin triangles change more than the mesh
+constexpr double kNormalRounding = 1e-4;
 
-template <size_t count> using Sums = std::array<double, count>;
+// In the order of the text: the count of triangles; radius; centre; area by the square of the radius; and means over
+// the surface, positions from the centre and by the radius: x^2, y^2, z^2, u, v, ux, uy, uz, vx, vy, vz, those with the
+// shading normal n: n, n.p and n.face.
+constexpr size_t kRadius = 1, kCentre = 2, kArea = 5, kFirstMean = 6, kFirstOfNormals = 17, kNumbers = 22;
+using ShapeNumbers = std::array<double, kNumbers>;
 
-struct SurfaceCorner
+struct ShapeSums
 {
-    V3d position;
-    V2d uv;
-    V3d normal, face; // of unit length
-};
+    double area = 0;
+    V3d p { 0 }, pp { 0 }, up { 0 }, vp { 0 }, n { 0 };
+    V2d uv { 0 };
+    double np = 0, nf = 0;
 
-// The sum over all corners of triangles of what `of` returns, weighted by area.
-template <size_t count, class Function> Sums<count> over_surface(const Mesh& mesh, const Function& of)
-{
-    std::vector<Sums<count>> blocks(block_count(mesh.triangles.size()), Sums<count> {});
-    parallel_blocks(mesh.triangles.size(), [&](size_t begin, size_t end, size_t block) {
-        for (size_t t = begin; t < end; ++t) {
-            const auto& [a, b, c] = mesh.triangles[t];
-            const V3d face = (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
-            const double twice = face.length();
-            if (!(twice > 0))
-                continue;
-            for (const uint32_t v : { a, b, c }) {
-                const V2d uv = has_uv(mesh, v) ? V2d(mesh.uvs[v]) : V2d(0);
-                const Sums<count> values
-                    = of(SurfaceCorner { mesh.positions[v], uv, V3d(mesh.normals[v]), face / twice });
-                for (size_t i = 0; i < count; ++i)
-                    blocks[block][i] += twice / 6 * values[i];
-            }
-        }
-    });
-    Sums<count> all {};
-    for (const Sums<count>& block : blocks)
-        for (size_t i = 0; i < count; ++i)
-            all[i] += block[i];
-    return all;
-}
-
-// Of mesh_shape()'s text, in this order.
-struct Shape
-{
-    static constexpr size_t kMeans = 16, kNormalMeans = 5;
-
-    double triangles = 0, radius = 0; // root of the mean square distance from the centre
-    V3d centre { 0 };
-    double area = 0; // by the square of the radius
-    Sums<kMeans> means {}; // see means_of(); the last kNormalMeans have normals in them
-
-    // The numbers, and what two of one mesh may differ by.
-    std::vector<std::pair<double, double>> numbers() const
+    void add(const ShapeSums& other, double weight = 1)
     {
-        std::vector<std::pair<double, double>> found { { triangles, 0 }, { radius, kRounding * radius } };
-        for (int axis = 0; axis < 3; ++axis)
-            found.emplace_back(centre[axis], kRounding * radius + kFarRounding * centre.length());
-        found.emplace_back(area, 10 * kRounding * area);
-        for (size_t i = 0; i < kMeans; ++i)
-            found.emplace_back(means[i],
-                               i + kNormalMeans < kMeans ? kRounding * (1 + std::abs(means[i])) : kNormalRounding);
-        return found;
+        area += weight * other.area;
+        p += weight * other.p;
+        pp += weight * other.pp;
+        up += weight * other.up;
+        vp += weight * other.vp;
+        n += weight * other.n;
+        uv += weight * other.uv;
+        np += weight * other.np;
+        nf += weight * other.nf;
     }
 };
 
-constexpr size_t kNumbers = 6 + Shape::kMeans;
-
-// `p` is from the centre, by the radius.
-Sums<Shape::kMeans> means_of(const V3d& p, const SurfaceCorner& corner)
+ShapeSums sums_of(const Mesh& mesh, const V3d& origin, size_t begin, size_t end)
 {
-    const V2d& uv = corner.uv;
-    const V3d& n = corner.normal;
-    return { p.x * p.x,  p.y * p.y,  p.z * p.z,  uv.x, uv.y, uv.x * p.x, uv.x * p.y, uv.x * p.z,
-             uv.y * p.x, uv.y * p.y, uv.y * p.z, n.x,  n.y,  n.z,        n.dot(p),   n.dot(corner.face) };
+    ShapeSums sums;
+    for (size_t t = begin; t < end; ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const V3d pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
+        const V3d face = (pb - pa).cross(pc - pa);
+        const double twice = face.length();
+        if (!(twice > 0))
+            continue;
+        V2d uv(0);
+        for (const uint32_t v : { a, b, c })
+            uv += has_uv(mesh, v) ? V2d(mesh.uvs[v]) / 3 : V2d(0);
+        const V3d p = (pa - origin + (pb - origin) + (pc - origin)) / 3;
+        const V3d n = V3d(mesh.normals[a] + mesh.normals[b] + mesh.normals[c]) / 3;
+        sums.add({ 1, p, p * p, uv.x * p, uv.y * p, n, uv, n.dot(p), n.dot(face) / twice }, twice / 2);
+    }
+    return sums;
 }
 
-bool read_shape(Shape& dst, const std::string& text)
+double tolerance(const ShapeNumbers& numbers, size_t i)
+{
+    const double size = kRounding * numbers[kRadius];
+    if (i == kRadius)
+        return size;
+    if (i >= kCentre && i < kArea)
+        return size + kFarRounding * V3d(numbers[kCentre], numbers[kCentre + 1], numbers[kCentre + 2]).length();
+    if (i == kArea)
+        return kAreaRounding * numbers[kArea];
+    if (i >= kFirstOfNormals)
+        return kNormalRounding;
+    return i >= kFirstMean ? kRounding * (1 + std::abs(numbers[i])) : 0;
+}
+
+bool read_shape(ShapeNumbers& dst, const std::string& text)
 {
     const std::vector<std::string> words = split(text, ' ');
-    if (words.size() != kNumbers)
-        return false;
-    std::array<double, kNumbers> numbers {};
-    for (size_t i = 0; i < kNumbers; ++i) {
-        char* end = nullptr;
-        numbers[i] = number_at(words[i].c_str(), &end);
-        if (end == words[i].c_str() || *end || !std::isfinite(numbers[i]))
+    std::string ignored;
+    for (size_t i = 0; i < kNumbers && words.size() == kNumbers; ++i)
+        if (!parse_value(dst[i], words[i], Range { -1e300, 1e300 }, ignored))
             return false;
-    }
-    dst.triangles = numbers[0];
-    dst.radius = numbers[1];
-    dst.centre = { numbers[2], numbers[3], numbers[4] };
-    dst.area = numbers[5];
-    std::copy(numbers.begin() + 6, numbers.end(), dst.means.begin());
-    return true;
+    return words.size() == kNumbers;
 }
 
 } // namespace
 
 std::string mesh_shape(const Mesh& mesh)
 {
-    if (mesh.instances || mesh.strands)
+    if (mesh.instances || mesh.strands || mesh.triangles.empty())
         return "";
-    Shape shape;
-    shape.triangles = double(mesh.triangles.size());
-    const V3d origin = mesh.triangles.empty() ? V3d(0) : mesh.positions[mesh.triangles[0][0]];
-    const auto place = over_surface<5>(mesh, [&](const SurfaceCorner& corner) {
-        const V3d p = corner.position - origin;
-        return Sums<5> { 1, p.x, p.y, p.z, p.length2() };
-    });
-    const double area = place[0];
-    if (!(area > 0))
+    const V3d origin = mesh.positions[mesh.triangles[0][0]]; // far from that of the file, digits would be lost
+    std::vector<ShapeSums> blocks(block_count(mesh.triangles.size()));
+    parallel_blocks(mesh.triangles.size(),
+                    [&](size_t begin, size_t end, size_t block) { blocks[block] = sums_of(mesh, origin, begin, end); });
+    ShapeSums all, mean;
+    for (const ShapeSums& block : blocks)
+        all.add(block);
+    if (!(all.area > 0))
         return "";
-    const V3d centre = V3d(place[1], place[2], place[3]) / area;
-    shape.centre = origin + centre;
-    shape.radius = std::sqrt(std::max(0.0, place[4] / area - centre.length2()));
-    if (!(shape.radius > 0) || !std::isfinite(shape.radius))
+    mean.add(all, 1 / all.area);
+    const V3d c = mean.p, centre = origin + c, spread = mean.pp - c * c;
+    const double radius = std::sqrt(std::max(0.0, spread.x + spread.y + spread.z));
+    if (!(radius > 0) || !std::isfinite(radius))
         return "";
-    shape.area = area / (shape.radius * shape.radius);
-    shape.means = over_surface<Shape::kMeans>(mesh, [&](const SurfaceCorner& corner) {
-        return means_of((corner.position - shape.centre) / shape.radius, corner);
-    });
-    for (double& mean : shape.means)
-        mean /= area;
+    const V3d xx = spread / (radius * radius), ux = (mean.up - mean.uv.x * c) / radius,
+              vx = (mean.vp - mean.uv.y * c) / radius, n = mean.n;
+    const ShapeNumbers numbers { double(mesh.triangles.size()),
+                                 radius,
+                                 centre.x,
+                                 centre.y,
+                                 centre.z,
+                                 all.area / (radius * radius),
+                                 xx.x,
+                                 xx.y,
+                                 xx.z,
+                                 mean.uv.x,
+                                 mean.uv.y,
+                                 ux.x,
+                                 ux.y,
+                                 ux.z,
+                                 vx.x,
+                                 vx.y,
+                                 vx.z,
+                                 n.x,
+                                 n.y,
+                                 n.z,
+                                 (mean.np - n.dot(c)) / radius,
+                                 mean.nf };
     std::string text;
-    for (const auto& [number, tolerance] : shape.numbers())
+    for (const double number : numbers)
         text += (text.empty() ? "" : " ") + format("{:.9g}", number);
     return text;
 }
 
 bool same_shape(const std::string& a, const std::string& b)
 {
-    Shape one, other;
-    if (!read_shape(one, a) || !read_shape(other, b))
+    ShapeNumbers left, right;
+    if (!read_shape(left, a) || !read_shape(right, b))
         return false;
-    const auto left = one.numbers(), right = other.numbers();
-    return std::equal(left.begin(), left.end(), right.begin(), [](const auto& l, const auto& r) {
-        return std::abs(l.first - r.first) <= std::max(l.second, r.second);
-    });
+    for (size_t i = 0; i < kNumbers; ++i)
+        if (!(std::abs(left[i] - right[i]) <= std::max(tolerance(left, i), tolerance(right, i))))
+            return false;
+    return true;
 }
 
 } // namespace vmlight
