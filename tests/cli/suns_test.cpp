@@ -70,7 +70,11 @@ TEST_F(Suns, AFileOfTheMapNeedsItsMeshAndGivesTheSameLight)
             "makelightmap vm.exr sunny.exr --suns on -o c.exr");
     refused(1, "not the mesh that",
             "makelightmap vm.exr sunny.exr --suns auto --mesh {spot} --occluder wall.obj -o c.exr");
-    refused(1, "baked with other occluders", "makelightmap vm.exr sunny.exr --suns auto --mesh floor.obj -o c.exr");
+    refused(1, "baked with other occluders: wall.obj; list the same ones",
+            "makelightmap vm.exr sunny.exr --suns auto --mesh floor.obj -o c.exr");
+    done("makevismap floor.obj --resolution 32 --samples 16 -o alone.exr");
+    refused(1, "\"alone.exr\": baked without occluders; leave out --occluder",
+            "makelightmap alone.exr sunny.exr --suns auto --mesh floor.obj --occluder wall.obj -o c.exr");
     refused(2, "set --suns auto", "makelightmap vm.exr sunny.exr --mesh floor.obj -o c.exr");
     refused(2, "the recipe of the visibility map",
             "makelightmap hero.vismap sunny.exr --suns auto --mesh floor.obj -o c.exr");
@@ -99,7 +103,7 @@ TEST_F(Suns, MeshesThatMoveHaveAFileForEachFrame)
     expect_same_pixels("stays.2.exr", "lit.2.exr", 0);
     const std::string moving = " --occluder wall.#.obj --frames ";
     EXPECT_THAT(run(light + "vm.1.exr" + with + "--mesh floor.obj" + moving + "1-2 -o x.#.exr").all(),
-                HasSubstr("\"vm.1.exr\": baked with other occluders"));
+                HasSubstr("\"vm.1.exr\": baked with other occluders: wall.1.obj; list"));
     refused(1, "\"wall.3.obj\": no such file",
             light + "vm.1.exr" + with + "--mesh floor.obj" + moving + "3 -o y.#.exr");
 }

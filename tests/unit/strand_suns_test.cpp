@@ -166,7 +166,7 @@ TEST_F(StrandSunStage, AStoredMapIsGivenItsFiles)
         return image.geterror();
     };
     light.occluder.clear();
-    EXPECT_THAT(refused(), testing::HasSubstr("baked with other occluders"));
+    EXPECT_THAT(refused(), testing::HasSubstr("the map was baked with other occluders: spot.obj; list"));
     light.mesh = folder.write("other.tfx", tfx(5, 3));
     EXPECT_THAT(refused(), testing::HasSubstr("not the strands that the map was baked from"));
     light.mesh.clear();

@@ -54,6 +54,7 @@ TEST(Vismap, AMapSaysWhatItIsAndHowItWasMade)
     EXPECT_EQ(spec.get_string_attribute("vmlight:meshShape"), mesh_shape(mesh));
     EXPECT_EQ(spec.get_string_attribute("vmlight:occluderHash"),
               mesh_hash(wall_at_x1()) + "," + mesh_hash(floor_facing_z(1)));
+    EXPECT_EQ(std::string(spec.get_string_attribute("vmlight:occluder")), "quad, floor");
     EXPECT_EQ(spec.get_string_attribute("vmlight:sampler"), "sobol");
     EXPECT_EQ(spec.get_string_attribute("vmlight:samples"), "16");
     EXPECT_EQ(spec.get_string_attribute("vmlight:margin"), "3");

@@ -15,7 +15,7 @@ VismapRecipe recipe_of_map(const OIIO::ImageSpec& map)
     for (const std::string& key : param_names(recipe))
         if (const OIIO::ParamValue* value = map.find_attribute(metadata_name(key.c_str()))) {
             std::string ignored;
-            if (key != "mesh" && key != "occluder") // `vmlight:mesh` is a name for people
+            if (key != "mesh" && key != "occluder") // as metadata these are names for people
                 set_param(recipe, key, value->get_string(), ignored);
         }
     return recipe;
@@ -52,6 +52,7 @@ std::shared_ptr<MapScene> MapScene::open(const LightmapRecipe& recipe, const OII
         scene->m_mesh.normal_map.clear();
         scene->m_hash = vismap.get_string_attribute("vmlight:meshHash");
         scene->m_occluder_hashes = vismap.get_string_attribute("vmlight:occluderHash");
+        scene->m_occluder_names = vismap.get_string_attribute("vmlight:occluder");
     }
     scene->m_mesh.cull_occluders = !from_anywhere;
     scene->m_roi = OIIO::get_roi(vismap);
@@ -81,6 +82,16 @@ bool MapScene::prepare(const MakeOptions& options, std::string& error)
     return m_prepare.run([&](std::string& reason) { return read(options, reason); }, error);
 }
 
+std::string MapScene::occluder_fault(const std::string& hashes) const
+{
+    if (m_hash.empty() || hashes == m_occluder_hashes)
+        return "";
+    if (m_occluder_hashes.empty())
+        return "baked without occluders; leave out --occluder, or bake the map again with it";
+    return format("baked with other occluders{}; list the same ones with --occluder, in the same order",
+                  m_occluder_names.empty() ? "" : format(": {}", m_occluder_names));
+}
+
 bool MapScene::read(const MakeOptions& options, std::string& error)
 {
     if (m_scene)
@@ -98,11 +109,9 @@ bool MapScene::read(const MakeOptions& options, std::string& error)
                                      m_mesh.mesh, m_recipe.vismap));
         return false;
     }
-    if (!m_hash.empty() && scene->occluder_hashes() != m_occluder_hashes) {
-        error = with_location(m_recipe, "occluder", options.chain,
-                              format("\"{}\": baked with other occluders; list the same ones with --occluder, in the "
-                                     "same order",
-                                     m_recipe.vismap));
+    error = occluder_fault(scene->occluder_hashes());
+    if (!error.empty()) {
+        error = with_location(m_recipe, "occluder", options.chain, format("\"{}\": {}", m_recipe.vismap, error));
         return false;
     }
     if (!m_normal_map.empty()) {

@@ -59,11 +59,12 @@ public:
     const NormalMapPointer& normal_map() const { return m_normals; }
     /// The bake, with the map's own size.
     const VismapParams& params() const { return m_map; }
-    /// Before prepare(): what the meshes were when they were found; and the hashes of those that were baked, "" if they
-    /// are not known.
+    /// Before prepare(): what the meshes were when they were found; and the hash of the one that was baked, "" if it is
+    /// not known.
     const SceneStamps& stamps() const { return m_stamps; }
     const std::string& mesh_hash() const { return m_hash; }
-    const std::string& occluder_hashes() const { return m_occluder_hashes; }
+    /// What to do if the map was baked with occluders other than those of these hashes, after the map's name; or "".
+    std::string occluder_fault(const std::string& hashes) const;
     /// The bake as it was asked for: its meshes, and how they are read.
     const VismapRecipe& recipe() const { return m_mesh; }
 
@@ -75,7 +76,7 @@ private:
     VismapParams m_map; ///< its texels
     OIIO::ROI m_roi;
     std::string m_normal_map; ///< of a stored map that was baked with one
-    std::string m_hash, m_occluder_hashes; ///< of the meshes that were baked; "" if unknown
+    std::string m_hash, m_occluder_hashes, m_occluder_names; ///< of the meshes that were baked; "" if unknown
     SceneStamps m_stamps;
     std::string m_key;
     RunOnce m_prepare;

@@ -36,6 +36,7 @@ bool build_strand_scene(StrandScene& dst, StrandSceneFacts& facts, const Strands
         if (!read_scene_file(occluders[i], facts.files, recipe, stamps, i + 1, options.steps(), at, error))
             return false;
         facts.occluder_hashes += (i ? "," : "") + mesh_hash(occluders[i]);
+        facts.occluder_names += (i ? ", " : "") + occluders[i].name;
         for (const std::string& warning : occluders[i].warnings)
             facts.warnings.push_back(format("\"{}\": {}", occluders[i].path, warning));
     }

@@ -26,6 +26,7 @@ bool read_strand_uvs(Strands& dst, std::vector<Imath::V2f>& uvs, const VismapRec
 struct StrandSceneFacts
 {
     std::string occluder_hashes; ///< mesh_hash() of each occluder, separated by commas
+    std::string occluder_names; ///< Mesh::name of each, separated by ", "
     std::vector<std::string> warnings; ///< of the occluders' files
     std::vector<FileStamp> files; ///< that were read
 };

@@ -66,8 +66,10 @@ public:
             error = oiio::error_line(map);
             return false;
         }
-        if (!m_facts.occluder_hashes.empty())
+        if (!m_facts.occluder_hashes.empty()) {
             map.specmod().attribute("vmlight:occluderHash", m_facts.occluder_hashes);
+            map.specmod().attribute("vmlight:occluder", m_facts.occluder_names);
+        }
         const double seconds = timer() - build_seconds;
         options.report(format("strands: {} of {}, {}; each has {} along a row, from root to tip", m_strands.count(),
                               count_text(int64_t(m_strands.points.size()), "point", "points"),

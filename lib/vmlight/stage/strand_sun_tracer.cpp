@@ -21,9 +21,10 @@ bool StrandSunTracer::prepare(const MapScene& map, const MakeOptions& options, s
                        recipe.mesh, size.width, size.height, map.roi().width(), map.roi().height());
     if (!error.empty() || !build_strand_scene(m_scene, m_facts, m_strands, recipe, map.stamps(), options, at, error))
         return false;
-    if (!map.mesh_hash().empty() && m_facts.occluder_hashes != map.occluder_hashes()) {
+    error = map.occluder_fault(m_facts.occluder_hashes);
+    if (!error.empty()) {
         at = "occluder";
-        error = "the map was baked with other occluders; list the same ones with --occluder, in the same order";
+        error = format("the map was {}", error);
         return false;
     }
     m_bytes = m_scene.bytes() + m_strands.points.size() * (sizeof(Imath::V3d) + sizeof(double));

@@ -119,8 +119,10 @@ bool BakeScene::build(std::shared_ptr<const Mesh> mesh, const std::vector<Mesh>&
     m_choice = choice;
     if (!trace(occluders, nthreads, error, at_step))
         return false;
-    for (const Mesh& caster : occluders)
+    for (const Mesh& caster : occluders) {
         m_occluder_hashes += (m_occluder_hashes.empty() ? "" : ",") + vmlight::mesh_hash(caster);
+        m_occluder_names += (m_occluder_names.empty() ? "" : ", ") + (caster.name.empty() ? "unnamed" : caster.name);
+    }
     for (const Mesh* caster : casters) {
         m_triangles += held_triangles(*caster);
         m_spans += caster->strands ? int64_t(caster->strands->points.size() - caster->strands->count()) : 0;
@@ -177,6 +179,7 @@ bool BakeScene::build_part(std::shared_ptr<const BakeScene> whole, std::shared_p
     m_occluder = whole->m_occluder;
     m_occluder_hashes
         = vmlight::mesh_hash(rest) + (whole->m_occluder_hashes.empty() ? "" : ",") + whole->m_occluder_hashes;
+    m_occluder_names = whole->m_occluder_names;
     m_opacity_hashes = whole->m_opacity_hashes;
     m_triangles = whole->m_triangles;
     m_spans = whole->m_spans;

@@ -50,6 +50,8 @@ public:
     /// mesh_shape() of the mesh.
     const std::string& mesh_shape() const { return m_mesh_shape; }
     const std::string& occluder_hashes() const { return m_occluder_hashes; }
+    /// Mesh::name of each occluder given, or "unnamed", separated by ", ".
+    const std::string& occluder_names() const { return m_occluder_names; }
     /// opacity_hash() of all meshes, separated by commas; of a part, those of the whole.
     const std::string& opacity_hashes() const { return m_opacity_hashes; }
     /// Triangles of the mesh and all occluders, those of instances once; and spans of strands among them.
@@ -89,7 +91,7 @@ private:
     std::shared_ptr<const BakeScene> m_whole; // of which this is a part, or nullptr
     SceneFrame m_frame;
     std::shared_ptr<const Occluder> m_occluder;
-    std::string m_mesh_hash, m_mesh_shape, m_occluder_hashes, m_opacity_hashes;
+    std::string m_mesh_hash, m_mesh_shape, m_occluder_hashes, m_occluder_names, m_opacity_hashes;
     std::vector<std::string> m_warnings;
     int64_t m_triangles = 0, m_spans = 0, m_tiny = 0;
     double m_rounding = 0, m_lowest = 0, m_diagonal = 0;

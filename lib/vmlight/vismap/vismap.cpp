@@ -30,6 +30,8 @@ OIIO::ImageSpec vismap_spec(const BakeScene& scene, const VismapBaker& baker)
         spec.attribute("vmlight:meshShape", scene.mesh_shape());
     if (!scene.occluder_hashes().empty())
         spec.attribute("vmlight:occluderHash", scene.occluder_hashes());
+    if (!scene.occluder_names().empty())
+        spec.attribute("vmlight:occluder", scene.occluder_names());
     return spec;
 }
 
