@@ -7,6 +7,10 @@
 #include "vmview/scene/loading.h"
 #include "vmview/ui/viewport.h"
 
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <gmock/gmock.h>
+
 #include <chrono>
 #include <thread>
 
@@ -174,4 +178,75 @@ TEST_F(ViewportTest, StopsWhileItTraces)
             ASSERT_TRUE(settle(viewport, state, false));
         }
     }
+}
+
+// As long as it is so: not for a frame, and not with the light of what was chosen before.
+TEST_F(ViewportTest, WhatCannotBeShownIsBlackAndSaid)
+{
+    Request request = sunny_request();
+    request.trace.suns = request.trace.bounce.bounce = "off";
+    const Assets assets = loaded(request);
+    std::string error;
+    Viewport viewport(1, "box", 2, [] {});
+    ASSERT_TRUE(viewport.build("", error)) << error;
+    show(viewport, assets);
+    ViewState state = state_of(request);
+    ASSERT_TRUE(settle(viewport, state, false));
+    const std::vector<float> lobe = texels(viewport);
+    const auto is_black = [](const std::vector<float>& texels) {
+        bool result = !texels.empty();
+        for (size_t i = 0; i < texels.size(); ++i)
+            result &= i % 4 == 3 || texels[i] == 0;
+        return result;
+    };
+    const auto expect_problem = [&](const std::string& text) {
+        for (int frame = 0; frame < 3; ++frame) {
+            viewport.update(state, 64, 48, false);
+            EXPECT_THAT(viewport.problem(), testing::HasSubstr(text)) << frame;
+        }
+    };
+    state.light.model = "cells";
+    expect_problem("cells");
+    EXPECT_TRUE(is_black(texels(viewport)));
+    EXPECT_EQ(viewport.model(), "");
+    state.show = "error";
+    expect_problem("the visibility map has no channel \"error\"; bake it with makevismap --channels error");
+    EXPECT_TRUE(is_black(texels(viewport)));
+    state = state_of(request);
+    state.second = "cells";
+    expect_problem("cells");
+    EXPECT_TRUE(is_black(viewport.renderer().read_texture(1)));
+    EXPECT_EQ(texels(viewport), lobe);
+    state.second.clear();
+    ASSERT_TRUE(settle(viewport, state, false));
+    EXPECT_EQ(texels(viewport), lobe);
+}
+
+TEST_F(ViewportTest, WithoutRoomForATextureTheSurfaceIsWhite)
+{
+    const TemporaryFolder folder;
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    OIIO::ImageBuf wide(OIIO::ImageSpec(most + 1, 1, 3, OIIO::TypeDesc::UINT8));
+    ASSERT_TRUE(wide.write(folder / "wide.png")) << wide.geterror();
+    folder.write("card.mtl", "newmtl paint\nmap_Kd wide.png\n");
+    Request request = sunny_request();
+    request.trace.suns = request.trace.bounce.bounce = "off";
+    request.mesh.mesh = folder.write("card.obj",
+                                     "mtllib card.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                                     "usemtl paint\nf 1/1 2/2 3/3\n");
+    const Assets assets = loaded(request);
+    std::string error;
+    Viewport viewport(1, "box", 2, [] {});
+    ASSERT_TRUE(viewport.build("", error)) << error;
+    show(viewport, assets);
+    ViewState state = state_of(request);
+    for (int frame = 0; frame < 3; ++frame) {
+        viewport.update(state, 64, 48, false);
+        EXPECT_THAT(viewport.problem(), testing::HasSubstr(std::to_string(most + 1)));
+    }
+    const OIIO::ImageBuf shown = viewport.screenshot();
+    state.is_white = true;
+    ASSERT_TRUE(settle(viewport, state, false));
+    EXPECT_EQ(OIIO::ImageBufAlgo::compare(viewport.screenshot(), shown, 0, 0).nfail, 0);
 }

@@ -55,10 +55,16 @@ void copy(App& app, const std::string& line)
     app.tell("copied: " + line);
 }
 
+// What a command asks for: the model that lights the picture, or that was chosen and cannot.
+std::string model_of(App& app)
+{
+    return app.viewport().model().empty() ? app.state().light.model : app.viewport().model();
+}
+
 void draw_file_menu(App& app)
 {
     const Request& request = app.workshop().request();
-    const std::string model = app.viewport().model();
+    const std::string model = model_of(app);
     if (!ImGui::BeginMenu("File"))
         return;
     // Listed while the menu is open only.
@@ -185,7 +191,7 @@ void handle_key(App& app, const PressedKey& pressed)
     else if (is_control && pressed.key == GLFW_KEY_Q)
         app.window().close();
     else if (is_control && pressed.key == GLFW_KEY_C && !request.mesh.mesh.empty() && !request.environment.empty())
-        copy(app, vmframes_command(request, state, app.viewport().model()));
+        copy(app, vmframes_command(request, state, model_of(app)));
     else if (!is_control && pressed.key == GLFW_KEY_B)
         state.has_background = !state.has_background;
     else if (!is_control && pressed.key == GLFW_KEY_W)

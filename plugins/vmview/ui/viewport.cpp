@@ -7,8 +7,6 @@
 
 #include <vmlight/base/format.h>
 #include <vmlight/base/stopwatch.h>
-#include <vmlight/frame/frame_object.h>
-#include <vmlight/frame/strand_light.h>
 
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -20,20 +18,13 @@ namespace {
 
 // A drag stays smooth up to this.
 constexpr double kSlowFrame = 33;
+
 std::string camera_key(const Camera& c)
 {
     std::string key;
     for (const Imath::V3d& v : { c.position, c.right, c.up, c.forward })
         key += format("{} {} {} ", v.x, v.y, v.z);
     return key + format("{} {} {}", c.half_width, c.half_height, c.is_orthographic);
-}
-
-std::vector<float> three_channels(const OIIO::ImageBuf& image)
-{
-    const OIIO::ImageBuf rgb = OIIO::ImageBufAlgo::channels(image, 3, {});
-    std::vector<float> pixels(3 * rgb.spec().image_pixels());
-    rgb.get_pixels(rgb.roi(), OIIO::TypeFloat, pixels.data());
-    return pixels;
 }
 
 } // namespace
@@ -58,15 +49,25 @@ void Viewport::set_mesh(MeshPointer mesh)
 {
     stop();
     ++m_generation;
-    m_renderer.set_map(nullptr, m_problem);
-    m_renderer.set_mesh(std::move(mesh), !m_is_white, m_problem);
+    m_map_problem.clear();
+    m_renderer.set_map(nullptr, m_map_problem);
+    load_mesh(mesh);
+}
+
+void Viewport::load_mesh(const MeshPointer& mesh)
+{
+    m_mesh_problem.clear();
+    std::string ignored;
+    if (!m_renderer.set_mesh(mesh, !m_is_white, m_mesh_problem) && !m_renderer.set_mesh(mesh, false, ignored))
+        m_renderer.set_mesh(nullptr, false, ignored);
 }
 
 void Viewport::set_map(MapPointer map)
 {
     stop();
     ++m_generation;
-    m_renderer.set_map(std::move(map), m_problem);
+    m_map_problem.clear();
+    m_renderer.set_map(std::move(map), m_map_problem);
 }
 
 void Viewport::set_light(LightPointer light)
@@ -75,99 +76,8 @@ void Viewport::set_light(LightPointer light)
     ++m_generation;
     for (int slot = 0; slot < 2; ++slot)
         m_renderer.add_light(slot, {});
-    m_renderer.set_light(std::move(light), m_problem);
-}
-
-void Viewport::start(Slot& slot, const std::string& activity, ImageJob::Work work)
-{
-    slot.activity = activity;
-    slot.job.start(std::move(work));
-}
-
-void Viewport::stop(Slot& slot)
-{
-    slot.job.stop();
-    slot.key.clear();
-    slot.beside.clear();
-    slot.activity.clear();
-    slot.rest.clear();
-}
-
-void Viewport::stop()
-{
-    for (Slot& slot : m_slots)
-        stop(slot);
-    m_tracing.stop();
-}
-
-std::string Viewport::activity() const
-{
-    return m_slots[0].job.is_busy() ? m_slots[0].activity
-        : m_slots[1].job.is_busy()  ? m_slots[1].activity
-        : is_tracing()              ? "trace: light"
-                                    : "";
-}
-
-// Whether the texture has changed.
-bool Viewport::refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& asked)
-{
-    Slot& slot = m_slots[size_t(index)];
-    const bool needs_light = is_light(word);
-    if (!m_renderer.mesh() || !m_renderer.map() || (needs_light && !m_renderer.light()))
-        return false;
-    const std::string model = m_renderer.mesh()->is_strands() ? strand_model(asked) : asked;
-    LightmapParams params;
-    if (!light_params(params, state.light, state.turn, m_problem))
-        return false;
-    params.model = model;
-    const std::string key = format("{}|{}|", m_generation, word) + (needs_light ? key_of(params) : "");
-    bool changed = false;
-    const bool has_other = slot.added != m_tracing.count() && needs_light && model != kReferenceModel;
-    slot.added = m_tracing.count();
-    if (key == slot.key && has_other && !slot.rest.empty()) {
-        m_renderer.set_texture(index, slot.rest.data(), true);
-        changed = true;
-    } else if (key != slot.key || (has_other && has_relight_shader(slot.used))) {
-        slot.job.stop();
-        slot.key = key;
-        slot.rest.clear();
-        slot.used = needs_light ? model : "";
-        ShadingModel chosen;
-        if (needs_light && model == kReferenceModel) {
-            if (m_renderer.light()->light.environment.initialized())
-                start(slot, "trace: reference",
-                      reference_work(m_renderer.mesh(), m_renderer.map(), m_renderer.light(), params, m_threads));
-            else
-                m_problem = "a traced reference needs the environment itself, and this is only its filtered map";
-        } else if (needs_light && !model_for(chosen, model, *m_renderer.map(), *m_renderer.light(), m_problem)) {
-            slot.used.clear();
-        } else if (needs_light && !has_relight_shader(chosen.name)) {
-            slot.used = params.model = chosen.name;
-            start(slot, format("light: {}", params.model),
-                  relight_work(m_renderer.map(), m_renderer.light(), params, m_threads));
-        } else {
-            if (needs_light)
-                slot.used = params.model = chosen.name;
-            changed = show_figure(m_renderer, 0, index, word, params, m_problem);
-        }
-    }
-    if (const auto result = slot.job.take()) {
-        if (!result->error.empty() && result->error != "interrupted")
-            m_problem = result->error;
-        else if (result->error.empty()) {
-            slot.rest = three_channels(result->value);
-            m_renderer.set_texture(index, slot.rest.data(), model != kReferenceModel);
-            changed = true;
-        }
-    }
-    // What is beside it is lit at once, whatever its model does.
-    const std::string beside = format("{}|{}", key, m_tracing.count());
-    if (beside != slot.beside) {
-        slot.beside = beside;
-        for (size_t figure = 1; figure < m_renderer.figures(); ++figure)
-            changed |= show_figure(m_renderer, figure, index, word, params, m_problem);
-    }
-    return changed;
+    m_light_problem.clear();
+    m_renderer.set_light(std::move(light), m_light_problem);
 }
 
 bool Viewport::refresh_display(const ViewState& state)
@@ -186,13 +96,13 @@ bool Viewport::refresh_display(const ViewState& state)
 
 void Viewport::update(const ViewState& state, int width, int height, bool is_dragging)
 {
-    m_problem.clear();
     m_has_more = false;
     if (state.is_white != m_is_white) {
         m_is_white = state.is_white;
-        m_renderer.set_mesh(m_renderer.mesh(), !m_is_white, m_problem);
+        load_mesh(m_renderer.mesh());
         ++m_generation;
     }
+    m_problem = !m_mesh_problem.empty() ? m_mesh_problem : !m_map_problem.empty() ? m_map_problem : m_light_problem;
     glBindVertexArray(m_no_vertices.get());
     const bool has_second = !state.second.empty() && is_light(state.show);
     m_tracing.update(m_renderer, state, m_generation, m_is_white, m_problem);

@@ -49,7 +49,7 @@ public:
     /// The model that lights the left half; "" for none.
     const std::string& model() const { return m_slots[0].used; }
 
-    /// What was in the way of the last update, or "".
+    /// Why the picture is not what was asked for, as long as it is not, or "".
     const std::string& problem() const { return m_problem; }
     /// What goes on in the background, or "": "reference: 64 rays".
     std::string activity() const;
@@ -67,6 +67,7 @@ private:
         {
         }
         std::string key, used, activity, beside; ///< the last of what is beside it
+        std::string problem; ///< why it is black
         ImageJob job;
         std::vector<float> rest; ///< what the job made, before light is added to it; empty: the graphics card lights
         int added = 0; ///< m_tracing.count() when the texture was made
@@ -74,6 +75,9 @@ private:
     static void start(Slot& slot, const std::string& activity, ImageJob::Work work);
     static void stop(Slot& slot);
     bool refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model);
+    void load_mesh(const MeshPointer& mesh);
+    bool show_or_clear(size_t figure, int index, const std::string& word, const LightmapParams& params);
+    bool clear(size_t figure, int index, const std::string& reason);
     bool refresh_display(const ViewState& state);
 
     const int m_spp, m_threads;
@@ -90,6 +94,7 @@ private:
     VertexArray m_no_vertices;
     Camera m_camera;
     std::string m_picture_key, m_shown_key, m_problem;
+    std::string m_mesh_problem, m_map_problem, m_light_problem; // what the graphics card has no room for
     double m_scale = 1, m_frame_ms = 0;
     int m_generation = 0; // of what is on the graphics card
     bool m_has_more = false;
