@@ -95,8 +95,9 @@ std::string lines(const char* name, py::handle value, const char* wanted, std::s
     }
     for (const std::string& line : names)
         if (line.find('\n') != std::string::npos || line.empty())
-            throw py::value_error(format("{}: {} is {}", name, literal(line),
-                                         line.empty() ? "no name" : "a name with a line break, which cannot be used"));
+            throw py::value_error(
+                format("{}: {} {}", name, literal(line),
+                       line.empty() ? "is empty; leave it out" : "has a line break, which vmlight cannot pass on"));
     return OIIO::Strutil::join(names, "\n");
 }
 

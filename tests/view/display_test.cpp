@@ -156,6 +156,32 @@ colorspaces:
     check_all(path, 4);
 }
 
+// A file may leave numbers of a transform to change in use; they keep its own values here.
+TEST_F(Display, NumbersThatMayChange)
+{
+    const TemporaryFolder folder;
+    folder.write("grade.ctf", R"(<?xml version="1.0" encoding="UTF-8"?>
+<ProcessList id="grade" version="1.7">
+    <ExposureContrast inBitDepth="32f" outBitDepth="32f" style="linear">
+        <ECParams exposure="0.7" contrast="1.3" gamma="0.9" pivot="0.18" />
+        <DynamicParameter param="EXPOSURE" />
+        <DynamicParameter param="CONTRAST" />
+        <DynamicParameter param="GAMMA" />
+    </ExposureContrast>
+</ProcessList>
+)");
+    check_all(folder.write("config.ocio", R"(ocio_profile_version: 2
+search_path: "."
+roles: {scene_linear: lin, default: lin}
+file_rules: [!<Rule> {name: Default, colorspace: default}]
+displays: {Screen: [!<View> {name: Graded, colorspace: graded}]}
+colorspaces:
+  - !<ColorSpace> {name: lin}
+  - !<ColorSpace> {name: graded, from_scene_reference: !<FileTransform> {src: grade.ctf}}
+)"),
+              1);
+}
+
 TEST_F(Display, ExposureIsAFactor)
 {
     DisplayConfig config;
@@ -188,6 +214,16 @@ TEST_F(Display, RefusesWhatTheConfigLacks)
     DisplayChoice choice { "", "Nonsense", "" };
     EXPECT_FALSE(config.settle(choice, error));
     EXPECT_NE(error.find("the OCIO config has no view \"Nonsense\"; it has \""), std::string::npos) << error;
+    const TemporaryFolder folder;
+    const std::string head = "ocio_profile_version: 2\nfile_rules: [!<Rule> {name: Default, colorspace: lin}]\n"
+                             "colorspaces: [!<ColorSpace> {name: lin}]\n";
+    error.clear();
+    EXPECT_FALSE(config.open(folder.write("dark.ocio", head + "roles: {scene_linear: lin}\n"), error));
+    EXPECT_NE(error.find("dark.ocio\": the OCIO config has no display"), std::string::npos) << error;
+    const std::string screen = "displays: {Screen: [!<View> {name: Raw, colorspace: lin}]}\n";
+    error.clear();
+    EXPECT_FALSE(config.open(folder.write("roles.ocio", head + screen + "roles: {default: lin}\n"), error));
+    EXPECT_NE(error.find("roles.ocio\": the OCIO config has no role scene_linear"), std::string::npos) << error;
     EXPECT_FALSE(config.open("/nowhere/config.ocio", error));
     EXPECT_EQ(error.find("\"/nowhere/config.ocio\": "), 0u) << error;
 }

@@ -91,6 +91,37 @@ TEST(CopiedCommand, HasTheStrands)
         "0.1 --strand-exponent 60 --white -o body.png");
 }
 
+TEST(CopiedCommand, HasCameraColorAndTracedLight)
+{
+    Request request;
+    request.mesh.mesh = "hero.obj";
+    request.environment = "sky.hdr";
+    request.vismap = "hero_vm.exr";
+    request.filter.colorconfig = "show.ocio";
+    request.filter.colorspace = "ACEScg";
+    ViewState state = state_of(request);
+    state.trace.suns = "auto";
+    state.trace.bounce.bounce = "on";
+    state.trace.bounce.bounce_rays = 99;
+    state.trace.bounce.bounce_albedo = 0.25;
+    state.camera.azimuth = 30;
+    state.camera.fov = 60;
+    state.camera.fill = 0.5;
+    state.camera.look_at = { 1, 2, 3 };
+    state.display = { "sRGB", "Film", "warm" };
+    EXPECT_EQ(makelightmap_command(request, state, "paper"),
+              "makelightmap hero_vm.exr sky.hdr --model paper --colorconfig show.ocio --colorspace ACEScg --suns auto "
+              "--mesh hero.obj -o hero_lit.exr");
+    const std::string begin = "vmframes hero.obj sky.hdr --vismap hero_vm.exr --model paper --colorconfig show.ocio "
+                              "--colorspace ACEScg --suns auto --bounce on --bounce-rays 99 --bounce-albedo 0.25 ",
+                      end = "--display sRGB --view Film --look warm -o hero.png";
+    EXPECT_EQ(vmframes_command(request, state, "paper"),
+              begin + "--azimuth 30 --fov 60 --fill 0.5 --look-at 1,2,3 " + end);
+    state.camera.camera = "shot cam"; // of the mesh's file, which says all of it
+    state.has_background = true;
+    EXPECT_EQ(vmframes_command(request, state, "paper"), begin + "--camera 'shot cam' --background environment " + end);
+}
+
 // The copied rotation is the one that the view lights with.
 TEST(CopiedCommand, RotationIsThatOfTheLight)
 {
@@ -190,4 +221,32 @@ TEST(ViewState, ObjectTurnsWithTheMouse)
     state.turn = 175;
     turn_object(state, 20, 0);
     EXPECT_EQ(state.turn, -175);
+}
+
+// Around what is looked at, at one distance; without perspective, as large.
+TEST(ViewState, CameraTurnsAroundWhatItLooksAt)
+{
+    const Mesh mesh = square();
+    Subject subject;
+    subject.add(mesh);
+    ViewState state;
+    state.camera.look_at = { 0.25, -0.5, 0.125 };
+    const Imath::V3d target(0.25, -0.5, 0.125);
+    for (const double fov : { 40.0, 0.0 }) {
+        state.camera.fov = fov;
+        state.camera.azimuth = state.camera.elevation = 0;
+        const Camera before = camera_of(state, mesh, subject, 1.5);
+        EXPECT_EQ(before.is_orthographic, fov == 0);
+        turn_camera(state, 30, -40);
+        EXPECT_EQ(state.camera.azimuth, -15);
+        EXPECT_EQ(state.camera.elevation, -20);
+        const Camera after = camera_of(state, mesh, subject, 1.5);
+        for (const Camera& camera : { before, after })
+            EXPECT_LT((target - camera.position).cross(camera.forward).length(), 1e-9);
+        EXPECT_NEAR((target - after.position).length(), (target - before.position).length(), 1e-9);
+        EXPECT_EQ(after.half_width, before.half_width);
+        EXPECT_NEAR(after.half_width, 1.5 * after.half_height, 1e-12);
+    }
+    turn_camera(state, 0, 1e4);
+    EXPECT_EQ(state.camera.elevation, 90);
 }

@@ -171,4 +171,12 @@ TEST(Workshop, OpensWhatIsDropped)
     EXPECT_EQ(kind_of_file(path, error), AssetKind::map);
     EXPECT_EQ(kind_of_file(data_path("spot.obj"), error), AssetKind::mesh);
     EXPECT_EQ(kind_of_file(data_path("studio_small_03.hdr"), error), AssetKind::light);
+    for (const char* name : { "a.stl", "a.abc", "a.dae" })
+        EXPECT_EQ(kind_of_file(folder / name, error), AssetKind::mesh) << name;
+    OIIO::ImageBuf lit(OIIO::ImageSpec(4, 4, 3, OIIO::TypeFloat));
+    lit.specmod().attribute("vmlight:stage", "lightmap");
+    ASSERT_TRUE(lit.write(folder / "lit.exr"));
+    error.clear();
+    EXPECT_EQ(kind_of_file(folder / "lit.exr", error), AssetKind::none);
+    EXPECT_NE(error.find("a lit texture; open its mesh"), std::string::npos) << error;
 }

@@ -106,11 +106,6 @@ void Program::set_vectors(const char* name, const float* xyzw, int count) const
     glUniform4fv(glGetUniformLocation(get(), name), count, xyzw);
 }
 
-void Program::set_matrix(const char* name, const float* columns) const
-{
-    glUniformMatrix4fv(glGetUniformLocation(get(), name), 1, GL_FALSE, columns);
-}
-
 void Program::set(const char* name, int unit, const Texture& texture) const
 {
     texture.bind(unit);

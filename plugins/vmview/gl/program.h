@@ -33,10 +33,9 @@ public:
     void set(const char* name, float value) const;
     void set(const char* name, float x, float y) const;
     void set(const char* name, float x, float y, float z) const;
-    /// `count` numbers, vectors of four, or column-major matrices.
+    /// `count` numbers, or vectors of four.
     void set_floats(const char* name, const float* values, int count) const;
     void set_vectors(const char* name, const float* xyzw, int count) const;
-    void set_matrix(const char* name, const float* columns) const;
     /// Bind `texture` to `unit`, and the sampler `name` to that.
     void set(const char* name, int unit, const Texture& texture) const;
 

@@ -6,15 +6,12 @@
 #include <vmlight/frame/background.h>
 #include <vmlight/frame/texel_weights.h>
 #include <vmlight/image/channels.h>
+#include <vmlight/mesh/import/importer.h>
 #include <vmlight/mesh/import/strands/read_strands.h>
 #include <vmlight/stage/make_stage.h>
 #include <vmlight/stage/open_source.h>
 #include <vmlight/uv/udim.h>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
-
-#include <algorithm>
 #include <array>
 
 namespace vmlight::view {
@@ -104,11 +101,7 @@ LightPointer read_light_asset(const std::string& path, CfemRecipe recipe, double
 
 AssetKind kind_of_file(const std::string& path, std::string& error)
 {
-    static constexpr const char* kMeshes[] = { ".obj", ".ply", ".gltf", ".glb", ".dae", ".fbx" };
-    const std::string extension = OIIO::Strutil::lower(OIIO::Filesystem::extension(recipe_path(path)));
-    if (std::find(std::begin(kMeshes), std::end(kMeshes), extension) != std::end(kMeshes))
-        return AssetKind::mesh;
-    if (is_strand_file(path))
+    if (is_mesh_name(recipe_path(path)) || is_strand_file(path))
         return AssetKind::mesh;
     const std::string stage = image_stage(path);
     if (stage == kVismapStage)

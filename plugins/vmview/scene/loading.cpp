@@ -131,8 +131,9 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
             options.report(line);
         for (const std::string& line : warnings)
             options.report_warning(line);
-        if (error.empty())
-            dst.map = make_map_asset(std::move(map), request.vismap, *dst.mesh, options.threads);
+        if (!error.empty())
+            return false;
+        dst.map = make_map_asset(std::move(map), request.vismap, *dst.mesh, options.threads);
     } else if (!request.vismap.empty()) {
         dst.map = read_map_asset(request.vismap, *dst.mesh, options, error);
     } else {
