@@ -38,7 +38,8 @@ struct StageParams
         field("ground", ground, Text { "none|white|shadow|FILE" },
               "Ground under the objects: none, white, shadow (its shadow alone, for a comp), or a texture");
         field("background", background, Text { "none|environment|R,G,B" },
-              "What is behind: none (transparent), environment, or a colour such as 0.2,0.2,0.2");
+              "What is behind: none (transparent), environment, or a linear colour such as 0.2,0.2,0.2, which is "
+              "exposed like the rest");
         field("background_blur", background_blur, Range { 0, 60 }, "Blur of the environment behind, in degrees");
         field("white", white, Flag {}, "Show all surfaces white: ignore the materials of the meshes");
         field("strand_color", strand_color, Numbers { 3 },

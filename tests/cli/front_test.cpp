@@ -81,3 +81,25 @@ TEST_F(Front, AnswersAreThoseOfWhatWorks)
             EXPECT_EQ(answer.err, truth.err) << testing::PrintToString(line);
         }
 }
+
+TEST_F(Front, TheCommandsOfVmlightHaveAPageAndCompletion)
+{
+#ifdef VMLIGHT_SANITIZED
+    GTEST_SKIP() << "fronts are compared in optimised builds, which have all of them";
+#endif
+    const std::string page = front({ "vmlight", "--print-man" }).out,
+                      bash = front({ "vmlight", "--print-completion", "bash" }).out,
+                      zsh = front({ "vmlight", "--print-completion", "zsh" }).out;
+    EXPECT_THAT(page, testing::StartsWith(".TH VMLIGHT 1"));
+    for (const Tool& tool : kTools) {
+        EXPECT_THAT(page, testing::HasSubstr("\\fB" + std::string(tool.name) + "\\fR(1)"));
+        for (const std::string& script : { bash, zsh })
+            EXPECT_THAT(script, testing::HasSubstr("executable=" + std::string(tool.name) + " ;;"));
+    }
+    EXPECT_THAT(zsh, testing::StartsWith("#compdef vmlight"));
+    write("complete.bash", bash);
+    EXPECT_EQ(std::system(("bash -n '" + path("complete.bash") + "'").c_str()), 0);
+    const Result wrong = front({ "vmlight", "--print-completion", "fish" });
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, testing::HasSubstr("\"fish\" is not one of bash, zsh"));
+}

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,46 @@ TEST_F(Vmframes, FilmsAreMadeByFfmpeg)
     done(line);
     EXPECT_EQ(read("film.mp4").substr(4, 4), "ftyp");
     EXPECT_THAT(names(), Not(testing::Contains(HasSubstr(".part"))));
+}
+
+// A program of that name, by what it is called with: all frames go to it, and nothing is left of one that fails.
+TEST_F(Vmframes, FilmsAreOneProcess)
+{
+    const std::string before = std::getenv("PATH");
+    ::setenv("PATH", (path("tools") + ":" + before).c_str(), 1);
+    std::filesystem::create_directory(path("tools"));
+    const auto install = [&](const std::string& text) {
+        write("tools/ffmpeg", "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\n" + text);
+        std::filesystem::permissions(path("tools/ffmpeg"), std::filesystem::perms::owner_all);
+    };
+    const std::string line = "vmframes quad.obj sky.exr --frames 1-3 --turntable --fps 30 -o film.webm" + small;
+    install("echo \"$*\" >arguments\nfor last; do :; done\ncat >\"${last#file:}\"\n");
+    done(line);
+    EXPECT_EQ(read("film.webm").size(), 3u * 16 * 16 * 3) << "frames of R, G, B";
+    EXPECT_THAT(read("arguments"), HasSubstr("-f rawvideo -pix_fmt rgb24 -s 16x16 -r 30 -i pipe:0 "));
+    remove("film.webm");
+    install("exit 3\n");
+    refused(1, "\"film.webm\": ffmpeg failed with exit code 3", line);
+    ::setenv("PATH", before.c_str(), 1);
+    remove("arguments");
+    std::filesystem::remove_all(path("tools"));
+}
+
+TEST_F(Vmframes, BackgroundsAreBehind)
+{
+    const std::string line = "vmframes quad.obj sky.exr --elevation 0 --fill .2 --exposure 1" + small;
+    const auto corner = [&](const std::string& name, const std::string& background) {
+        done(line + " --background " + background + " -o " + name);
+        float rgba[4] = {};
+        OIIO::ImageBuf(path(name)).getpixel(0, 0, rgba);
+        return std::vector<float>(rgba, rgba + 4);
+    };
+    const auto near = [](float r, float g, float b, float a) {
+        return testing::Pointwise(testing::FloatNear(1e-4f), std::vector<float> { r, g, b, a });
+    };
+    EXPECT_THAT(corner("a.exr", "none"), near(0, 0, 0, 0));
+    EXPECT_THAT(corner("b.exr", "environment"), near(2, 4, 6, 1));
+    EXPECT_THAT(corner("c.exr", ".25,.5,1"), near(.5f, 1, 2, 1)) << "scene-linear: exposed too";
 }
 
 TEST_F(Vmframes, ModelsAreCompared)

@@ -141,6 +141,7 @@ class Refusals(Case):
             (lambda: vmlight.make_vismap(3), TypeError, "^mesh: must be a path or vmlight.Mesh, not int$"),
             (lambda: vmlight.make_vismap(plane(), 3), TypeError, "int"),
             (lambda: vmlight.make_vismap(plane(), SPOT), TypeError, "both be files, or both in memory"),
+            (lambda: vmlight.make_vismap(plane(), [3]), TypeError, "^occluder: must be paths or vmlight.Mesh, not int$"),
             (lambda: vmlight.make_vismap(SPOT, occluder=["a\nb"]), FileNotFoundError, "no such file"),
             (lambda: vmlight.make_vismap("absent.obj"), FileNotFoundError, '^"absent.obj": no such file$'),
             (lambda: vmlight.make_vismap("a\0b.obj"), ValueError, "^mesh: a name cannot contain a zero byte$"),
@@ -199,6 +200,11 @@ class Refusals(Case):
             vmlight.make_vismap(vmlight.Mesh(SQUARE, SQUARE_TRIANGLES))
         with self.assertRaises(vmlight.Error):
             vmlight.make_vismap(vmlight.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros((0, 2))))
+
+    def test_a_mesh_says_what_it_is(self):
+        self.assertEqual(repr(plane()), '<vmlight.Mesh "plane" 2 triangles, 4 vertices>')
+        bare = vmlight.Mesh(SQUARE, SQUARE_TRIANGLES)
+        self.assertEqual(repr(bare), f'<vmlight.Mesh "{bare.name}" 2 triangles, 4 vertices, without UVs>')
 
     def test_missing_normals_are_smooth(self):
         self.assert_same(vmlight.Mesh(SQUARE, SQUARE_TRIANGLES).normals, np.broadcast_to(np.float32([0, 1, 0]), (4, 3)))

@@ -10,6 +10,7 @@ import unittest
 BIN = os.environ["VMLIGHT_BIN"]
 DATA = os.path.join(os.environ["VMLIGHT_SOURCE"], "tests", "data")
 MESH, SKY = DATA + "/cases/box.obj", DATA + "/studio_small_03.hdr"
+CONFIG = os.path.join(os.environ["VMLIGHT_SOURCE"], "configs/ocio/config.ocio")
 GROOM = ["--radius", "0.05"]
 SMALL = ["--resolution", "32", "--samples", "4", "--size", "48x32", "--spp", "1"]
 
@@ -84,6 +85,43 @@ class Command(unittest.TestCase):
             self.run_here(MESH, SKY, *SMALL, "-o", name, "--quiet")
         with open(self.folder.name + "/a.exr", "rb") as a, open(self.folder.name + "/b.exr", "rb") as b:
             self.assertEqual(a.read(), b.read())
+
+    def read(self, name):
+        with open(os.path.join(self.folder.name, name), "rb") as file:
+            return file.read()
+
+    def test_flags_reach_the_picture(self):
+        common = [MESH, SKY, "--size", "48x32", "--quiet"]
+        pictures = {}
+        for name, flags in {"baked": SMALL[:4], "model": SMALL[:4] + ["--model", "ao"],
+                            "filter": SMALL[:4] + ["--filter", "box"], "samples": SMALL[:4] + ["--spp", "2"],
+                            "atlas": SMALL[:4] + ["--unwrap"]}.items():
+            result = self.run_here(*common, *flags, "-o", name + ".exr")
+            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+            pictures[name] = self.read(name + ".exr")
+        self.assertEqual(len(set(pictures.values())), len(pictures))
+        # A stored map gives the picture of the same bake.
+        subprocess.run([BIN + "/makevismap", MESH, "-o", self.folder.name + "/vm.exr", *SMALL[:4], "--basis", "sh",
+                        "--channels", "normal,coverage", "--quiet"], check=True)
+        result = self.run_here(*common, "--vismap", "vm.exr", "-o", "stored.exr")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(self.read("stored.exr"), pictures["baked"])
+        # Displays of a config.
+        shown = set()
+        for view in "Raw", "Un-tone-mapped":
+            result = self.run_here(*common, *SMALL[:4], "--colorconfig", CONFIG, "--display", "P3-D65 - Display", "--view",
+                                   view, "-o", "shown.png")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            shown.add(self.read("shown.png"))
+        self.assertEqual(len(shown), 2)
+        self.assert_ends(2, "--resolution 32: the visibility map is made already", *common, "--vismap", "vm.exr", *SMALL[:2])
+        self.assert_ends(2, "only --background environment is blurred", *common, "--background-blur", "3")
+        self.assert_ends(2, "an EXR holds scene-linear light", *common, "--view", "Raw")
+
+    def assert_ends(self, code, words, *arguments):
+        result = self.run_here(*arguments, "-o", "x.exr")
+        self.assertEqual(result.returncode, code, result)
+        self.assertIn(words, result.stderr)
 
     def test_bench(self):
         result = self.run_here(MESH, SKY, *SMALL, "--bench", "3")

@@ -68,12 +68,4 @@ bool MapTextures::load(const OIIO::ImageBuf& vismap, const std::vector<float>& c
     return true;
 }
 
-void MapTextures::refresh(const OIIO::ImageBuf& vismap)
-{
-    std::array<int, 4> seen;
-    std::string error;
-    if (find_vismap_channels(vismap.spec(), seen, error))
-        layers.fill_layer(0, GL_RGBA, pick(vismap, seen).data());
-}
-
 } // namespace vmlight::view

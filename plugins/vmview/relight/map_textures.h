@@ -26,8 +26,6 @@ struct MapTextures
     /// @param coverage one for each texel: the weight of its light in the mip levels
     /// @returns false, with the reason in `error`, if it is not a visibility map or larger than a texture can be.
     bool load(const OIIO::ImageBuf& vismap, const std::vector<float>& coverage, std::string& error);
-    /// Load V and B again, from a map of the same size without other channels.
-    void refresh(const OIIO::ImageBuf& vismap);
 };
 
 /// Why an image cannot be a texture here, or "".
