@@ -195,6 +195,7 @@ TEST_F(Vmexport, OcclusionIsPackedIntoATexture)
     EXPECT_THAT(exported("small.exr --for gltf --pack orm.exr"), ElementsAre("small_orm.png"));
     expect_all("out/small_orm.png", { 255, 128, 64 });
     refused(1, "\"orm.exr\": 8x8, but the map is 32x32", "vmexport vm.exr --for gltf --pack orm.exr -o other");
+    refused(1, "\"vm.exr/out\": ", "vmexport vm.exr --for three -o vm.exr/out");
 }
 
 TEST_F(Vmexport, TheSameBytesTwice)

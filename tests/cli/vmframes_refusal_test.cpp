@@ -105,6 +105,11 @@ TEST_F(Vmframes, FlagsThatCannotChangeThePictureAreRefused)
     refused(2, "--reference-samples 8: only the model reference uses it", line + "--reference-samples 8");
     refused(2, "--view Film: an EXR holds scene-linear light", exr + "--view Film");
     refused(2, "--background-blur 3: only --background environment is blurred", line + "--background-blur 3");
+    make_sky({ 1, 1, 1 }, "paint.exr");
+    refused(2, "--background environment: there is no environment",
+            "vmframes quad.obj --texture paint.exr --background environment -o a.png");
+    refused(2, "--model ao: the texture is shown as it is",
+            "vmframes quad.obj sky.exr --texture paint.exr --model ao -o a.png");
     refused(2, "--fps 25: only films and GIFs have a speed", line + "--fps 25");
     refused(2, "--crease-angle 30: flat normals ignore it", line + "--normals flat --crease-angle 30");
     // A sheet is shown by a display, and what else is baked has samples.

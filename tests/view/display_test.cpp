@@ -161,13 +161,26 @@ TEST_F(Display, NumbersThatMayChange)
 {
     const TemporaryFolder folder;
     folder.write("grade.ctf", R"(<?xml version="1.0" encoding="UTF-8"?>
-<ProcessList id="grade" version="1.7">
+<ProcessList id="grade" version="2.0">
     <ExposureContrast inBitDepth="32f" outBitDepth="32f" style="linear">
         <ECParams exposure="0.7" contrast="1.3" gamma="0.9" pivot="0.18" />
         <DynamicParameter param="EXPOSURE" />
         <DynamicParameter param="CONTRAST" />
         <DynamicParameter param="GAMMA" />
     </ExposureContrast>
+    <GradingPrimary inBitDepth="32f" outBitDepth="32f" style="linear">
+        <Offset rgb="0.01 -0.02 0" master="0.005" />
+        <Exposure rgb="0.1 0 -0.2" master="0.3" />
+        <Contrast rgb="1.1 1 0.9" master="1.05" />
+        <Saturation master="1.2" />
+        <DynamicParameter param="PRIMARY" />
+    </GradingPrimary>
+    <GradingRGBCurve inBitDepth="32f" outBitDepth="32f" style="linear">
+        <Red>
+            <ControlPoints>-7 -6 0 0.2 7 6.5</ControlPoints>
+        </Red>
+        <DynamicParameter param="RGB_CURVE" />
+    </GradingRGBCurve>
 </ProcessList>
 )");
     check_all(folder.write("config.ocio", R"(ocio_profile_version: 2

@@ -4,7 +4,10 @@
 
 #include "vmview/gl/fault.h"
 #include "vmview/gl/headless.h"
+#include "vmview/gl/program.h"
 #include "vmview/render/renderer.h"
+
+#include <gmock/gmock.h>
 
 using namespace vmlight;
 using namespace vmlight::view;
@@ -32,4 +35,21 @@ TEST(Headless, WrongCallsAreFound)
     glBindFramebuffer(0x1234, 0);
     EXPECT_NE(gl_fault(), "");
     EXPECT_EQ(gl_fault(), "");
+}
+
+// A driver's words are passed on.
+TEST(Headless, ShadersThatAreWrongAreRefused)
+{
+    std::string error;
+    const auto context = HeadlessContext::open(error);
+    if (!context)
+        GTEST_SKIP() << error;
+    Program program;
+    EXPECT_FALSE(program.build_whole({ "void main() { nonsense(); }" }, error));
+    EXPECT_THAT(error,
+                testing::AllOf(testing::HasSubstr("a shader does not compile: "), testing::HasSubstr("nonsense")));
+    EXPECT_FALSE(program.build_whole(
+        { "float elsewhere(); out vec4 color; void main() { color = vec4(elsewhere()); }" }, error));
+    EXPECT_THAT(error, testing::HasSubstr("shaders do not link: "));
+    EXPECT_FALSE(program);
 }

@@ -174,12 +174,6 @@ void App::take_screenshot()
     m_news = write_picture(m_viewport.screenshot(), path, error) ? format("screenshot: {}", path) : error;
 }
 
-bool App::is_at_rest() const
-{
-    return m_workshop.activity().empty() && m_viewport.activity().empty() && !m_viewport.has_more()
-        && m_frames_due == 0;
-}
-
 void App::run_once()
 {
     for (const std::string& path : m_window.take_dropped())

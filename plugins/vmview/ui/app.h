@@ -42,8 +42,6 @@ public:
     /// Say something in the status line: what was done, or what is wrong.
     void tell(const std::string& line) { m_news = line; }
     const std::string& news() const { return m_news; }
-    /// Whether there is nothing left to read, bake or draw.
-    bool is_at_rest() const;
 
 private:
     void take_results();
