@@ -43,7 +43,7 @@ class View:
                                 XDG_RUNTIME_DIR=self.config)  # without one, GLFW 3.4 complains on its way to X11
         self.environment.pop("OCIO", None)
         self.display = display
-        self.process = subprocess.Popen([BIN + "/vmview", *arguments, "--size", "640x480", "--gl-debug"],
+        self.process = subprocess.Popen([BIN + "/vmview", *arguments, "--size", "640x480", "--spp", "4", "--gl-debug"],
                                         cwd=self.folder, env=self.environment, stderr=subprocess.PIPE, text=True)
         self.window = wait_for("the window", lambda: self.process.poll() is not None or self.xdotool(
             "search", "--pid", str(self.process.pid), "--name", "vmview"))
@@ -120,12 +120,8 @@ class View:
         self.xdotool("mousemove", "620", "300")
 
     def click(self, x, y):
-        self.xdotool("mousemove", str(x), str(y))
-        time.sleep(0.3)
-        self.xdotool("mousedown", "1")
-        time.sleep(0.3)
-        self.xdotool("mouseup", "1")
-        time.sleep(0.3)
+        self.xdotool("mousemove", str(x), str(y), "sleep", "0.15", "mousedown", "1", "sleep", "0.15", "mouseup", "1", "sleep",
+                     "0.15")
 
     def quit(self):
         self.xdotool("windowfocus", self.window)
