@@ -77,7 +77,7 @@ bool read_map_mesh(std::shared_ptr<const Mesh>& dst, const std::string& path, co
     if (!read_object_mesh(mesh, recipe, recipe.unwrap, options, error))
         return false;
     if (!is_baked_of(*mesh.mesh, map))
-        options.report_warning(format("\"{}\": not the mesh that the map was baked of, or changed since", path));
+        options.report_warning(format("\"{}\": not the mesh that the map was baked from, or changed since", path));
     dst = std::move(mesh.mesh);
     return true;
 }

@@ -24,7 +24,7 @@ std::string gltf_fault(const Request& request)
     if (OIIO::Strutil::lower(OIIO::Filesystem::extension(path)) != ".glb")
         return format("--gltf \"{}\": the extension must be .glb", path);
     if (request.files.mesh.empty())
-        return "--gltf needs --mesh, the mesh that the map was baked of";
+        return "--gltf needs --mesh, the mesh that the map was baked from";
     if (request.params.ao_gamma != 1)
         return "--ao-gamma: the occlusion of a glTF is linear";
     return has_udim_pattern(request.vismap) ? "--gltf: one tile at a time; glTF knows no UDIM" : "";
@@ -38,7 +38,7 @@ std::string html_fault(const Request& request)
     if (OIIO::Strutil::lower(OIIO::Filesystem::extension(path)) != ".html")
         return format("--html \"{}\": the extension must be .html", path);
     if (request.files.mesh.empty())
-        return "--html needs --mesh, the mesh that the map was baked of";
+        return "--html needs --mesh, the mesh that the map was baked from";
     if (request.files.environment.empty())
         return "--html needs --environment, the light to show the mesh in; it may be repeated";
     return has_udim_pattern(request.vismap) ? "--html: one tile at a time" : "";
@@ -58,7 +58,7 @@ std::string textures_fault(const Request& request)
         && target->bent_normal == BentNormalSlot::Tangent)
         return format("--space object: {} reads bent normals in tangent space only", target->name);
     return writes_tangent_normals(request) && request.files.mesh.empty()
-        ? "bent normals in tangent space need --mesh, the mesh that the map was baked of"
+        ? "bent normals in tangent space need --mesh, the mesh that the map was baked from"
         : "";
 }
 

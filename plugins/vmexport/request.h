@@ -21,7 +21,7 @@ struct FileInputs
     template <class Visit> void visit(Visit&& field)
     {
         field("mesh", mesh, Path {},
-              "The mesh that the map was baked of, for tangents, the charts' borders and --gltf");
+              "The mesh that the map was baked from, for tangents, the charts' borders and --gltf");
         field("lightmap", lightmap, Path {},
               "Lightmap of makelightmap to encode too; in --gltf, the light that it shows");
         field("pack", pack, Path {},

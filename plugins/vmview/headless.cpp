@@ -96,13 +96,18 @@ bool render_headless(OIIO::ImageBuf& dst, const Assets& assets, const Request& r
     }
     params.has_background = has_background;
     params.show = surface_show(request.view.show);
+    const bool is_lit = is_light(request.view.show);
     const std::string space = assets.light ? assets.light->light.space : "";
     double stops = request.light.exposure;
-    if (request.is_auto_exposed)
+    if (is_lit && request.is_auto_exposed)
         stops = automatic_stops(renderer, params, request.render, space, error);
     if (!render_picture(dst, renderer, params, request.render, error)) {
         error = format("OpenGL: {}", error);
         return false;
+    }
+    if (!is_lit) {
+        dst.specmod().attribute("colorInteropID", "data");
+        return true;
     }
     const float gain = float(std::exp2(stops));
     OIIO::ImageBufAlgo::mul(dst, dst, { gain, gain, gain, 1.0f });
@@ -131,6 +136,10 @@ bool run_headless(const Request& request, StageMain& stage, std::string& error)
     stage.say(format("render: {}x{} in {:.2f} s", request.render.size.width, request.render.size.height, timer()));
     if (OIIO::Strutil::iends_with(request.output, ".exr"))
         return stage.write(picture, error);
+    if (!is_light(request.view.show)) {
+        show_numbers(picture);
+        return write_picture(picture, request.output, error);
+    }
     std::string note;
     if (!show_on_display(picture, request.display, assets.light ? assets.light->light.space : "",
                          request.filter.colorconfig, options.threads, note, error))

@@ -34,6 +34,8 @@ std::string request_fault(const Request& request)
         return "MESH is missing; only a window opens without one";
     if (request.environment.empty() && (view.show == "lit" || view.background == "environment"))
         return "ENVIRONMENT is missing; only a window, and --show other than lit, do without one";
+    if (view.show != "lit" && (request.exposure_given || request.is_auto_exposed))
+        return format("--exposure: --show {} has no light to expose", view.show);
     if (!request.output.empty() && !OIIO::Strutil::iends_with(request.output, ".exr")
         && (!is_picture_name(request.output) || is_animation_name(request.output)))
         return format("\"{}\": the extension must be exr, png, jpg, webp or tif", request.output);
@@ -64,6 +66,8 @@ std::string unused_reason(const Request& request, const std::string& name)
         return "only --background environment is blurred";
     if (is_one_of(param_names(DisplayParams())) && OIIO::Strutil::iends_with(request.output, ".exr"))
         return "an EXR holds scene-linear light, as no display shows it";
+    if (is_one_of(param_names(DisplayParams())) && request.view.show != "lit")
+        return format("--show {} is not light, which a display would change", request.view.show);
     if (is_one_of(param_names(FileParams())) && !OIIO::Strutil::iends_with(request.output, ".exr"))
         return "only an EXR is stored so";
     const std::string reason = unused_reason(request.camera, name);

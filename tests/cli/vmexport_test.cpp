@@ -104,7 +104,7 @@ TEST_F(Vmexport, AnotherMeshIsWarnedOf)
     turned.replace(turned.find("vn 0 0 1"), 8, "vn 0 0 1\nvn 0 0 -1");
     write("turned.obj", turned);
     EXPECT_THAT(done("vmexport vm.exr --for godot --mesh turned.obj -o out"),
-                AllOf(HasSubstr("WARNING: \"turned.obj\": not the mesh that the map was baked of"),
+                AllOf(HasSubstr("WARNING: \"turned.obj\": not the mesh that the map was baked from"),
                       HasSubstr("100.0 % of its directions point into the surface of \"turned.obj\"")));
 }
 

@@ -7,6 +7,12 @@ import sys
 import tempfile
 import unittest
 
+try:
+    import OpenImageIO
+except ImportError:
+    print("skipped: missing OpenImageIO for Python")
+    sys.exit(77)
+
 BIN = os.environ["VMLIGHT_BIN"]
 DATA = os.path.join(os.environ["VMLIGHT_SOURCE"], "tests", "data")
 MESH, SKY = DATA + "/cases/box.obj", DATA + "/studio_small_03.hdr"
@@ -117,6 +123,40 @@ class Command(unittest.TestCase):
         self.assert_ends(2, "--resolution 32: the visibility map is made already", *common, "--vismap", "vm.exr", *SMALL[:2])
         self.assert_ends(2, "only --background environment is blurred", *common, "--background-blur", "3")
         self.assert_ends(2, "an EXR holds scene-linear light", *common, "--view", "Raw")
+
+    def test_numbers_are_as_they_are(self):
+        """V of an open square is 1, without exposure or display; |B| / V is 2/3."""
+        with open(self.folder.name + "/square.obj", "w") as file:
+            file.write("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                       "f 1/1/1 2/2/1 3/3/1 4/4/1\n")
+        common = ["square.obj", SKY, "--resolution", "8", "--samples", "4", "--size", "8", "--elevation", "0"]
+        for name in "ratio.exr", "ratio.png":
+            result = self.run_here(*common, "--show", "ratio", "-o", name, "--quiet")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            image = OpenImageIO.ImageBuf(os.path.join(self.folder.name, name))
+            self.assertAlmostEqual(image.getpixel(4, 4)[0], 2 / 3, delta=0.002, msg=name)
+        image = OpenImageIO.ImageBuf(self.folder.name + "/ratio.exr")
+        self.assertEqual(image.spec().get_string_attribute("colorInteropID"), "data")
+        for exposure in "1", "auto":
+            self.assert_ends(2, "--exposure: --show ratio has no light to expose", *common, "--show", "ratio", "--exposure",
+                             exposure)
+        result = self.run_here(*common, "--show", "ratio", "--view", "Raw", "-o", "x.png")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--view Raw: --show ratio is not light, which a display would change", result.stderr)
+
+    def test_what_is_lit_otherwise_is_said(self):
+        subprocess.run([BIN + "/makevismap", DATA + "/gazebo.obj", "-o", self.folder.name + "/other.exr", "--resolution", "8",
+                        "--samples", "1", "--quiet"], check=True, stderr=subprocess.DEVNULL)
+        result = self.run_here(MESH, SKY, "--vismap", "other.exr", "--size", "8", "-o", "a.exr", "--quiet")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn('vmview WARNING: "other.exr": was baked from another mesh than "', result.stderr)
+        with open(self.folder.name + "/tiles.obj", "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .1 .1\nvt .9 .1\nvt .1 .9\nvt 1.1 .1\nvt 1.9 .1\nvt 1.1 .9\n"
+                       "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/4/1 2/5/1 3/6/1\n")
+        result = self.run_here("tiles.obj", SKY, *SMALL, "-o", "a.exr", "--quiet")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn('"tiles.obj": UVs in 2 UDIM tiles, 1001 to 1002, of which 1001 alone is lit; --udim chooses another',
+                      result.stderr)
 
     def assert_ends(self, code, words, *arguments):
         result = self.run_here(*arguments, "-o", "x.exr")

@@ -146,6 +146,27 @@ TEST(Workshop, HasStrandsBesideTheMesh)
     }
 }
 
+// They are shown; what is opened is used nevertheless.
+TEST(Workshop, WarnsOfAMapOfAnotherMesh)
+{
+    const TemporaryFolder folder;
+    Request request;
+    request.mesh.mesh = data_path("cases/box.obj");
+    request.vismap = folder / "spot_vismap.exr";
+    ASSERT_TRUE(full_map(data_mesh("spot.obj"), { 16, 16 }, 4).write(request.vismap));
+    Workshop workshop(request, {});
+    MeshPointer mesh;
+    MapPointer map;
+    std::string problem;
+    ASSERT_TRUE(wait_until([&] { return workshop.take_mesh(mesh, problem); })) << problem;
+    ASSERT_TRUE(wait_until([&] { return workshop.take_map(map, problem); })) << problem;
+    const std::vector<std::string> warnings = workshop.take_warnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("spot_vismap.exr\": was baked from another mesh than \""), std::string::npos)
+        << warnings[0];
+    EXPECT_TRUE(workshop.take_warnings().empty());
+}
+
 TEST(Workshop, OpensWhatIsDropped)
 {
     const TemporaryFolder folder;

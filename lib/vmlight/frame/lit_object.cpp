@@ -14,7 +14,6 @@
 #include <vmlight/stage/open_source.h>
 #include <vmlight/stage/uv_warnings.h>
 #include <vmlight/uv/udim.h>
-#include <vmlight/vismap/baked_mesh.h>
 #include <vmlight/vismap/baker.h>
 
 #include <algorithm>
@@ -88,16 +87,7 @@ bool LitObject::read_maps(const MakeOptions& options, std::string& error)
             error = format("\"{}\": a visibility map of strands, not of a mesh", recipe.vismap);
             return false;
         }
-        // Of a mesh that was changed since, a map may still be meant.
-        const int set = m_recipe.map.mesh_params.uv_set, baked_set = recipe_of_map(images[0].spec()).mesh_params.uv_set;
-        if (set != baked_set)
-            options.report_warning(
-                format("\"{}\": was baked with UV set {} of its mesh, and \"{}\" is read with set {}: "
-                       "pass --uv-set {}",
-                       recipe.vismap, baked_set, mesh().path, set, baked_set));
-        else if (!is_baked_of(mesh(), images[0].spec()))
-            options.report_warning(format("\"{}\": was baked from another mesh than \"{}\", or of another part of it",
-                                          recipe.vismap, mesh().path));
+        warn_of_other_mesh(mesh(), m_recipe.map.mesh_params.uv_set, images[0].spec(), recipe.vismap, options);
         m_maps[""][udim] = std::move(images[0]);
     }
     warn_of_uvs(mesh(), tiles, options);

@@ -5,12 +5,14 @@
 #include <vmlight/mesh/import/read_mesh.h>
 #include <vmlight/mesh/selection.h>
 #include <vmlight/stage/cutouts.h>
+#include <vmlight/stage/map_scene.h>
 #include <vmlight/stage/overlap_hint.h>
 #include <vmlight/stage/unwrap_report.h>
 #include <vmlight/stage/uv_sets.h>
 #include <vmlight/uv/raster.h>
 #include <vmlight/uv/udim.h>
 #include <vmlight/uv/unwrap.h>
+#include <vmlight/vismap/baked_mesh.h>
 
 #include <algorithm>
 #include <memory>
@@ -115,6 +117,19 @@ bool read_object_mesh(ObjectMesh& dst, const VismapRecipe& recipe, bool may_unwr
         return false;
     dst.mesh = std::move(mesh);
     return true;
+}
+
+void warn_of_other_mesh(const Mesh& mesh, int uv_set, const OIIO::ImageSpec& map, const std::string& vismap,
+                        const MakeOptions& options)
+{
+    const int baked_set = recipe_of_map(map).mesh_params.uv_set;
+    if (uv_set != baked_set)
+        options.report_warning(format("\"{}\": was baked with UV set {} of its mesh, and \"{}\" is read with set {}: "
+                                      "pass --uv-set {}",
+                                      vismap, baked_set, mesh.path, uv_set, baked_set));
+    else if (!is_baked_of(mesh, map))
+        options.report_warning(
+            format("\"{}\": was baked from another mesh than \"{}\", or of another part of it", vismap, mesh.path));
 }
 
 } // namespace vmlight

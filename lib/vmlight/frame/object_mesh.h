@@ -5,6 +5,8 @@
 #include <vmlight/stage/make_options.h>
 #include <vmlight/stage/recipe/recipe.h>
 
+#include <OpenImageIO/imageio.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,5 +29,12 @@ struct ObjectMesh
 /// @returns false, with the reason in `error`, if it cannot be read, or has no UVs and may not be unwrapped
 bool read_object_mesh(ObjectMesh& dst, const VismapRecipe& recipe, bool may_unwrap, const MakeOptions& options,
                       std::string& error);
+
+/// Warn if the visibility map `map`, of the file `vismap`, was baked from another mesh, or with another of its UV sets.
+/// It may still be meant: the mesh may have been changed since.
+///
+/// @param uv_set   that was read
+void warn_of_other_mesh(const Mesh& mesh, int uv_set, const OIIO::ImageSpec& map, const std::string& vismap,
+                        const MakeOptions& options);
 
 } // namespace vmlight

@@ -94,4 +94,12 @@ bool show_on_display(OIIO::ImageBuf& image, const DisplayParams& params, const s
     return true;
 }
 
+void show_numbers(OIIO::ImageBuf& image)
+{
+    unmultiply(image);
+    for (OIIO::ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel)
+        for (int c = 0; c < 3; ++c)
+            pixel[c] = std::clamp(float(pixel[c]), 0.0f, 1.0f);
+}
+
 } // namespace vmlight

@@ -35,4 +35,8 @@ struct DisplayParams
 bool show_on_display(OIIO::ImageBuf& image, const DisplayParams& params, const std::string& space,
                      const std::string& config, int nthreads, std::string& note, std::string& error);
 
+/// Clamp R, G, B of `image`, float and in memory, to [0, 1] as they are: of numbers, not of light. Alpha is taken as by
+/// show_on_display().
+void show_numbers(OIIO::ImageBuf& image);
+
 } // namespace vmlight

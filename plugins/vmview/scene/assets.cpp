@@ -4,6 +4,7 @@
 #include <vmlight/base/format.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/frame/background.h>
+#include <vmlight/frame/object_mesh.h>
 #include <vmlight/frame/texel_weights.h>
 #include <vmlight/image/channels.h>
 #include <vmlight/mesh/import/importer.h>
@@ -60,6 +61,8 @@ MapPointer read_map_asset(const std::string& path, const MeshAsset& mesh, const 
     if (mesh.is_strands() ? !read_strand_map(image, mesh.strands, path, options, error)
                           : !read_map_image(image, udim_path(path, mesh.recipe.vismap_params.udim), options, error))
         return nullptr;
+    if (!mesh.is_strands())
+        warn_of_other_mesh(*mesh.mesh, mesh.recipe.mesh_params.uv_set, image.spec(), path, options);
     return make_map_asset(std::move(image), path, mesh, options.threads);
 }
 

@@ -5,6 +5,7 @@
 #include <vmlight/base/oiio_compat.h>
 #include <vmlight/cfem/radiance.h>
 #include <vmlight/frame/frame_object.h>
+#include <vmlight/frame/object_mesh.h>
 #include <vmlight/frame/scene_light.h>
 #include <vmlight/frame/strand_light.h>
 #include <vmlight/image/channels.h>
@@ -133,6 +134,7 @@ bool load_assets(Assets& dst, const Request& request, const MakeOptions& options
             options.report_warning(line);
         if (!error.empty())
             return false;
+        warn_of_other_mesh(*dst.mesh->mesh, dst.mesh->recipe.mesh_params.uv_set, map.spec(), request.vismap, options);
         dst.map = make_map_asset(std::move(map), request.vismap, *dst.mesh, options.threads);
     } else if (!request.vismap.empty()) {
         dst.map = read_map_asset(request.vismap, *dst.mesh, options, error);

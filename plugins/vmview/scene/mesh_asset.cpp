@@ -19,8 +19,15 @@ bool open_mesh(MeshAsset& dst, bool has_map, const std::string& light_space, con
     if (!read_object_mesh(object, dst.recipe, !has_map, options, error))
         return false;
     const std::vector<int> tiles = mesh_udims(*object.mesh);
-    if (!dst.recipe.udim_given && !tiles.empty())
-        dst.recipe.vismap_params.udim = tiles[0];
+    if (!dst.recipe.udim_given && !tiles.empty()) {
+        const int udim = tiles[0];
+        dst.recipe.vismap_params.udim = udim;
+        if (tiles.size() > 1)
+            options.report_warning(
+                format("\"{}\": UVs in {} UDIM tiles, {} to {}, of which {} alone is lit; --udim chooses "
+                       "another",
+                       dst.recipe.mesh, tiles.size(), udim, tiles.back(), udim));
+    }
     dst.is_unwrapped = object.is_unwrapped;
     dst.material_uvs = std::move(object.material_uvs);
     dst.mesh = std::move(object.mesh);

@@ -91,6 +91,8 @@ void App::take_results()
         remember_file(m_settings.recent_environment, light->path);
         m_viewport.set_light(light);
     }
+    for (const std::string& warning : m_workshop.take_warnings())
+        m_news = "warning: " + warning;
     if (!problem.empty())
         m_news = problem;
     m_workshop.bake_for(m_state.light.model);

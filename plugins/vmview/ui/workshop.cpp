@@ -40,6 +40,13 @@ MakeOptions options_for(int threads, const Progress& go_on)
     return options;
 }
 
+MakeOptions reading_options(const Progress& go_on, const std::shared_ptr<Warnings>& warnings)
+{
+    MakeOptions options = options_for(0, go_on);
+    options.warn = [warnings](const std::string& line) { warnings->add(line); };
+    return options;
+}
+
 // Maps of 1, 4, 16, ... rays per texel, up to `most`, until one fails.
 template <class Bake>
 void post_finer(const Job<MapPointer>::Post& post, int most, const Bake& bake, const std::string& error)
@@ -102,9 +109,10 @@ void Workshop::read_mesh(const std::string& path)
     m_request.mesh.mesh = path;
     const std::string space = m_light ? m_light->light.space : "";
     m_mesh_job.start([asked = mesh_request(m_request), has_map = !m_request.vismap.empty(), space,
-                      config = m_request.filter.colorconfig](const auto& post, const auto& go_on) {
+                      config = m_request.filter.colorconfig,
+                      warnings = m_warnings](const auto& post, const auto& go_on) {
         std::string error;
-        MeshPointer mesh = read_mesh_asset(asked, has_map, space, config, options_for(0, go_on), error);
+        MeshPointer mesh = read_mesh_asset(asked, has_map, space, config, reading_options(go_on, warnings), error);
         post(last_result(std::move(mesh), error));
     });
 }
@@ -113,9 +121,9 @@ void Workshop::read_light(const std::string& path)
 {
     m_request.environment = path;
     m_light_job.start([path, filter = m_request.filter, blur = m_request.view.background_blur,
-                       specular = m_request.specular](const auto& post, const auto& go_on) {
+                       specular = m_request.specular, warnings = m_warnings](const auto& post, const auto& go_on) {
         std::string error;
-        LightPointer light = read_light_asset(path, filter, blur, specular, options_for(0, go_on), error);
+        LightPointer light = read_light_asset(path, filter, blur, specular, reading_options(go_on, warnings), error);
         post(last_result(std::move(light), error));
     });
 }
@@ -124,10 +132,10 @@ void Workshop::read_map(const std::string& path)
 {
     m_basis.clear();
     m_map_activity = format("read: {}", OIIO::Filesystem::filename(path));
-    m_map_job.start([mesh = m_mesh, path, most = m_request.mesh.vismap_params.samples,
-                     threads = m_threads](const auto& post, const auto& go_on) {
+    m_map_job.start([mesh = m_mesh, path, most = m_request.mesh.vismap_params.samples, threads = m_threads,
+                     warnings = m_warnings](const auto& post, const auto& go_on) {
         std::string error;
-        const MapPointer map = read_map_asset(path, *mesh, options_for(0, go_on), error);
+        const MapPointer map = read_map_asset(path, *mesh, reading_options(go_on, warnings), error);
         if (!map || mesh->beside.empty()) {
             post(last_result(map, error));
             return;

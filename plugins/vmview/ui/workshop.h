@@ -4,10 +4,12 @@
 
 #include "../scene/job.h"
 #include "../scene/loading.h"
+#include "../scene/warnings.h"
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace vmlight::view {
 
@@ -32,6 +34,9 @@ public:
     bool take_map(MapPointer& dst, std::string& problem);
     bool take_light(LightPointer& dst, std::string& problem);
 
+    /// What was warned of since the last call.
+    std::vector<std::string> take_warnings() { return m_warnings->take(); }
+
     /// What goes on, or "".
     std::string activity() const;
     /// The share of it that is done.
@@ -49,6 +54,7 @@ private:
     void read_map(const std::string& path);
 
     Request m_request;
+    const std::shared_ptr<Warnings> m_warnings = std::make_shared<Warnings>();
     MeshPointer m_mesh;
     LightPointer m_light;
     std::string m_basis; ///< of the map that was baked last
