@@ -60,35 +60,6 @@ class Values(Case):
         image.write(name)
         self.assert_same(vmlight.Image.read(name), image)
 
-    def test_names_and_paths_are_one_or_several(self):
-        mesh = os.path.join(self.folder(), "room.obj")
-        with open(mesh, "w") as file:
-            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt .5 0\nvt 0 .5\nvt .5 1\nvt 1 .5\nvt 1 1\n"
-                       "vn 0 0 1\no Floor\nf 1/1/1 2/2/1 3/3/1\no Roof\nf 3/4/1 2/5/1 1/6/1\n")
-        floor = vmlight.make_vismap(mesh, resolution=4, samples=1, node="Floor")
-        self.assertEqual(floor.metadata["vmlight:node"], "Floor")
-        self.assert_same(vmlight.make_vismap(mesh, resolution=4, samples=1, node=["Floor"]), floor)
-        both = vmlight.make_vismap(mesh, resolution=4, samples=1, node=("Floor", "Roof"))
-        self.assertEqual(both.metadata["vmlight:node"], "Floor\nRoof")
-        shaded = vmlight.make_vismap(mesh, occluder=[SPOT, pathlib.Path(mesh)], resolution=4, samples=1)
-        self.assertEqual(shaded.metadata["vmlight:occluder"], "spot.obj, room.obj")
-        config = os.path.join(os.environ["VMLIGHT_SOURCE"], "configs/ocio/config.ocio")
-        for path in config, pathlib.Path(config):
-            image = vmlight.make_cfem(STUDIO, resolution=8, colorconfig=path, colorspace="ACEScg")
-            self.assertEqual(image.metadata["colorInteropID"], "lin_ap1_scene")
-        for arguments, error, text in [
-            (dict(node=3), TypeError, "^node: must be names, not int$"),
-            (dict(node=[3]), TypeError, "^node: must be str, not int$"),
-            (dict(node=[""]), ValueError, "^node: '' is empty; leave it out$"),
-            (dict(node="a\nb"), ValueError, "^node: .* has a line break, which vmlight cannot pass on$"),
-            (dict(node="\udcff"), ValueError, "surrogates"),
-            (dict(normal_map=3), TypeError, "^normal_map: must be a path, not int$"),
-            (dict(resolution=[4, 4.5]), TypeError, r"^resolution: must be int, or \(width, height\), not float$"),
-            (dict(channels=3), TypeError, "^channels: must be words, not int$"),
-        ]:
-            with self.subTest(arguments=arguments), self.assertRaisesRegex(error, text):
-                vmlight.make_vismap(mesh, **arguments)
-
     def test_rotations_of_all_shapes(self):
         relighter = vmlight.Relighter(vmlight.make_vismap(plane(), resolution=4), sky(), rotate=(0, 0, 90))
         turned = relighter.light()

@@ -187,52 +187,6 @@ class Arrays(Case):
         self.assert_same(vmlight.Image.read(path), vmlight.make_cfem(STUDIO, resolution=16))
 
 
-class FilesAndArrays(Case):
-    """What is a file and what is in memory may be mixed: the lightmap is that of files alone."""
-    def setUp(self):
-        folder = self.folder()
-        self.vismap, self.cfem, self.stack, self.albedo = (os.path.join(folder, name + ".exr")
-                                                           for name in ("vm", "cfem", "stack", "albedo"))
-        vmlight.make_vismap(plane(), resolution=8, basis="sh").write(self.vismap)
-        vmlight.make_cfem(STUDIO, resolution=16).write(self.cfem)
-        vmlight.make_cfem(STUDIO, resolution=16, stack=True).write(self.stack)
-        paint = np.linspace(0.1, 0.9, 8 * 8 * 3, dtype=np.float32).reshape(8, 8, 3)
-        vmlight.Image(paint, metadata={"colorInteropID": "lin_rec709_scene"}).write(self.albedo)
-
-    def test_all_mixtures(self):
-        read = vmlight.Image.read
-        for light, arguments in ((self.cfem, dict(model="paper")), (self.stack, {}), (STUDIO, dict(cfem_resolution=16)),
-                                 (STUDIO, dict(model="paper", cfem_resolution=16))):
-            whole = vmlight.make_lightmap(self.vismap, light, self.albedo, **arguments)
-            for mixture in ((read(self.vismap), light, self.albedo), (self.vismap, read(light), self.albedo),
-                            (self.vismap, light, read(self.albedo)), (read(self.vismap), read(light), read(self.albedo))):
-                with self.subTest(light=os.path.basename(light), kinds=[type(item).__name__ for item in mixture]):
-                    lit = vmlight.make_lightmap(*mixture, **arguments)
-                    self.assertEqual(lit.channels, whole.channels)
-                    np.testing.assert_allclose(lit.pixels, whole.pixels, rtol=1e-5, atol=1e-6)
-
-    def test_faults_of_files_name_them(self):
-        for call, error, text in [
-            (lambda: vmlight.make_lightmap(self.cfem, sky()), vmlight.Error, "cfem.exr"),
-            (lambda: vmlight.make_lightmap(self.vismap, vmlight.Image(-sky())), vmlight.Error, "; set cfem_sanitize to repair"),
-            (lambda: vmlight.make_lightmap(self.vismap, vmlight.Image(-sky()), model="paper"), vmlight.Error,
-             "; set cfem_sanitize to repair"),
-            (lambda: vmlight.make_lightmap(vmlight.Image.read(self.vismap), self.vismap), vmlight.Error, "vm.exr"),
-            (lambda: vmlight.make_lightmap(vmlight.Image.read(self.vismap), self.cfem, self.vismap + ".none"),
-             FileNotFoundError, "vm.exr.none"),
-        ]:
-            with self.subTest(text=text), self.assertRaisesRegex(error, text):
-                call()
-
-    def test_a_recipe_is_a_file(self):
-        path = os.path.join(os.path.dirname(self.vismap), "studio.cfem")
-        with open(path, "w") as file:
-            file.write(f'environment = "{STUDIO}"\nresolution = "16x8"\n')
-        vismap = vmlight.Image.read(self.vismap)
-        self.assert_same(vmlight.make_lightmap(vismap, path, model="paper"),
-                         vmlight.make_lightmap(vismap, self.cfem, model="paper"))
-
-
 @unittest.skipUnless(OpenImageIO, "Python's module OpenImageIO is not installed")
 class ImageBufs(Case):
     def image_buf(self, array, kind="float"):

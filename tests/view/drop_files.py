@@ -2,7 +2,9 @@
 """Drops files on a window as a file manager does: the XDND protocol, version 5, through libX11."""
 import ctypes
 import time
-from ctypes import POINTER, byref, c_char_p, c_int, c_long, c_ubyte, c_ulong, c_void_p
+from ctypes import POINTER, byref, c_int, c_long, c_ubyte, c_ulong, c_void_p
+
+from x11 import Connection
 
 SELECTION_REQUEST, SELECTION_NOTIFY, CLIENT_MESSAGE = 30, 31, 33
 
@@ -31,28 +33,14 @@ class Event(ctypes.Union):
 
 def drop_files(display_name, window, paths, seconds=10):
     """Returns whether the window took the files within some seconds."""
-    x = ctypes.CDLL("libX11.so.6")
-    x.XOpenDisplay.restype = c_void_p
-    x.XOpenDisplay.argtypes = [c_char_p]
-    x.XDefaultRootWindow.restype = c_ulong
-    x.XDefaultRootWindow.argtypes = [c_void_p]
-    x.XCreateSimpleWindow.restype = c_ulong
-    x.XCreateSimpleWindow.argtypes = [c_void_p, c_ulong] + [c_int] * 4 + [ctypes.c_uint, c_ulong, c_ulong]
-    x.XInternAtom.restype = c_ulong
-    x.XInternAtom.argtypes = [c_void_p, c_char_p, c_int]
+    connection = Connection(display_name)
+    x, display, source, atom = connection.x, connection.display, connection.window, connection.atom
     x.XSetSelectionOwner.argtypes = [c_void_p, c_ulong, c_ulong, c_ulong]
     x.XSendEvent.argtypes = [c_void_p, c_ulong, c_int, c_long, POINTER(Event)]
     x.XNextEvent.argtypes = [c_void_p, POINTER(Event)]
     x.XPending.argtypes = [c_void_p]
     x.XFlush.argtypes = [c_void_p]
-    x.XCloseDisplay.argtypes = [c_void_p]
     x.XChangeProperty.argtypes = [c_void_p, c_ulong, c_ulong, c_ulong, c_int, c_int, POINTER(c_ubyte), c_int]
-
-    display = x.XOpenDisplay(display_name.encode())
-    source = x.XCreateSimpleWindow(display, x.XDefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0)
-
-    def atom(name):
-        return x.XInternAtom(display, name.encode(), 0)
 
     def send(message, *data):
         event = Event()
@@ -95,5 +83,5 @@ def drop_files(display_name, window, paths, seconds=10):
         answer.notify.time = request.time
         x.XSendEvent(display, request.requestor, 0, 0, byref(answer))
         x.XFlush(display)
-    x.XCloseDisplay(display)
+    connection.close()
     return taken

@@ -2,7 +2,9 @@
 """The text of an X11 clipboard, through libX11."""
 import ctypes
 import time
-from ctypes import POINTER, byref, c_char_p, c_int, c_long, c_ulong, c_void_p
+from ctypes import POINTER, byref, c_int, c_long, c_ulong, c_void_p
+
+from x11 import Connection
 
 SELECTION_NOTIFY = 31
 ANY_PROPERTY_TYPE = 0
@@ -10,35 +12,20 @@ ANY_PROPERTY_TYPE = 0
 
 def read_clipboard(display_name, seconds=10):
     """Returns the text, or None where the clipboard's owner gives none within some seconds."""
-    x = ctypes.CDLL("libX11.so.6")
-    x.XOpenDisplay.restype = c_void_p
-    x.XOpenDisplay.argtypes = [c_char_p]
-    x.XDefaultRootWindow.restype = c_ulong
-    x.XDefaultRootWindow.argtypes = [c_void_p]
-    x.XCreateSimpleWindow.restype = c_ulong
-    x.XCreateSimpleWindow.argtypes = [c_void_p, c_ulong] + [c_int] * 4 + [ctypes.c_uint, c_ulong, c_ulong]
-    x.XInternAtom.restype = c_ulong
-    x.XInternAtom.argtypes = [c_void_p, c_char_p, c_int]
+    connection = Connection(display_name)
+    x, display, window = connection.x, connection.display, connection.window
     x.XConvertSelection.argtypes = [c_void_p] + [c_ulong] * 5
     x.XCheckTypedWindowEvent.argtypes = [c_void_p, c_ulong, c_int, c_void_p]
     x.XGetWindowProperty.argtypes = [c_void_p, c_ulong, c_ulong, c_long, c_long, c_int, c_ulong, POINTER(c_ulong),
                                      POINTER(c_int), POINTER(c_ulong), POINTER(c_ulong), POINTER(c_void_p)]
     x.XFree.argtypes = [c_void_p]
-    x.XCloseDisplay.argtypes = [c_void_p]
-
-    display = x.XOpenDisplay(display_name.encode())
-    window = x.XCreateSimpleWindow(display, x.XDefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0)
-
-    def atom(name):
-        return x.XInternAtom(display, name, 0)
-
-    answer = atom(b"VMLIGHT_TEST_CLIPBOARD")
-    x.XConvertSelection(display, atom(b"CLIPBOARD"), atom(b"UTF8_STRING"), answer, window, 0)
+    answer = connection.atom("VMLIGHT_TEST_CLIPBOARD")
+    x.XConvertSelection(display, connection.atom("CLIPBOARD"), connection.atom("UTF8_STRING"), answer, window, 0)
     event = (c_long * 24)()
     end = time.monotonic() + seconds
     while not x.XCheckTypedWindowEvent(display, window, SELECTION_NOTIFY, event):
         if time.monotonic() > end:
-            x.XCloseDisplay(display)
+            connection.close()
             return None
         time.sleep(0.01)
     kind, bits, count, left, data = c_ulong(), c_int(), c_ulong(), c_ulong(), c_void_p()
@@ -47,5 +34,5 @@ def read_clipboard(display_name, seconds=10):
     text = ctypes.string_at(data, count.value).decode() if data else None
     if data:
         x.XFree(data)
-    x.XCloseDisplay(display)
+    connection.close()
     return text

@@ -56,6 +56,8 @@ protected:
     }
     static void show(Viewport& viewport, const Assets& assets)
     {
+        std::string error;
+        ASSERT_TRUE(viewport.build("", error)) << error;
         viewport.set_mesh(assets.mesh);
         viewport.set_map(assets.map);
         viewport.set_light(assets.light);
@@ -69,10 +71,8 @@ TEST_F(ViewportTest, TracesWhatWasTurnedWhileTheMouseDrags)
 {
     const Request request = sunny_request();
     const Assets assets = loaded(request);
-    std::string error;
     Viewport viewport(4, "box", 2, [] {});
-    ASSERT_TRUE(viewport.build("", error)) << error;
-    show(viewport, assets);
+    ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     ViewState state = state_of(request);
     // The picture is there at once, and never waits for rays.
     viewport.update(state, 64, 48, false);
@@ -87,8 +87,7 @@ TEST_F(ViewportTest, TracesWhatWasTurnedWhileTheMouseDrags)
 
     // However it was turned to get there.
     Viewport still(4, "box", 2, [] {});
-    ASSERT_TRUE(still.build("", error)) << error;
-    show(still, assets);
+    ASSERT_NO_FATAL_FAILURE(show(still, assets));
     ASSERT_TRUE(settle(still, state, false));
     EXPECT_EQ(texels(still), seen);
 
@@ -111,10 +110,8 @@ TEST_F(ViewportTest, BothSidesOfAWipeHaveTheirLight)
     Request request = sunny_request();
     request.light.model = "mask";
     const Assets assets = loaded(request);
-    std::string error;
     Viewport viewport(1, "box", 2, [] {});
-    ASSERT_TRUE(viewport.build("", error)) << error;
-    show(viewport, assets);
+    ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     ViewState state = state_of(request);
     state.second = "paper";
     ASSERT_TRUE(settle(viewport, state, false));
@@ -135,10 +132,8 @@ TEST_F(ViewportTest, StrandsBesideAMeshHaveTheirLight)
     request.mesh.strand_params.radius = "0.02";
     request.view.object = { folder.write("curls.tfx", tfx_of(curls(9, 1))) };
     const Assets assets = loaded(request);
-    std::string error;
     Viewport viewport(1, "box", 2, [] {});
-    ASSERT_TRUE(viewport.build("", error)) << error;
-    show(viewport, assets);
+    ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     const auto strands = [&] { return viewport.renderer().read_texture(0, 1); };
     ViewState state = state_of(request);
     ASSERT_TRUE(settle(viewport, state, false));
@@ -165,11 +160,9 @@ TEST_F(ViewportTest, StopsWhileItTraces)
 {
     const Request request = sunny_request();
     const Assets assets = loaded(request);
-    std::string error;
     for (int i = 0; i < 6; ++i) {
         Viewport viewport(1, "box", 2, [] {});
-        ASSERT_TRUE(viewport.build("", error)) << error;
-        show(viewport, assets);
+        ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
         ViewState state = state_of(request);
         viewport.update(state, 64, 48, false);
         std::this_thread::sleep_for(std::chrono::milliseconds(10 * i));
@@ -188,8 +181,7 @@ TEST_F(ViewportTest, WhatCannotBeShownIsBlackAndSaid)
     const Assets assets = loaded(request);
     std::string error;
     Viewport viewport(1, "box", 2, [] {});
-    ASSERT_TRUE(viewport.build("", error)) << error;
-    show(viewport, assets);
+    ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     ViewState state = state_of(request);
     ASSERT_TRUE(settle(viewport, state, false));
     const std::vector<float> lobe = texels(viewport);
@@ -238,8 +230,7 @@ TEST_F(ViewportTest, WithoutRoomForATextureTheSurfaceIsWhite)
     const Assets assets = loaded(request);
     std::string error;
     Viewport viewport(1, "box", 2, [] {});
-    ASSERT_TRUE(viewport.build("", error)) << error;
-    show(viewport, assets);
+    ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     ViewState state = state_of(request);
     for (int frame = 0; frame < 3; ++frame) {
         viewport.update(state, 64, 48, false);
