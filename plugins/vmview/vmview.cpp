@@ -3,8 +3,10 @@
 #include "request.h"
 #include "ui/app.h"
 
+#include <vmlight/base/format.h>
 #include <vmlight/cli/environment_options.h>
 #include <vmlight/cli/main.h>
+#include <vmlight/uv/udim.h>
 
 #include <utility>
 
@@ -66,6 +68,13 @@ int main(int argc, const char** argv)
     stage.params("Light:", request.trace);
     add_environment_options(stage, request.filter);
     stage.params("Light:", request.filter.cfem_params, "cfem_");
+    stage.group("Visibility map:");
+    stage.option("udim", format("{}..{}", kFirstUdim, kLastUdim),
+                 "UDIM tile to light; replaces <UDIM> in --vismap [the first that the mesh uses]",
+                 [&](auto text, auto& error) {
+                     request.mesh.udim_given = true;
+                     return set_param(request.mesh, "udim", text, error);
+                 });
     stage.params("Visibility map:", request.mesh.vismap_params);
     stage.params("Mesh:", request.mesh.selection);
     stage.reword("material", "Show only this material of the file, * for any text; may be repeated");

@@ -60,6 +60,15 @@ TEST_F(Display, ColourIsDividedByAlphaBefore)
     EXPECT_EQ(image.getchannel(0, 0, 0, 3), 0.5f);
 }
 
+TEST_F(Display, NumbersAreClampedAndDividedByAlphaAlone)
+{
+    ImageBuf image = rgba({ 0.25f, -1, 4, 0.5f });
+    show_numbers(image);
+    float shown[4];
+    image.getpixel(0, 0, shown);
+    EXPECT_THAT(shown, testing::ElementsAre(0.5f, 0, 1, 0.5f));
+}
+
 TEST_F(Display, EveryViewOfTheConfigIsClamped)
 {
     const OIIO::ColorConfig config(kConfig);

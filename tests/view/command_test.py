@@ -152,11 +152,29 @@ class Command(unittest.TestCase):
         self.assertIn('vmview WARNING: "other.exr": was baked from another mesh than "', result.stderr)
         with open(self.folder.name + "/tiles.obj", "w") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .1 .1\nvt .9 .1\nvt .1 .9\nvt 1.1 .1\nvt 1.9 .1\nvt 1.1 .9\n"
-                       "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/4/1 2/5/1 3/6/1\n")
+                       "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nv 2 0 0\nv 3 0 0\nv 2 1 0\nf 4/4/1 5/5/1 6/6/1\n")
         result = self.run_here("tiles.obj", SKY, *SMALL, "-o", "a.exr", "--quiet")
         self.assertEqual(result.returncode, 0)
         self.assertIn('"tiles.obj": UVs in 2 UDIM tiles, 1001 to 1002, of which 1001 alone is lit; --udim chooses another',
                       result.stderr)
+
+    def test_a_tile_is_chosen(self):
+        """Two triangles side by side, each alone in its tile: one half of the picture has V = 1, the other nothing."""
+        with open(self.folder.name + "/tiles.obj", "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .1 .1\nvt .9 .1\nvt .1 .9\nvt 1.1 .1\nvt 1.9 .1\nvt 1.1 .9\n"
+                       "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nv 2 0 0\nv 3 0 0\nv 2 1 0\nf 4/4/1 5/5/1 6/6/1\n")
+        subprocess.run([BIN + "/makevismap", "tiles.obj", "-o", "vm.<UDIM>.exr", *SMALL[:4], "--quiet"], check=True,
+                       cwd=self.folder.name)
+        for bake in SMALL[:4], ["--vismap", "vm.<UDIM>.exr"]:
+            for udim, lit in ("1001", 0), ("1002", 1):
+                result = self.run_here("tiles.obj", *bake, "--show", "visibility", "--elevation", "0", "--size", "48x24",
+                                       "--udim", udim, "-o", udim + ".exr", "--quiet")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                values = OpenImageIO.ImageBuf(f"{self.folder.name}/{udim}.exr").get_pixels(OpenImageIO.FLOAT)[..., 0]
+                halves = values[:, :24].max(), values[:, 24:].max()
+                self.assertAlmostEqual(halves[lit], 1, delta=1e-5)
+                self.assertEqual(halves[1 - lit], 0)
+            os.remove(f"{self.folder.name}/{udim}.exr")
 
     def assert_ends(self, code, words, *arguments):
         result = self.run_here(*arguments, "-o", "x.exr")

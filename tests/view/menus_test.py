@@ -29,7 +29,7 @@ class Menus(WindowTest):
             self.view.click(*place)
 
     def copied(self, program):
-        """The command that was copied, another than the one before, from its first flag on; checks what is before it."""
+        """The environment and the flags of the command that was copied, which is another than the one before."""
         def read():
             text = read_clipboard(self.view.display)
             return text if text != self.last else None

@@ -179,7 +179,6 @@ TEST_F(ViewportTest, WhatCannotBeShownIsBlackAndSaid)
     Request request = sunny_request();
     request.trace.suns = request.trace.bounce.bounce = "off";
     const Assets assets = loaded(request);
-    std::string error;
     Viewport viewport(1, "box", 2, [] {});
     ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     ViewState state = state_of(request);
@@ -228,7 +227,6 @@ TEST_F(ViewportTest, WithoutRoomForATextureTheSurfaceIsWhite)
                                      "mtllib card.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
                                      "usemtl paint\nf 1/1 2/2 3/3\n");
     const Assets assets = loaded(request);
-    std::string error;
     Viewport viewport(1, "box", 2, [] {});
     ASSERT_NO_FATAL_FAILURE(show(viewport, assets));
     ViewState state = state_of(request);

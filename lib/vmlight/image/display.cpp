@@ -97,9 +97,9 @@ bool show_on_display(OIIO::ImageBuf& image, const DisplayParams& params, const s
 void show_numbers(OIIO::ImageBuf& image)
 {
     unmultiply(image);
-    for (OIIO::ImageBuf::Iterator<float> pixel(image); !pixel.done(); ++pixel)
-        for (int c = 0; c < 3; ++c)
-            pixel[c] = std::clamp(float(pixel[c]), 0.0f, 1.0f);
+    OIIO::ROI color = image.roi();
+    color.chend = 3;
+    OIIO::ImageBufAlgo::clamp(image, image, 0.0f, 1.0f, false, color);
 }
 
 } // namespace vmlight

@@ -54,7 +54,8 @@ void Viewport::set_mesh(MeshPointer mesh)
     load_mesh(mesh);
 }
 
-void Viewport::load_mesh(const MeshPointer& mesh)
+// White where the graphics card has no room for its textures; nothing where there is none for the mesh itself.
+void Viewport::load_mesh(MeshPointer mesh)
 {
     m_mesh_problem.clear();
     std::string ignored;

@@ -75,7 +75,7 @@ private:
     static void start(Slot& slot, const std::string& activity, ImageJob::Work work);
     static void stop(Slot& slot);
     bool refresh_texture(int index, const ViewState& state, const std::string& word, const std::string& model);
-    void load_mesh(const MeshPointer& mesh);
+    void load_mesh(MeshPointer mesh);
     bool show_or_clear(size_t figure, int index, const std::string& word, const LightmapParams& params);
     bool clear(size_t figure, int index, const std::string& reason);
     bool refresh_display(const ViewState& state);
