@@ -60,7 +60,8 @@ std::string unused_reason(const Request& request, const std::string& name)
     if (is_strand_flag(name))
         return unused_strand_flag(name, shows_strands(request.mesh, paths_of(request)), request.view.white,
                                   request.specular);
-    if (is_one_of(param_names(VismapParams())) && name != "udim" && !request.vismap.empty() && request.view.object.empty())
+    if (is_one_of(param_names(VismapParams())) && name != "udim" && !request.vismap.empty()
+        && request.view.object.empty())
         return "the visibility map is made already";
     if (name == "background_blur" && request.view.background != "environment")
         return "only --background environment is blurred";
